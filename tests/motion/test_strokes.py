@@ -39,7 +39,7 @@ def clear(places, half, gaps):
     """Tell of places (n, 2) of a tool of a half size (2,) whether it touches no hole nor half of its margin there."""
     free = np.ones(len(places), dtype=bool)
     for hole in gaps:
-        free &= (np.abs(places - hole.middle) >= half + hole.size / 2 + hole.margin / 2 - 2e-6).any(axis=1)
+        free &= (np.abs(places - hole.centre) >= half + hole.size / 2 + hole.margin / 2 - 2e-6).any(axis=1)
     return free
 
 
@@ -101,7 +101,7 @@ def test_patches_are_taken_each_time_the_nearest_and_their_holes_are_left_out():
     found = plan_layout_strokes(layout, TOOL, 0.2, start)
     assert [round(float(np.mean([p.position[0] for p in stroke]))) for stroke in found] == [0, 1, 2]
     first = plan_strokes(SURFACE, TOOL, 0.2)[0][0]
-    assert np.allclose(found[2][0].position, frames[0].at(first.position))
+    assert np.allclose(found[2][0].position, frames[0].apply(first.position))
     holed = plan_layout_strokes(
         replace(layout, holes=(Hole(np.array([1.0, 0.0]), np.array([0.04, 0.04])),)), TOOL, 0.2, start
     )

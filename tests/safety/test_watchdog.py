@@ -56,7 +56,7 @@ def test_a_paused_run_gives_signs_of_life_and_one_that_has_ended_needs_none() ->
 
 
 def test_each_who_falls_silent_is_told_once() -> None:
-    dog = HeartbeatWatchdog(patience_s=1.0)
+    dog = HeartbeatWatchdog(timeout_s=1.0)
     assert dog.beat("a", 0.0)
     assert dog.beat("b", 0.5)
     assert not dog.expired(1.0)

@@ -86,4 +86,4 @@ def gaps(cell: SimulatedCell, along: int) -> Array:
     half = np.array([0.05, 0.025] if along == 0 else [0.025, 0.05])
     holes = surface.layout.holes
     assert holes
-    return np.array([(np.abs(low - hole.middle) - half - hole.size / 2).max(axis=1) for hole in holes])
+    return np.array([(np.abs(low - hole.centre) - half - hole.size / 2).max(axis=1) for hole in holes])

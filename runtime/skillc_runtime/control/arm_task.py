@@ -1,4 +1,4 @@
-"""Whether the tool of an arm is moved or its joints are, and how one hands over to the other; in base axes."""
+"""Switches an arm between tool and joint control without a jump of the reference; in base axes."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from skillc_runtime.motion.joint_reference_generator import JointReferenceGenera
 from skillc_runtime.motion.pose import Array, Pose
 
 TOOL_JUMP_M_S = 3.0
-"""No tool moves this fast; one that seems to was moved on the hand."""
+"""A tool that seems to move faster was moved on the hand, for example by grasping."""
 
 
 class ArmTask:
-    """What one arm does at present: `joints` moves them, or is None while `tool` moves the tool.
+    """What one arm is doing: `joints` generates their reference, or is None while `tool` is controlled.
 
-    `now` s is the time of motions, which waits while the arm is not controlled. Skills use `MotionControl` and
-    `ComplianceControl`, which both change it; the driver asks it for a command once a control period.
+    `now` s is the time of motions, which stops while the arm is not controlled. `MotionControl` and `ComplianceControl`
+    change it for skills; the driver asks it for a command once a control period.
     """
 
     def __init__(self, setup: ArmSetup) -> None:
-        """Hold the joints where they are."""
+        """Hold the joints at their positions."""
         state = setup.arm.state()
         self.limits, self.period, self.now = setup.limits, setup.period, 0.0
         self._arm, self._tool_position = setup.arm, state.tool.position.tolist()
@@ -38,25 +38,25 @@ class ArmTask:
         self.joints: JointReferenceGenerator | None = self._joint_reference(state.q, np.zeros_like(state.q))
 
     def contact_wrench(self) -> Array:
-        """Return what the environment does to the tool (6,), N and N m, base axes."""
+        """Return the wrench (6,) of the environment on the tool, N and N m, base axes."""
         return self.measured.state.wrench if self.joints is not None else self.tool.contact_wrench
 
     def command(self, state: ArmState) -> Command:
-        """Return what to command for the next control period; ControlError where the law cannot go on."""
+        """Return the command for the next control period; ControlError if the law cannot continue."""
         self.tool.compliance.step(self.period)
         if self.joints is not None:
             return self.controllers.joints.command(state, self.joints.sample(self.now), self.period)
         return self.tool.command(state, self.now, self.period)
 
     def update_state(self, state: ArmState) -> None:
-        """Remember a state; a tool centre point that jumps was moved on the hand, say by grasping a tool."""
+        """Store a measured state; restart tool control if the tool centre point was moved on the hand."""
         before, self._tool_position = self._tool_position, state.tool.position.tolist()
         self.measured.state = state
         if self.joints is None and dist(self._tool_position, before) > TOOL_JUMP_M_S * self.period:
             self.tool.restart_here(state, self.controllers.joints_now(state), self.now)
 
     def move_tool(self) -> ToolTask:
-        """Hand over from joint to tool control: the tool goes on as the joints moved it."""
+        """Switch from joint to tool control; the tool continues as the joints moved it."""
         self.update_state(self._arm.state())
         if self.joints is not None:
             state, reference = self.measured.state, self.joints.sample(self.now)
@@ -66,22 +66,22 @@ class ArmTask:
         return self.tool
 
     def move_joints(self) -> JointReferenceGenerator:
-        """Hand over from tool to joint control: the joints go on as the tool moved them."""
+        """Switch from tool to joint control; the joints continue as the tool moved them."""
         if self.joints is None:
             self.joints = self.stopping_joint_reference()
         return self.joints
 
     def stopping_joint_reference(self) -> JointReferenceGenerator:
-        """Return a reference that comes to rest from how the joints move now; nothing changes."""
+        """Return a reference that comes to rest from the present motion of the joints; nothing changes."""
         state = self.measured.state
         return self._joint_reference(self.controllers.joints_now(state), self.controllers.speeds_now(state))
 
     def stop(self) -> None:
-        """Come to rest within the acceleration limit; compliance, push and overlays stay."""
+        """Come to rest within the acceleration limit; compliance, push and overlays are kept."""
         (self.joints or self.tool.reference_generator).stop(self.now)
 
     def hold_still(self) -> None:
-        """Hold the arm where it is, at once, and push no more."""
+        """Hold the arm at its present position, at once, and stop pushing."""
         q = self.controllers.joints_held(self.measured.state)
         if self.joints is None:
             self.tool.hold(self.measured.state, q, self.now)
@@ -89,11 +89,11 @@ class ArmTask:
             self.joints = self._joint_reference(q, np.zeros_like(q))
 
     def hold_joints(self, state: ArmState) -> None:
-        """Hold the joints from now on: the law of the tool or of the joints has failed."""
+        """Hold the joints from now on, after a control law has failed."""
         self.joints = self._joint_reference(self.controllers.joints_now(state), np.zeros_like(state.q))
 
     def base(self) -> Pose:
-        """Return where the arm stands in the world."""
+        """Return the pose of the arm's base in the world."""
         return self.measured.base()
 
     def _joint_reference(self, q: Array, dq: Array) -> JointReferenceGenerator:

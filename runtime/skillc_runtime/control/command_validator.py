@@ -1,6 +1,6 @@
-"""Stands between a driver and its arm: sees every measurement and every command, and knows what the arm may not do.
+"""Checks every measurement and every command between a driver and its arm, and the arm's safety limits.
 
-Nothing is computed from, nor commanded with, something that is not a number.
+Values that are not finite are neither used nor commanded.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from skillc_runtime.motion.pose import Array
 
 @compiled
 def sum_of_squares(x: Vector) -> float:
-    """Return the sum of the squares of x (n,): no finite number when one of them is none."""
+    """Return the sum of the squares of x (n,), in any unit: not finite if one of them is not."""
     total = 0.0
     for value in x:
         total += value * value
@@ -27,7 +27,7 @@ def sum_of_squares(x: Vector) -> float:
 
 
 class CommandValidator:
-    """Checks what one arm measures and is commanded, and keeps it where it was last known to be when a check fails."""
+    """Checks what one arm measures and is commanded, and holds its last known position if a check fails."""
 
     def __init__(self, arm: Arm, state: ArmState, limits: SafetyLimits | None = None) -> None:
         self._arm = arm
@@ -35,14 +35,14 @@ class CommandValidator:
         self._holding = self._rest(state).copy()
 
     def check(self, state: ArmState) -> None:
-        """Take in what the arm measures. ControlError when some of it is not a number; the arm is commanded to hold."""
+        """Check a measured state. ControlError if a value is not finite; the arm is commanded to hold first."""
         if not update_holding(self._holding, self._rest(state), state.q, state.dq, state.wrench, state.tool.position):
             self._give_up("the arm reports something that is not a number")
 
     def command(self, command: Command, period: float) -> None:
         """Command the arm for the next `period` s.
 
-        ControlError when not all is numbers; the arm is commanded to hold instead.
+        ControlError if a value is not finite; the arm is commanded to hold instead.
         """
         if not sum_of_squares(command_values(command)) < np.inf:
             self._give_up("the control law does not yield a number")
@@ -50,7 +50,7 @@ class CommandValidator:
         self._arm.command(command)
 
     def holding(self) -> Command:
-        """Return what keeps the arm where it was last known to be."""
+        """Return the command that holds the last known position."""
         match self._arm.interface:
             case "torque":
                 return Torque(self._holding.copy())
@@ -62,7 +62,7 @@ class CommandValidator:
                 assert_never(never)
 
     def _rest(self, state: ArmState) -> Array:
-        """Return what keeps the arm in a state: the torques of the bias; the joints, of an arm with servos."""
+        """Return the values (nv,) that hold the arm: bias torques in N m, or joints in rad for an arm with servos."""
         return state.bias if self._arm.interface == "torque" else state.q
 
     def _give_up(self, reason: str) -> NoReturn:
@@ -72,9 +72,9 @@ class CommandValidator:
 
 @compiled
 def update_holding(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
-    """Hold what is `rest` (nv,) from now on, if all of the others is finite; else return False.
+    """Copy `rest` to `holding`, both (nv,), and return True if all other values are finite; else return False.
 
-    Whatever is not makes its sum of squares infinite or no number.
+    rest: N m or rad; q, dq (nv,): rad, rad/s; wrench (6,): N, N m, and position (3,): m, in the base frame.
     """
     finite = sum_of_squares(q) + sum_of_squares(dq) + sum_of_squares(wrench) + sum_of_squares(position) < np.inf
     if finite:

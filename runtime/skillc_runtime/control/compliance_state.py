@@ -1,7 +1,7 @@
-"""How an arm yields and pushes at the moment: what skills have set up, and what of it has reached the controller yet.
+"""The compliance of an arm: the setpoints of skills, and the values that the controller uses, which follow them.
 
-Everything is along the axes of the compliance frame C, which is fixed in the reference tool frame while an axis is
-released; so it turns with the tool when the tool is aligned.
+All values are along the axes of the compliance frame C, which is fixed in the reference tool frame while an axis is
+released, so it rotates with the tool.
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import UNLIMITED_SPEED, Compliance
 
 PARALLEL = 0.99
-"""Cosine above which two directions count as one: about 8 degrees."""
+"""Cosine above which two directions count as parallel: about 8 degrees."""
 
 ACROSS = (1 - PARALLEL**2) ** 0.5
-"""Cosine below which two directions count as at right angles."""
+"""Cosine below which two directions count as perpendicular."""
 
 RELEASED_FIRST = 2
-"""The axis of C that is released first."""
+"""The axis of C along which the first release is."""
 
 
 @dataclass(frozen=True, slots=True)
 class ComplianceSetpoint:
-    """What skills want, along the axes of the compliance frame C.
+    """The compliance that skills command, along the axes of the compliance frame C.
 
-    stiffness (6,): N/m and N m/rad; force (3,): N that the tool exerts; frame (3, 3): C's axes in the tool frame;
-    fastest (3,): m/s, how fast the tool may go that way, as in `Compliance`.
+    stiffness (6,): N/m and N m/rad; force (3,): N that the tool exerts; frame (3, 3): axes of C in the tool frame;
+    fastest (3,): m/s, the greatest speed, as in `Compliance`.
     """
 
     stiffness: Array
@@ -41,7 +41,10 @@ class ComplianceSetpoint:
 
 
 class ComplianceState:
-    """The wanted setpoints, innermost last; `applied` follows them with the gains' command time."""
+    """The nested setpoints, innermost last; `applied` follows them with the command time of the gains.
+
+    Stiffness (6,) in N/m and N m/rad, force (3,) in N, directions (3,) are unit vectors; stiffness of a release in N/m.
+    """
 
     def __init__(self, gains: Gains) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
@@ -60,21 +63,21 @@ class ComplianceState:
 
     @property
     def released(self) -> bool:
-        """Tell whether some skill has released an axis."""
+        """Whether an axis is released."""
         return len(self._setpoints) > 1
 
     @property
     def stiff(self) -> bool:
-        """Tell whether skills want the arm to hold its tool as it does unasked."""
+        """Whether the setpoint has the stiffness of the gains along all axes."""
         return not self.released and bool((self.wanted.stiffness == self._unasked).all())
 
     @property
     def pushing(self) -> bool:
-        """Tell whether the tool pushes, or what it pushed with has not faded yet."""
+        """Whether the tool pushes, or its last push has not faded out yet."""
         return self._arrived_at is not self.wanted or bool(self.wanted.force.any())
 
     def step(self, period: float) -> Compliance:
-        """Let stiffness and wrench follow for `period` s; the arrays of the result are reused."""
+        """Let stiffness and wrench follow the setpoint for `period` s; the arrays of the result are reused."""
         wanted = self._setpoints[-1]
         if wanted is not self._arrived_at:
             self._target[:3] = wanted.force
@@ -85,7 +88,7 @@ class ComplianceState:
         return self.applied
 
     def release(self, direction: Array, stiffness: float) -> None:
-        """Let the tool yield along a unit direction (3,) of the tool frame. ValueError for one askew to another."""
+        """Release a direction (3,) of the tool frame; ValueError if it is oblique to an earlier one."""
         frame = self._frame_for(direction)
         axis = _axis(frame, direction)
         wanted = self.wanted.stiffness.copy()
@@ -95,10 +98,10 @@ class ComplianceState:
         self.applied = self._compliance()
 
     def restore(self, error: Array) -> None:
-        """Undo the last release; C stays until the next one.
+        """Undo the last release; C is kept until the next one.
 
-        error (3,): tool minus reference along C's axes, which the caller is about to take as nothing on the axes that
-        regain stiffness; the force that their springs exert is kept as a push and fades.
+        error (3,): tool minus reference in m along the axes of C. The caller sets it to zero on the axes that regain
+        stiffness; the force of their springs is kept as a push, which fades out.
         """
         before = self._setpoints.pop()
         back = self.wanted.stiffness[:3] != before.stiffness[:3]
@@ -107,14 +110,14 @@ class ComplianceState:
         self._push_as(replace(kept, stiffness=self.wanted.stiffness))
 
     def regained_axes(self) -> Array:
-        """Return, of C's axes in the tool frame, those that `restore` would make stiff again (3, n)."""
+        """Return the axes (3, n) of C, in the tool frame, that `restore` would make stiff again."""
         before, after = self._setpoints[-1], self._setpoints[-2]
         return before.frame[:, before.stiffness[:3] != after.stiffness[:3]]
 
     def push(self, direction: Array, force_n: float, fastest_m_s: float = inf) -> None:
-        """Press along a unit direction (3,) of the tool frame, and go no faster that way, whoever pushes besides.
+        """Push along a direction (3,) of the tool frame, and limit the speed of the tool in it.
 
-        ValueError where the tool does not yield along it.
+        Raises ValueError if the direction is not released.
         """
         axis = _axis(self.wanted.frame, direction)
         if not self.yields(direction):
@@ -128,26 +131,26 @@ class ComplianceState:
         self._push_as(replace(self.wanted, force=np.zeros(3), fastest=UNLIMITED_SPEED))
 
     def yields(self, direction: Array) -> bool:
-        """Tell whether the tool yields along a direction (3,) of the tool frame."""
+        """Tell whether a direction (3,) of the tool frame is released."""
         cosines = np.abs(self.wanted.frame.T @ direction)
         axis = int(cosines.argmax())
         return bool(cosines[axis] > PARALLEL and self.wanted.stiffness[axis] != self._setpoints[0].stiffness[axis])
 
     def set_rotation_free(self, free: bool) -> None:
-        """Release, or restore, the two rotations about C's x and y."""
+        """Release, or restore, the rotations about x and y of C."""
         stiffness = self.wanted.stiffness.copy()
         stiffness[3:5] = 0.0 if free else self._setpoints[0].stiffness[3:5]
         self._setpoints[-1] = replace(self.wanted, stiffness=stiffness)
 
     def _push_as(self, setpoint: ComplianceSetpoint) -> None:
-        """Take another push for the innermost setpoint."""
+        """Replace the innermost setpoint, at once."""
         self._setpoints[-1] = setpoint
         self.applied = self._compliance()
 
     def _frame_for(self, direction: Array) -> Array:
-        """Return axes (3, 3) of which one is the direction, if there may be any.
+        """Return axes (3, 3) of which one is the direction, if possible.
 
-        As long as one axis alone is released, the two others are alike and may turn about it.
+        While only one axis is released, the other two have the same stiffness and may rotate about it.
         """
         if not self.released:
             return _frame_along(direction)
@@ -161,7 +164,7 @@ class ComplianceState:
 
 
 def _frame_along(direction: Array) -> Array:
-    """Return axes (3, 3) whose z is the direction and whose x is as near to the tool's x as it can be."""
+    """Return axes (3, 3) whose z is the direction and whose x is as close as possible to the tool's x."""
     near = np.eye(3)[0] if abs(direction[0]) < 0.9 else np.eye(3)[1]
     x = near - direction * (near @ direction)
     x /= np.linalg.norm(x)
@@ -169,7 +172,7 @@ def _frame_along(direction: Array) -> Array:
 
 
 def _turned(frame: Array, direction: Array) -> Array:
-    """Return the frame turned about its z so that its x is along a direction (3,) at right angles to that."""
+    """Return the frame rotated about its z so that its x is along a direction (3,) perpendicular to z."""
     z = frame[:, RELEASED_FIRST]
     x = direction - z * (z @ direction)
     x /= np.linalg.norm(x)
@@ -177,7 +180,7 @@ def _turned(frame: Array, direction: Array) -> Array:
 
 
 def _axis(frame: Array, direction: Array) -> int:
-    """Return which of the frame's axes a direction is parallel to."""
+    """Return the index of the axis that a direction is parallel to; ValueError if there is none."""
     cosines = np.abs(frame.T @ direction)
     axis = int(cosines.argmax())
     if cosines[axis] < PARALLEL:

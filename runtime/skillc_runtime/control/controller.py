@@ -1,4 +1,4 @@
-"""The seams of control laws: Cartesian ones, which yield and push, and joint ones."""
+"""Protocols of control laws: compliant Cartesian laws and joint laws."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_runtime.motion.reference import Compliance, Reference
 
 
 class ControlError(Exception):
-    """A controller cannot go on safely; the message says why. The arm has been commanded to hold."""
+    """A controller cannot continue safely; the message says why. The arm has been commanded to hold."""
 
 
 class Controller(Protocol):
@@ -19,26 +19,26 @@ class Controller(Protocol):
 
     @property
     def tool(self) -> Pose:
-        """The tool centre point in base that the law compares with its reference."""
+        """The tool centre point, in base, that the law compares with its reference."""
         ...
 
     @property
     def contact_wrench(self) -> Array:
-        """What the environment does to the tool (6,), measured or estimated; N and N m, base axes, at the tool."""
+        """The wrench (6,) of the environment on the tool, measured or estimated; N and N m, base axes, at the tool."""
         ...
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
-        """Start from joint positions and speeds q, dq (nv,): those commanded last, or the measured ones."""
+        """Start from joint positions and speeds (nv,), rad and rad/s: those commanded last, or the measured ones."""
         ...
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
-        """Return what to command for the next `period` s."""
+        """Return the command for the next `period` s."""
         ...
 
 
 class JointController(Protocol):
-    """A law that moves joints."""
+    """A law that controls joints."""
 
     def command(self, state: ArmState, reference: JointReference, period: float) -> Command:
-        """Return what to command for the next `period` s."""
+        """Return the command for the next `period` s."""
         ...

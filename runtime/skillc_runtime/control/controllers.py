@@ -1,4 +1,4 @@
-"""Makes the controllers of one arm, for its tool and for its joints, from gains."""
+"""Creates the controllers of one arm, for its tool and for its joints, from gains."""
 
 from __future__ import annotations
 
@@ -21,31 +21,31 @@ from skillc_runtime.motion.pose import Array
 
 @dataclass(frozen=True, slots=True)
 class ControllerPair:
-    """One controller for the tool, one for the joints; they share the arm's limits, so changing over is smooth."""
+    """A controller for the tool and one for the joints; they share the arm's limits, so switching is smooth."""
 
     tool: Controller
     joints: JointController
     limit: TorqueLimit | JointLimit
 
     def joints_now(self, state: ArmState) -> Array:
-        """Return the joints (nv,) rad from which a motion goes on: those commanded last, else the measured ones."""
+        """Return the joints (nv,) in rad from which a motion continues: those commanded last, else the measured."""
         return (self.limit.q if isinstance(self.limit, JointLimit) else state.q).copy()
 
     def joints_held(self, state: ArmState) -> Array:
-        """Return the joints (nv,) rad at which the arm holds still when it is to do so at once."""
+        """Return the joints (nv,) in rad at which the arm is held if it must stop at once."""
         return (self.limit.holding_joints(state) if isinstance(self.limit, JointLimit) else state.q).copy()
 
     def speeds_now(self, state: ArmState) -> Array:
-        """Return the joint speeds (nv,) rad/s with which a motion goes on: those commanded last, else measured."""
+        """Return the joint speeds (nv,) in rad/s from which a motion continues: those commanded last, else measured."""
         return (self.limit.dq if isinstance(self.limit, JointLimit) else state.dq).copy()
 
 
 def make_controllers(
     gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float
 ) -> ControllerPair:
-    """Make the controllers of an arm in a state, for a control period in s; `virtual` is its `virtual_model`.
+    """Return the controllers of an arm in a state, for a control period in s; `virtual` is of `load_virtual_model`.
 
-    ValueError where they cannot be stable at that period.
+    Raises ValueError if they cannot be stable at that period.
     """
     match gains.law:
         case ImpedanceGains() as law:

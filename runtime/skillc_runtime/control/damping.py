@@ -1,4 +1,4 @@
-"""Dampers for an arm that takes torques, designed from the inertia that its tool has where it is."""
+"""Damping of a torque-controlled arm, from the inertia of its tool in the present posture."""
 
 from __future__ import annotations
 
@@ -10,17 +10,18 @@ from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, prod
 from skillc_runtime.motion.pose import Array
 
 BRAKE_RATE = 250.0
-"""1/s, how fast a tool comes down to the greatest speed with which it may yield; stable down to 250 Hz."""
+"""1/s, rate with which excess speed of a tool decays; stable down to a control rate of 250 Hz."""
 
 LEAST_MOBILITY = 1e-3
-"""Added to the tool's inverse inertia, 1/kg and 1/(kg m^2): at a singularity the tool seems heavy, not immovable."""
+"""Added to the inverse inertia of the tool, 1/kg and 1/(kg m^2), which keeps it regular at a singularity."""
 
 
 @inlined
 def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, rotation: Array, frame: Array) -> None:
-    """mobility (6, 6) = J_C M^-1 J_C^T in 1/kg and 1/(kg m^2), inertia its inverse but for the least mobility.
+    """mobility (6, 6) = J_C M^-1 J_C^T + least mobility, in 1/kg and 1/(kg m^2); inertia (6, 6) is its inverse.
 
-    The axes of C are rotation @ frame, both (3, 3), in base; J (6, nv), mass_matrix (nv, nv).
+    The axes of C are rotation @ frame, both (3, 3), in base; J (6, nv): m and rad per rad, base axes; mass_matrix (nv,
+    nv): kg m^2.
     """
     joints = J.shape[1]
     axes, J_C, factor, column = np.empty((3, 3)), np.empty((6, joints)), mass_matrix.copy(), np.empty(joints)
@@ -43,7 +44,7 @@ def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, 
 
 
 def damping_rate(state: ArmState, damping: float, rotational_damping: float) -> float:
-    """Return the fastest decay in 1/s that dampers on all axes cause; above 2 / h explicit damping explodes.
+    """Return the fastest decay rate in 1/s of damping along all axes; above 2 / h explicit damping is unstable.
 
     damping: N s/m; rotational_damping: N m s/rad.
     """

@@ -1,4 +1,4 @@
-"""The heart of one arm: commands it once a control period and stops it where it must not go on."""
+"""The driver of one arm: commands it once a control period and stops it on faults."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.devices.arm import ArmState, Command
 
 LONGEST_GAP_S = 0.02
-"""When a control period comes later than this after the one before, or earlier, motions wait for the time lost."""
+"""After a longer gap between control periods, or one below zero, motions are delayed by the lost time."""
 
 
 class CompliantArmDriver:
-    """One arm, stepped every control period; implements `ArmDriver`, and what a cell needs besides.
+    """One arm, stepped every control period; implements `ArmDriver` and the functions that a cell needs.
 
-    `fault` says why the driver stopped by itself, until somebody has taken it; `broken` why the arm once could not be
-    controlled.
+    `fault` says why the driver stopped by itself, until it is taken; `broken` why the arm could not be controlled at
+    some time.
     """
 
     def __init__(self, setup: ArmSetup) -> None:
-        """Hold the arm where it is; which of its safety limits it breaks is said in `fault`."""
+        """Hold the arm at its position; a safety limit that it violates is reported in `fault`."""
         self._arm, self._task = setup.arm, ArmTask(setup)
         self.limits, self.task_limits = setup.limits, setup.gains.limits
         self.measured = self._task.measured
@@ -36,11 +36,11 @@ class CompliantArmDriver:
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing moves or pushes any more: neither the reference nor what skills want, nor the arm."""
+        """Whether reference and joints are at rest and no skill pushes."""
         return self.motion.at_rest and not self.compliance.pushing and self.measured.still
 
     def step(self, now: float) -> None:
-        """Do one control period at `now` s. ControlError when a measurement or a command is not a number."""
+        """Run one control period at `now` s. ControlError if a measurement or a command is not finite."""
         task, gap, self._seen = self._task, now - self._seen, now
         if not 0 <= gap <= max(LONGEST_GAP_S, 2 * task.period):
             self._lost += gap - task.period
@@ -64,29 +64,29 @@ class CompliantArmDriver:
                 self.abort(reason)
 
     def take_fault(self) -> str | None:
-        """Return why the arm stopped by itself, once; None while it has not."""
+        """Return why the arm stopped by itself, once; None if it did not."""
         fault, self.fault = self.fault, None
         return fault
 
     def abort(self, reason: str) -> None:
-        """Stop moving, circling and pushing; whoever moves the arm finds the reason in `fault`."""
+        """Stop motion, overlays and push; the reason is reported in `fault`."""
         self.fault = reason
         self._task.stop()
         self._task.tool.let_go(self._task.now)
 
     def hold_still(self, reason: str) -> None:
-        """Hold the arm where it is, at once, and push no more; whoever moves it finds the reason in `fault`."""
+        """Hold the arm at its position, at once, and stop pushing; the reason is reported in `fault`."""
         self.fault = reason
         self._task.hold_still()
 
     def secure(self) -> bool:
-        """Come to rest, push no more and hold stiff, whatever skills left; tell whether they left the arm yielding."""
+        """Come to rest, stop pushing and restore all releases; tell whether any were left."""
         self._task.stop()
         self._task.tool.let_go(self._task.now)
         return self.compliance.secure()
 
     def _hold_joints(self, state: ArmState, why: str) -> Command:
-        """Give up a law that cannot go on; return what holds the arm where it was last known to be."""
+        """Abandon a law that cannot continue; return the command that holds the last known position."""
         self._task.hold_joints(state)
         self.broken = why
         self.abort(why)

@@ -1,6 +1,8 @@
-"""Whether an arm can follow a motion of its tool, found out before anything moves."""
+"""Checks, before anything moves, whether an arm can follow a motion of its tool, and slows it down if necessary."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,48 +11,46 @@ from skillc_runtime.control.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Overlay, Trajectory
-from skillc_runtime.motion.slowed_trajectory import slow_down
+from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 
 SAMPLE_S, MAX_SAMPLES = 0.05, 150
-"""How closely a motion is looked at."""
+"""Time between samples of a motion, and their greatest number."""
 
 STEPS = 3
-"""Steps of inverse kinematics at each sample; the one before is near."""
+"""Steps of inverse kinematics at each sample, from the solution of the sample before."""
 
 MAX_POSITION_ERROR_M, MAX_ROTATION_ERROR_RAD = 0.003, 0.03
-"""A tool that stays farther than this from where it shall be cannot get there."""
+"""With a greater error of the tool a pose counts as out of reach."""
 
 OVERLAY_S, OVERLAY_SAMPLES = 10.0, 400
-"""For how long, and how closely, an overlay is looked at."""
+"""Time over which an overlay is sampled, and the number of samples."""
 
 RANGE_TOLERANCE_RAD = 0.01
-"""How far beyond its range a joint may seem to go: the law holds it back."""
+"""How far beyond its range a joint may be: the law limits it."""
 
 PULL = 0.05
-"""Share of the way back to its first posture that a redundant arm goes at each step, as its law pulls it there."""
+"""Share of the distance to its first posture that a redundant arm moves in each step, as its law does."""
 
 
 def slow_to_feasible(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits) -> Trajectory:
-    """Return a motion of the tool in the arm's base frame, slowed down where a joint would be too fast.
+    """Return a motion of the tool in the arm's base frame, slowed down if a joint would be too fast.
 
-    q (nv,) rad: where the joints are at its start. Infeasible where a joint would leave its range or the tool falls
-    behind.
+    q (nv,): rad, the joints at its start. Raises Infeasible if a joint would leave its range or the tool cannot follow.
     """
     count = int(np.clip(np.ceil(trajectory.duration / SAMPLE_S), 1, MAX_SAMPLES))
     times, first, fastest = np.linspace(0.0, trajectory.duration, count + 1), q, 1.0
     for time, step in zip(times[1:], np.diff(times), strict=True):
         target, before = trajectory.at(float(time)).pose, q
-        q = _followed(arm, target, q, first)
+        q = _track(arm, target, q, first)
         _check(arm, target, q, limits)
         fastest = max(fastest, float((np.abs(q - before) / (limits.velocity * step)).max()))
     return slow_down(trajectory, fastest)
 
 
 def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limits: ArmLimits) -> None:
-    """Refuse an overlay along `axes` (3, 3) in base for which a joint would be too fast where the arm is: Infeasible.
+    """Raise Infeasible if a joint would be too fast for an overlay along `axes` (3, 3) in base in the present posture.
 
-    dq = J^+ [v; 0] for the overlay's velocities v in its first `OVERLAY_S`.
+    dq = J^+ [v; 0] for the velocities v of the overlay, m/s, in its first `OVERLAY_S`.
     """
     velocities = np.array([overlay.at(float(time))[1] for time in np.linspace(0.0, OVERLAY_S, OVERLAY_SAMPLES)])
     speeds = np.abs(np.linalg.pinv(arm.jacobian)[:, :3] @ axes @ velocities.T).max(axis=1)
@@ -63,8 +63,8 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
         )
 
 
-def _followed(arm: VirtualArm, target: Pose, q: Array, first: Array) -> Array:
-    """Return joints near q (nv,) that put the tool as near to its target as a few steps lead."""
+def _track(arm: VirtualArm, target: Pose, q: Array, first: Array) -> Array:
+    """Return joints (nv,) in rad after a few steps from q towards a target pose of the tool."""
     for _ in range(STEPS):
         arm.update_kinematics(q)
         q = q + step_towards(arm.jacobian, pose_error(arm.tool, target), PULL * (first - q))
@@ -89,3 +89,30 @@ def _check(arm: VirtualArm, target: Pose, q: Array, limits: ArmLimits) -> None:
             f"its tool would be {1000 * away:.0f} mm and {np.degrees(turned):.0f} deg away from where it shall be",
             target.position,
         )
+
+
+@dataclass(frozen=True, slots=True)
+class SlowedTrajectory:
+    """A trajectory that takes `factor` >= 1 times as long, along the same path in the same frame."""
+
+    trajectory: Trajectory
+    factor: float
+
+    @property
+    def duration(self) -> float:
+        """The time in s from start to rest."""
+        return self.trajectory.duration * self.factor
+
+    def at(self, time: float) -> Reference:
+        """Return the reference `time` s after the start."""
+        fast = self.trajectory.at(time / self.factor)
+        return Reference.of(fast.pose, fast.twist / self.factor, fast.acceleration / self.factor**2)
+
+    def transform(self, frame: Pose) -> SlowedTrajectory:
+        """Return the same motion in the parent frame of `frame`."""
+        return SlowedTrajectory(self.trajectory.transform(frame), self.factor)
+
+
+def slow_down(trajectory: Trajectory, factor: float) -> Trajectory:
+    """Return a trajectory that is slower by a factor, or the same if the factor is at most 1."""
+    return SlowedTrajectory(trajectory, factor) if factor > 1 else trajectory

@@ -1,4 +1,4 @@
-"""Filters that behave alike at every rate: a first-order lag in seconds, a limit on the rate of change per second."""
+"""Filters that do not depend on the control rate: a first-order lag and a limit on the rate of change."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_runtime.motion.pose import Array
 class Lag:
     """A first-order low-pass x <- x + (1 - exp(-h/T)) (target - x) with time constant T in s; 0 passes everything.
 
-    `value` (n,) is updated in place, so a reference to it stays valid. What is nearer than `grain` has `arrived`.
+    `value` (n,), in any unit, is updated in place. It has `arrived` when it is closer to the target than `grain`.
     """
 
     def __init__(self, value: Array, time_constant: float, grain: float = 1e-6) -> None:
@@ -37,7 +37,10 @@ class Lag:
 
 
 class RateLimit:
-    """Follow a target at `rate` per s at most, one for all or one each; `value` (n,) is updated in place."""
+    """Follow a target with at most `rate` per s, for all or for each.
+
+    `value` (n,), in any unit, is updated in place.
+    """
 
     def __init__(self, value: Array, rate: float | Array) -> None:
         self.value = value.copy()

@@ -1,9 +1,9 @@
-"""Forward-dynamics compliance for arms that take positions and feel forces: a virtual arm moves, the real one follows.
+"""Forward-dynamics compliance for position-controlled arms with a force sensor, which follow a virtual arm.
 
 w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 (J_C^T a - c)
 dq <- g dq + (1 - g) T ddq, g = exp(-h/T);  q <- q + h dq
 Scherzinger, Roennau, Dillmann 2017; gains per second, Coriolis forces c, feed-forward along stiff axes. C: compliance
-frame. Of what would be over the speed with which a tool may yield little is left.
+frame. Most of the speed beyond the limit of the compliance is removed.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 
 BRAKED = 0.9
-"""Share of what would be over the greatest speed with which a tool may yield that is taken off."""
+"""Share of the excess of the tool's speed that is removed."""
 
 
 @dataclass(frozen=True, slots=True)
 class ForwardDynamicsMemory:
-    """What the law of one arm knows, and keeps from one control period to the next; C is the compliance frame.
+    """Parameters and state of the law of one arm, kept between control periods; C is the compliance frame.
 
     dq (nv,): rad/s, of the virtual arm; task: errors along C; limits (9, nv): see `JointLimit`; rate (6,): admittance
     over its lag, 1/kg and 1/(kg m^2); lag: s.
@@ -53,7 +53,10 @@ class ForwardDynamicsMemory:
 
 
 class ForwardDynamics:
-    """The law for one arm. It integrates from the last command, never from the measurement. Arrays are reused."""
+    """The law for one arm. It integrates from the last command, never from the measurement.
+
+    Arrays are reused. Joints (nv,) in rad and rad/s; the reference is in the base frame.
+    """
 
     def __init__(self, gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, arm: VirtualArm) -> None:
         self._limit, self._arm = limit, arm
@@ -68,7 +71,7 @@ class ForwardDynamics:
 
     @property
     def tool(self) -> Pose:
-        """Where the commanded joints put the tool centre point, in base; a copy."""
+        """The tool centre point, in base, at the commanded joints; a copy."""
         return self._arm.tool
 
     @property
@@ -77,13 +80,13 @@ class ForwardDynamics:
         return self._felt.copy()
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
-        """Start from q (nv,) in rad and dq (nv,) in rad/s."""
+        """Start from joint positions q (nv,) in rad and speeds dq (nv,) in rad/s."""
         self._arm.mount_tool(state.q, state.tool)
         self._arm.update_kinematics(q)
         self._memory.dq[:] = dq
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
-        """Return where the joints shall be, or how fast, as the limit makes it."""
+        """Return the joint positions or speeds to command for the next `period` s, within limits."""
         self._felt[:] = state.wrench
         arm, limit = self._arm, self._limit
         arm.update_kinematics(limit.q)
@@ -102,10 +105,10 @@ def virtual_motion(
     compliance: Compliance,
     period: float,
 ) -> bool:
-    """Compute dq (nv,), slowed down as a whole where a joint would be too fast, and what is commanded.
+    """Compute dq (nv,) in rad/s, all scaled down if a joint would be too fast, and the limited command.
 
-    measured (nv,): rad, the joints; felt (6,): N and N m, the wrench on the tool, base axes. Return False when the arm
-    does not follow.
+    measured (nv,): rad, the joints; felt (6,): N and N m, the wrench on the tool, base axes; period: s. Return False if
+    the arm does not follow.
     """
     dq, rows, axes, lag = memory.dq, memory.task.rows, memory.task.axes, memory.lag
     compute_task_error(memory.task, virtual.tool, reference, compliance, felt)

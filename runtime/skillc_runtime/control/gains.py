@@ -1,4 +1,4 @@
-"""The gains of an arm's controller, read from its data sheet; SI units. `controllers` makes controllers of them."""
+"""The gains of an arm's controller, read from its data sheet; SI units. `controllers` creates controllers from them."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.arm_driver import TaskLimits
 
 NumberReader: TypeAlias = Callable[[str], float]
-"""Returns a number of a data sheet by its name there; raises an error that names it where the sheet lacks it."""
+"""Returns a number of a data sheet by name, or raises an error that names the missing one."""
 
 
 class UnknownController(ValueError):
-    """There is no controller of that name; the message lists those there are."""
+    """There is no controller of that name; the message lists the existing ones."""
 
 
 @dataclass(frozen=True, slots=True)
 class ImpedanceGains:
-    """Of Cartesian impedance, for an arm that takes torques. Names as in the data sheet vocabulary.
+    """Gains of Cartesian impedance, for a torque-controlled arm. Names as in the data sheet vocabulary.
 
-    damping_floor N s/m, rotational_damping_floor N m s/rad: least damping, which is all that a released axis has;
-    nullspace_stiffness N m/rad: pull towards the rest posture; torque_rate N m/s: greatest change of a joint torque.
+    damping_floor N s/m, rotational_damping_floor N m s/rad: least damping, the only one of a released axis;
+    nullspace_stiffness N m/rad: towards the rest posture; torque_rate N m/s: greatest change of a joint torque.
     """
 
     damping_floor: float
@@ -33,23 +33,23 @@ class ImpedanceGains:
 
     @property
     def mode(self) -> Mode:
-        """Torques."""
+        """The commands that the law gives: torques."""
         return "torque"
 
     @property
     def needs_force(self) -> bool:
-        """No: springs push."""
+        """Whether the law needs a measured wrench: no, it pushes open loop."""
         return False
 
     @property
     def release_damping(self) -> float:
-        """Force per speed of a released axis, N s/m: nothing but the least damping holds it back."""
+        """Force per speed of a released axis, N s/m: the least damping."""
         return self.damping_floor
 
 
 @dataclass(frozen=True, slots=True)
 class ForwardDynamicsGains:
-    """Of forward-dynamics compliance, for an arm with servos of its own and a force/torque sensor.
+    """Gains of forward-dynamics compliance, for an arm with its own servos and a force/torque sensor.
 
     admittance m/(s N), rotational_admittance rad/(s N m): steady tool velocity per wrench; admittance_time s: its lag.
     """
@@ -60,12 +60,12 @@ class ForwardDynamicsGains:
 
     @property
     def mode(self) -> Mode:
-        """Joint positions."""
+        """The commands that the law gives: joint positions."""
         return "position"
 
     @property
     def needs_force(self) -> bool:
-        """Yes: an arm that does not feel what it touches does not yield."""
+        """Whether the law needs a measured wrench: yes."""
         return True
 
     @property
@@ -76,9 +76,9 @@ class ForwardDynamicsGains:
 
 @dataclass(frozen=True, slots=True)
 class VelocityGains:
-    """Of forward-dynamics compliance for an arm that takes speeds, and what keeps joints with the virtual ones.
+    """Gains of forward-dynamics compliance for a velocity-controlled arm, whose joints track the virtual ones.
 
-    tracking_rate 1/s: speed for every rad of error; tracking_time s: how late joints follow speeds, which is no error.
+    tracking_rate 1/s: speed per rad of error; tracking_time s: lag of the joints behind speeds, which is not an error.
     """
 
     compliance: ForwardDynamicsGains
@@ -87,12 +87,12 @@ class VelocityGains:
 
     @property
     def mode(self) -> Mode:
-        """Joint speeds."""
+        """The commands that the law gives: joint speeds."""
         return "velocity"
 
     @property
     def needs_force(self) -> bool:
-        """Yes, as the compliance does."""
+        """Whether the law needs a measured wrench: yes."""
         return self.compliance.needs_force
 
     @property
@@ -102,19 +102,19 @@ class VelocityGains:
 
 
 LawGains: TypeAlias = ImpedanceGains | ForwardDynamicsGains | VelocityGains
-"""What one controller alone reads from a data sheet.
+"""The gains of one kind of controller.
 
-mode: which commands it gives; needs_force: whether it needs the wrench that the arm measures; release_damping N s/m:
-force per speed with which a released axis moves when it is pushed, F = release_damping * v.
+mode: the commands that it gives; needs_force: whether it needs a measured wrench; release_damping N s/m: force per
+speed of a released axis, F = release_damping * v.
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Gains:
-    """What all compliant arms state, and what their law needs besides.
+    """The gains of all compliant arms, and those of their law.
 
-    linear_stiffness N/m, rotational_stiffness N m/rad: of every axis that no skill releases; damping_ratio: 1 is
-    critical; command_time s: with which stiffness and wrench follow their commands; limits: what skills may ask for.
+    linear_stiffness N/m, rotational_stiffness N m/rad: of every axis that is not released; damping_ratio: 1 is
+    critical; command_time s: time constant with which stiffness and wrench follow commands; limits: of skills.
     """
 
     law: LawGains
@@ -126,7 +126,7 @@ class Gains:
 
 
 def read_gains(controller: str, number: NumberReader) -> Gains:
-    """Return the gains that a data sheet states for the controller of that name; UnknownController if there is none."""
+    """Return the gains that a data sheet states for a controller by name; UnknownController if there is none."""
     if controller not in CONTROLLERS:
         raise UnknownController(f"there is no controller {controller!r}; there are: {', '.join(CONTROLLERS)}")
     return Gains(
@@ -159,4 +159,4 @@ CONTROLLERS: Mapping[str, Callable[[NumberReader], LawGains]] = MappingProxyType
         "impedance": _read_impedance,
     }
 )
-"""What reads the gains of each controller from a data sheet, by the names that arms state for their controllers."""
+"""Functions that read the gains of each controller from a data sheet, by the name of the controller."""

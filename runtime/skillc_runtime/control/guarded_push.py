@@ -1,7 +1,7 @@
-"""Evaluates, once a control period, a tool's approach to what it is to be pressed on, and later whether it is borne.
+"""Evaluates a guarded push once a control period: the approach of the tool to a surface, then the contact.
 
-What an arm feels contains the force that speeds it up or slows it down; so no force is believed before the tool
-approaches steadily, however it moved when the approach began.
+The measured force contains the force that accelerates the tool, so it is used only after the tool has approached with
+a steady speed.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from skillc_runtime.devices.arm_driver import Contact, GuardedPush, Standstill, 
 from skillc_runtime.motion.pose import Array
 
 STEADY_SHARE, STEADY_S = (2 / 3, 3 / 2), 0.02
-"""A tool approaches when its speed is within these shares of the approach speed, for this long."""
+"""A tool approaches steadily when its speed has been within these shares of the approach speed for this time."""
 
 FALL_SHARE, FALL_S = 2.0, 0.01
-"""A pressed tool that goes faster than this share of its approach speed, for this long, meets nothing any more; the arm
-brakes it."""
+"""A tool that has moved faster than this multiple of its approach speed for this time has lost contact; the arm brakes
+it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Approach:
-    """An approach with `speed` m/s until one of some conditions is met.
+    """An approach with `speed` m/s until one of the conditions is met.
 
-    steady_s: s for which it has gone steadily; held_s: s for which each condition has held; depth: m gone so far.
+    steady: s for which it has been steady; held_s: for which each condition has been true; depth: m moved so far.
     """
 
     speed: float
@@ -37,12 +37,12 @@ class Approach:
 
     @property
     def has_moved(self) -> bool:
-        """Whether the tool has approached steadily."""
+        """Whether the tool has moved steadily at some time."""
         return self.steady >= STEADY_S
 
     @property
     def met(self) -> StopCondition | None:
-        """The first of the conditions that is met."""
+        """The first condition that is met."""
         return next((each for each, s in zip(self.conditions, self.held_s, strict=True) if self._is_met(each, s)), None)
 
     def _is_met(self, condition: StopCondition, held_s: float) -> bool:
@@ -58,13 +58,13 @@ class Approach:
 
 
 def begin_approach(push: GuardedPush) -> Approach:
-    """Return the approach of a push before it has moved."""
+    """Return the approach of a push at its start."""
     conditions = (*push.touch_conditions, push.travel)
     return Approach(push.approach_m_s, conditions, (0.0,) * len(conditions))
 
 
 def advance_approach(approach: Approach, speed: float, force_n: float, period: float) -> Approach:
-    """Go on by `period` s: `speed` m/s towards the surface, `force_n` N with which something pushes back."""
+    """Advance by `period` s: `speed` m/s towards the surface, `force_n` N of the surroundings against the tool."""
     least, most = (share * approach.speed for share in STEADY_SHARE)
     steady = approach.steady + period if least < speed < most else 0.0
     moved = approach.has_moved or steady >= STEADY_S
@@ -91,35 +91,35 @@ def advance_approach(approach: Approach, speed: float, force_n: float, period: f
 
 @dataclass(frozen=True, slots=True)
 class Pressing:
-    """A tool that is pressed on what it approached with `speed` m/s; it has gone too fast for that for `fast` s."""
+    """A tool in contact after an approach with `speed` m/s; it has moved too fast for that for `fast` s."""
 
     speed: float
     fast: float = 0.0
 
     @property
     def falling(self) -> bool:
-        """Whether there is nothing any more that bears the press."""
+        """Whether contact was lost."""
         return self.fast >= FALL_S
 
 
 def advance_pressing(pressed: Pressing, speed: float, period: float) -> Pressing:
-    """Go on by `period` s with `speed` m/s in the direction of the press."""
+    """Advance by `period` s with `speed` m/s in the direction of the push."""
     return replace(pressed, fast=pressed.fast + period if speed > FALL_SHARE * pressed.speed else 0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class GivenUp:
-    """The push is over: nothing was met, or contact was lost for good."""
+    """The push has failed: there was no contact within the travel, or contact was lost."""
 
     reason: str
 
 
 PushAction: TypeAlias = Literal["go on", "approach", "press"] | GivenUp
-"""What to do with the push: leave it, push gently, push with the full force, or end it."""
+"""What the arm must do next: continue, push gently, push with the full force, or end the push."""
 
 
 class ActivePush:
-    """A push under way, implementing `PushProgress`. axis (3,): its direction, out of the surface, in base axes."""
+    """A push in progress, implementing `PushProgress`. axis (3,): the unit vector out of the surface, in base axes."""
 
     def __init__(self, push: GuardedPush, axis: Array) -> None:
         self.push, self._axis = push, axis
@@ -128,11 +128,11 @@ class ActivePush:
 
     @property
     def has_touched(self) -> bool:
-        """Whether something has been met."""
+        """Whether contact was made at some time."""
         return self._surface_m is not None
 
     def step(self, state: ArmState, contact_wrench: Callable[[], Array], period: float) -> PushAction:
-        """Go on by `period` s; `contact_wrench` returns what the environment does to the tool (6,), N, base axes."""
+        """Advance by `period` s; `contact_wrench` returns the wrench (6,) on the tool, N and N m, base axes."""
         height = float(self._axis @ state.tool.position)
         speed = -float(self._axis @ (state.jacobian[:3] @ state.dq))
         travel_m = self.push.travel.distance_m
@@ -140,7 +140,8 @@ class ActivePush:
             return GivenUp(f"contact was lost: the tool sank by {travel_m * 100:.0f} cm")
         match self._phase:
             case Approach():
-                return self._go_nearer(self._phase, speed, height, float(self._axis @ contact_wrench()[:3]), period)
+                force_n = float(self._axis @ contact_wrench()[:3])
+                return self._step_approach(self._phase, speed, height, force_n, period)
             case Pressing():
                 self._phase = advance_pressing(self._phase, speed, period)
                 if not self._phase.falling:
@@ -150,7 +151,9 @@ class ActivePush:
             case _:
                 assert_never(self._phase)
 
-    def _go_nearer(self, approach: Approach, speed: float, height: float, force_n: float, period: float) -> PushAction:
+    def _step_approach(
+        self, approach: Approach, speed: float, height: float, force_n: float, period: float
+    ) -> PushAction:
         self._phase = approach = advance_approach(approach, speed, force_n, period)
         match approach.met:
             case None:

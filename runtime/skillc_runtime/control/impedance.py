@@ -1,8 +1,8 @@
-"""Cartesian impedance for torque-controlled arms: the tool is held by springs and dampers, and pushes open loop.
+"""Cartesian impedance for torque-controlled arms: springs and dampers hold the tool, and it pushes open loop.
 
 F_C = -K sat(e) - D (J_C dq - nu_d) - B over(J_C dq) + W + Lam_C a_d;  tau = J_C^T F_C + tau_null + bias
-B brakes what is over the speed with which a tool may yield.
-The first term of tau moves the arm with no more power than skills may ask for: force limit times speed limit.
+B brakes speed beyond the limit of the compliance.
+The power of the first term of tau is limited to that of skills: force limit times speed limit.
 Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceleration feed-forward. C: compliance frame.
 """
 
@@ -40,21 +40,20 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 
 INERTIA_PERIOD_S = 0.01
-"""Inertia and damping change slowly; they are computed this often."""
+"""Period with which inertia and damping, which change slowly, are computed."""
 
 FASTEST_DECAY = 1.5
-"""Share of a control period's inverse that dampers may decay with: from 2 on they overshoot, the more the longer."""
+"""Greatest decay rate of damping, times the control period: from 2 on it is unstable."""
 
 
 @dataclass(frozen=True, slots=True)
 class ImpedanceMemory:
-    """What the law of one arm knows, and keeps from one control period to the next; C is the compliance frame.
+    """Parameters and state of the law of one arm, kept between control periods; C is the compliance frame.
 
     task: errors and forces along C; tool (4, 3): the measured tool centre point in base, position in m, then rotation;
     limits (5, nv): see `TorqueLimit`. inertia (6, 6): of the tool along C, kg and kg m^2; floor (6,): least damping,
-    N s/m and N m s/rad. rest (nv,): rad, posture that a redundant arm is pulled to with rest_stiffness N m/rad.
-    torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: most that
-    springs, dampers and brakes exert.
+    N s/m and N m s/rad. rest (nv,): rad, posture to which a redundant arm is pulled with rest_stiffness N m/rad.
+    torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: limits of springs, dampers and brakes.
     """
 
     task: TaskError
@@ -70,7 +69,7 @@ class ImpedanceMemory:
 
 
 class Impedance:
-    """The law for one arm. All arrays are made once and reused."""
+    """The law for one arm; the reference is in the base frame. Arrays are reused."""
 
     def __init__(self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
@@ -92,12 +91,12 @@ class Impedance:
 
     @property
     def tool(self) -> Pose:
-        """The measured tool centre point in base, changing with every command."""
+        """The measured tool centre point in base; its arrays change with every command."""
         return Pose(self._memory.tool[0], self._memory.tool[1:])
 
     @property
     def contact_wrench(self) -> Array:
-        """An estimate (6,) in N and N m, base axes: the opposite of what springs, dampers and push exert.
+        """An estimate (6,) in N and N m, base axes: the negative wrench of springs, dampers and push.
 
         It is exact at constant speed.
         """
@@ -105,23 +104,23 @@ class Impedance:
         return (exerted.reshape(2, 3) @ -self._memory.task.axes.T).ravel()
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
-        """Start; `q` (nv,) in rad becomes the rest posture."""
+        """Start with `q` (nv,) in rad as the rest posture; dq (nv,) in rad/s is not used."""
         self._memory.tool[0], self._memory.tool[1:] = state.tool.position, state.tool.rotation
         self._age = INERTIA_PERIOD_S
         self._damping.value[:] = self._memory.floor
         self._memory.rest[:] = q
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Torque:
-        """Return the joint torques for the next `period` s."""
-        self._renew(state, reference, compliance, period)
+        """Return the joint torques (nv,) in N m for the next `period` s."""
+        self._update_damping(state, reference, compliance, period)
         tau, posture = np.empty_like(state.q), self._posture
         posture.manipulability = impedance_torque(
             tau, self._memory, state, reference, compliance, posture.manipulability, period
         )
         return Torque(tau)
 
-    def _renew(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> None:
-        """Renew inertia and damping every so often; the damping follows with the command time."""
+    def _update_damping(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> None:
+        """Update inertia and damping if due; the damping follows with the command time."""
         self._age += period
         if self._age < INERTIA_PERIOD_S:
             return
@@ -142,8 +141,8 @@ def design_damping(
 ) -> None:
     """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; B_i = rate / (Lam_C^-1)_ii.
 
-    damping (6,): D in N s/m and N m s/rad. Where Lam_C^-1 D would decay faster than `fastest` in 1/s, by its greatest
-    possible eigenvalue, D is less.
+    damping (6,): D in N s/m and N m s/rad, along the axes of C. It is reduced where an upper bound of the eigenvalues
+    of Lam_C^-1 D exceeds `fastest` in 1/s.
     """
     mobility, added, square = np.empty((6, 6)), np.empty(6), 0.0
     inertia, floor, braking = memory.inertia, memory.floor, memory.task.rows[BRAKING]
@@ -166,8 +165,8 @@ def design_damping(
 def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance: Compliance) -> None:
     """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d) - B over, along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
 
-    The force of springs, dampers and brakes is shortened to `force_n`. Torques that would move the arm with more than
-    `power_w` are scaled down as a whole.
+    exerted: N and N m; tau: N m. The force of springs, dampers and brakes is limited to `force_n`, and all torques are
+    scaled down if their power exceeds `power_w`.
     """
     rows, axes = memory.task.rows, memory.task.axes
     exerted, force, in_base = rows[EXERTED], np.empty(6), np.empty(6)
@@ -201,10 +200,10 @@ def impedance_torque(
     manipulability: float,
     period: float,
 ) -> float:
-    """Compute the whole law for the next `period` s, tau_out (nv,) in N m; keep tool and errors in the memory.
+    """Compute the torques tau_out (nv,) in N m for the next `period` s; store tool and errors in the memory.
 
-    manipulability: of the period before. Return that of this one, which only an arm with more than six joints has use
-    for: it has a posture to keep.
+    manipulability: of the period before. Return that of this one, which an arm with more than six joints uses to keep
+    its posture. The reference is in the base frame.
     """
     for i in range(3):
         memory.tool[0, i] = state.tool.position[i]
@@ -216,8 +215,8 @@ def impedance_torque(
     compute_task_error(memory.task, state.tool, reference, compliance, velocity)
     tool_torque(tau, memory, state, compliance)
     if q.size > 6:
-        keeping = np.empty(q.size)
-        manipulability = posture_torque(keeping, q, dq, J, memory.rest, memory.rest_stiffness, manipulability)
-        tau += keeping
+        posture = np.empty(q.size)
+        manipulability = posture_torque(posture, q, dq, J, memory.rest, memory.rest_stiffness, manipulability)
+        tau += posture
     limit_torque(tau_out, memory.limits, tau, q, state.bias, memory.torque_rate * period)
     return manipulability

@@ -1,4 +1,4 @@
-"""Finding joint positions for a pose of the tool: damped least squares from several seeds, always the same ones."""
+"""Inverse kinematics by damped least squares, from several seeds that are the same in each call."""
 
 from __future__ import annotations
 
@@ -13,13 +13,14 @@ STEPS, SEEDS = 150, 16
 LONGEST_STEP_RAD = 0.3
 CLOSE_M, CLOSE_RAD = 1e-5, 1e-5
 PULL = 0.05
-"""Share of the way to the seed that the posture of a redundant arm goes in each step, without moving the tool."""
+"""Share of the distance to the seed that a redundant arm moves in each step, without moving the tool."""
 
 
 def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits: Array) -> Array | None:
-    """Return joints (nv,) within limits (nv, 2) that put the tool at `target` in base, near `seed`; or None.
+    """Return joints (nv,) in rad, within limits (nv, 2), with the tool at `target` in base; None if there are none.
 
-    The solution from the seed itself is taken if there is one, else the nearest of those from seeds all over the range.
+    The result is the solution from `seed` (nv,) if there is one, else the one nearest to it from seeds all over the
+    range.
     """
     direct = _descend(arm, target, seed, seed, limits)
     if direct is not None:
@@ -37,7 +38,7 @@ def _descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: A
         arm.update_kinematics(q)
         error = pose_error(arm.tool, target)
         if np.abs(error[:3]).max() < CLOSE_M and np.abs(error[3:]).max() < CLOSE_RAD:
-            return _unwound(q, seed, limits)
+            return _unwind(q, seed, limits)
         step = step_towards(arm.jacobian, error, PULL * (seed - q))
         longest = float(np.abs(step).max())
         q = np.clip(q + step * min(1.0, LONGEST_STEP_RAD / longest), limits[:, 0], limits[:, 1])
@@ -45,7 +46,7 @@ def _descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: A
 
 
 def pose_error(tool: Pose, target: Pose) -> Array:
-    """Return what leads a tool to its target: way and turn (6,) in m and rad."""
+    """Return the displacement (6,) from a tool to its target, [linear m; angular rad], both poses in the same frame."""
     return np.concatenate([target.position - tool.position, log(target.rotation @ tool.rotation.T)])
 
 
@@ -61,7 +62,7 @@ def step_towards(J: Array, error: Array, pull: Array) -> Array:
     return pull + J.T @ np.linalg.solve(gram, error - J @ pull)
 
 
-def _unwound(q: Array, seed: Array, limits: Array) -> Array:
-    """Turn joints by whole turns to where they are nearest to the seed, within their range."""
+def _unwind(q: Array, seed: Array, limits: Array) -> Array:
+    """Return joints changed by whole turns so that they are nearest to the seed, within their range."""
     turned = q - 2 * pi * np.round((q - seed) / (2 * pi))
     return np.where((turned >= limits[:, 0]) & (turned <= limits[:, 1]), turned, q)

@@ -1,4 +1,4 @@
-"""Moving joints: computed torque for arms that take torques; positions or speeds for those that have servos."""
+"""Joint control: computed torque for torque-controlled arms; positions or speeds for arms with servos."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ BANDWIDTH = 20.0
 
 
 class ComputedTorque:
-    """tau = M (ddq_d + 2 w (dq_d - dq) + w^2 (q_d - q)) + bias. Arrays are reused."""
+    """tau = M (ddq_d + 2 w (dq_d - dq) + w^2 (q_d - q)) + bias, N m, for joints in rad. Arrays are reused."""
 
     def __init__(self, limit: TorqueLimit, joints: int) -> None:
         self._limit = limit
         self._acceleration, self._part, self._tau = (np.zeros(joints) for _ in range(3))
 
     def command(self, state: ArmState, reference: JointReference, period: float) -> Torque:
-        """Return the joint torques."""
+        """Return the joint torques for the next `period` s."""
         np.subtract(reference.dq, state.dq, out=self._acceleration)
         self._acceleration *= 2 * BANDWIDTH
         np.subtract(reference.q, state.q, out=self._part)
@@ -32,11 +32,11 @@ class ComputedTorque:
 
 
 class JointServo:
-    """Passes joint motions on, within the arm's limits, as what `limit` makes of them."""
+    """Commands the reference positions of joints to an arm with servos, as limited by `limit`."""
 
     def __init__(self, limit: JointLimit) -> None:
         self._limit = limit
 
     def command(self, state: ArmState, reference: JointReference, period: float) -> JointPosition | JointVelocity:
-        """Return the joint positions or speeds."""
+        """Return the joint positions or speeds for the next `period` s."""
         return self._limit.step(reference.q, state, period)

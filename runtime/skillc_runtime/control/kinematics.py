@@ -1,4 +1,4 @@
-"""Where an arm's tool gets to: forward and inverse kinematics with whatever is in its hand at the moment."""
+"""Forward and inverse kinematics of an arm with the tool that it holds at present."""
 
 from __future__ import annotations
 
@@ -18,39 +18,39 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Trajectory
 
 JOINT_RAMP_S = 0.5
-"""Seconds in which a joint motion reaches its full speed."""
+"""Time in which a joint motion reaches its full speed."""
 
 SPEED_SAMPLES, SPEED_MARGIN = 20, 0.85
-"""How often a joint motion is looked at for its tool's speed, and which share of the limit that may be."""
+"""Number of samples of a joint motion for the speed of its tool, and the share of the limit that is used."""
 
 
 class Kinematics:
-    """Kinematics in the arm's base frame; a state says where the tool centre point is on the hand."""
+    """Kinematics in the arm's base frame; a measured state gives the tool centre point on the hand."""
 
     def __init__(self, virtual: mujoco.MjModel) -> None:
         self._arm = VirtualArm(virtual)
 
     def tool_at(self, q: Array, state: ArmState) -> tuple[Pose, Array]:
-        """Return the tool in base and its Jacobian (6, nv), [linear m; angular rad] per rad, at joints q (nv,) rad."""
+        """Return tool in base and Jacobian (6, nv), [linear m; angular rad] per rad, at joints q (nv,) in rad."""
         self._arm.mount_tool(state.q, state.tool)
         self._arm.update_kinematics(q)
         return self._arm.tool, self._arm.jacobian.copy()
 
     def slow_to_feasible(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> Trajectory:
-        """Return a motion in base from joints q (nv,) rad, slowed where a joint would be too fast.
+        """Return a motion in base from joints q (nv,) in rad, slowed down if a joint would be too fast.
 
-        Infeasible where the arm cannot follow it.
+        Raises Infeasible if the arm cannot follow it.
         """
         self._arm.mount_tool(state.q, state.tool)
         return slow_to_feasible(self._arm, trajectory, q, limits)
 
     def check_overlay_feasible(self, overlay: Overlay, axes: Array, limits: ArmLimits, state: ArmState) -> None:
-        """Refuse an overlay along `axes` (3, 3) for which a joint would be too fast where the arm is: Infeasible."""
+        """Raise Infeasible if a joint would be too fast for an overlay along `axes` (3, 3) in the present posture."""
         self._arm.mount_tool(state.q, state.tool)
         check_overlay_feasible(self._arm, overlay, axes, limits)
 
     def limit_tool_speed(self, start: Array, goal: Array, speed: Array, most_m_s: float, state: ArmState) -> Array:
-        """Return joint speeds (nv,) rad/s, lowered alike, with which a joint motion keeps the tool below `most_m_s`.
+        """Return joint speeds (nv,) in rad/s, all scaled down so that a joint motion keeps the tool below `most_m_s`.
 
         start, goal (nv,): rad; speed (nv,): rad/s.
         """
@@ -65,9 +65,9 @@ class Kinematics:
     def joint_path(
         self, postures: Sequence[Array], limits: ArmLimits, share: float, most_m_s: float, blend: float, state: ArmState
     ) -> JointPath:
-        """Return a joint motion through postures, each (nv,) rad, at a share of joint speeds, the tool below a speed.
+        """Return a joint motion through postures (nv,) in rad, at a share of joint speeds, the tool below a speed.
 
-        It passes those on the way without stopping where `blend` is above 0, to 1 at most.
+        blend: share, 0 to 1, of the possible overlap at each intermediate posture; the motion stops there at 0.
         """
         calm = [self.limit_tool_speed(*piece, share * limits.velocity, most_m_s, state) for piece in pairwise(postures)]
         slowest = np.min(calm, axis=0)
@@ -75,7 +75,7 @@ class Kinematics:
         return joint_path(postures, slowest, ramp, [blend] * (len(postures) - 2))
 
     def tracking_error_message(self, wanted: Array, q: Array) -> str | None:
-        """Return which joint is farthest from where it shall be, and how far; None when all are near enough.
+        """Return a message about the joint with the greatest error; None if all errors are small.
 
         wanted, q (nv,): rad.
         """
@@ -86,6 +86,9 @@ class Kinematics:
         return f"{self._arm.joint_name(joint)} is {far[joint]:.3f} rad away from where it shall be"
 
     def inverse_kinematics(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
-        """Return joints (nv,) rad within limits (nv, 2) that put the tool at `target` in base, near `seed`; or None."""
+        """Return joints (nv,) in rad, within limits (nv, 2), with the tool at `target` in base, near `seed`.
+
+        Or None.
+        """
         self._arm.mount_tool(state.q, state.tool)
         return solve_inverse_kinematics(self._arm, target, seed, limits)

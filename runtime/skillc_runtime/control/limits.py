@@ -1,4 +1,4 @@
-"""The last word before a command reaches an arm: what the arm can take, whichever law asks. One of them per arm."""
+"""Limits of commands, whichever law they come from; one per arm, as the last stage before the arm."""
 
 from __future__ import annotations
 
@@ -13,31 +13,30 @@ from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array
 
 RANGE_MARGIN_RAD = 0.05
-"""Within this distance of the end of its range a joint is pushed back, at the end with a quarter of its effort."""
+"""Within this distance of the end of its range a joint is pushed back, with a quarter of its effort at the end."""
 
 MAX_LAG_RAD = 0.2
-"""An arm with servos of its own that lags behind its command by more, over all joints, is stuck."""
+"""An arm with servos that lags behind its command by more, as the norm over all joints, is blocked."""
 
 RAMP, LOW, HIGH, SPRING, EFFORT = range(5)
 """Rows of `TorqueLimit.rows`, one value a joint.
 
-RAMP N m: torque so far, without bias; LOW, HIGH rad: from where joints are pushed back; SPRING N m/rad: how hard;
-EFFORT N m: the greatest torque.
+RAMP N m: the torque so far, without bias; LOW, HIGH rad: beyond these joints are pushed back; SPRING N m/rad: with
+this stiffness; EFFORT N m: the greatest torque.
 """
 
 COMMANDED, SPEED, LEAST, MOST, FASTEST, PULL, LAG, EXPECTED, DRIVEN = range(9)
 """Rows of `JointLimit.rows`, one value a joint.
 
 COMMANDED rad, SPEED rad/s: positions and speeds commanded last; LEAST, MOST rad, FASTEST rad/s: their limits. For
-`SpeedLimit`: PULL 1/s and LAG s, as there; EXPECTED rad: where joints should be by now; DRIVEN rad/s: the
-command.
+`SpeedLimit`: PULL 1/s and LAG s, as there; EXPECTED rad: expected positions; DRIVEN rad/s: the command.
 """
 
 
 class TorqueLimit:
-    """Limits torques in rate, range and effort; since all laws share it, changing between them makes no jump.
+    """Limits torques in rate, range and effort; all laws of an arm share it, so switching makes no jump.
 
-    rows (5, nv) is what `limit_torque` knows; `rate` in N m/s holds for torques without bias.
+    rows (5, nv): see above; rate: N m/s, of torques without bias. Joints (nv,).
     """
 
     def __init__(self, limits: ArmLimits, rate: float) -> None:
@@ -47,7 +46,7 @@ class TorqueLimit:
         self.rate = rate
 
     def step(self, tau: Array, state: ArmState, period: float) -> Array:
-        """Return what to command (nv,) in N m for torques without bias. A new array."""
+        """Return a new array (nv,) in N m, the command for torques tau without bias, for the next `period` s."""
         tau_out = np.empty_like(tau)
         limit_torque(tau_out, self.rows, tau, state.q, state.bias, self.rate * period)
         return tau_out
@@ -56,7 +55,7 @@ class TorqueLimit:
 class JointLimit:
     """Limits joint positions in range and speed.
 
-    Laws continue from q and dq (nv,), rad and rad/s, which were commanded last.
+    q, dq (nv,): rad and rad/s, commanded last, from which laws continue. rows (9, nv): see above.
     """
 
     def __init__(self, limits: ArmLimits, q: Array) -> None:
@@ -66,14 +65,17 @@ class JointLimit:
         self.dq: Array = self.rows[SPEED]
 
     def step(self, q: Array, state: ArmState, period: float) -> JointPosition | JointVelocity:
-        """Return what to command on the way to q (nv,) in rad for `period` s, with an array of its own.
+        """Return the command towards q (nv,) in rad for the next `period` s, as a new array.
 
-        ControlError when the arm does not follow; it is then commanded to stay where it is.
+        ControlError if the arm does not follow; it then stays at its position.
         """
         return self.command_if_followed(limit_joints(self.rows, q, state.q, period), state)
 
     def command_if_followed(self, followed: bool, state: ArmState) -> JointPosition | JointVelocity:
-        """Return what `limit_joints` left to command if it found the arm to follow; else as `step`."""
+        """Return the command of `limit_joints` if it found that the arm follows.
+
+        ControlError as of `step` otherwise.
+        """
         if followed:
             return self._command()
         lag = np.abs(self.q - state.q).max()
@@ -81,7 +83,7 @@ class JointLimit:
         raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
 
     def holding_joints(self, state: ArmState) -> Array:
-        """Return the joints (nv,) in rad at which the arm holds still when it is to do so at once."""
+        """Return the joints (nv,) in rad at which the arm is held if it must stop at once."""
         return self.q
 
     def _command(self) -> JointPosition | JointVelocity:
@@ -92,10 +94,10 @@ class JointLimit:
 
 
 class SpeedLimit(JointLimit):
-    """The same for an arm that takes speeds: dq = dq_c + pull (q_expected - q), so that no error of them adds up.
+    """The same for a velocity-controlled arm: dq = dq_c + pull (q_expected - q), so that errors do not accumulate.
 
-    Joints are expected to follow `lag` s late, lag dq_expected + q_expected = q_c, as commanded; that is no error.
-    None is commanded to be faster than it may, nor to leave its range within a period. pull: 1/s.
+    Joints q (nv,) in rad are expected to follow with a lag of `lag` s, lag dq_expected + q_expected = q_c, which is not
+    an error. No command exceeds the speed limit of a joint or leaves its range within a period. pull: 1/s.
     """
 
     def __init__(self, limits: ArmLimits, q: Array, pull: float, lag: float) -> None:
@@ -103,7 +105,10 @@ class SpeedLimit(JointLimit):
         self.rows[PULL], self.rows[LAG] = pull, lag
 
     def holding_joints(self, state: ArmState) -> Array:
-        """Return where the joints come to rest, (nv,) in rad: a pull to others would press ever harder."""
+        """Return the joints (nv,) in rad where the arm comes to rest.
+
+        Others would be approached with growing effort.
+        """
         self._stay(state)
         return self.q
 
@@ -116,8 +121,8 @@ class SpeedLimit(JointLimit):
 
 
 @inlined
-def _within(x: float, least: float, most: float) -> float:
-    """Return what is nearest to x between two limits; what is no number stays none."""
+def _clamp(x: float, least: float, most: float) -> float:
+    """Return x clamped between two limits; NaN is returned as it is."""
     if x < least:
         return least
     return most if x > most else x
@@ -125,21 +130,21 @@ def _within(x: float, least: float, most: float) -> float:
 
 @compiled
 def limit_torque(tau_out: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
-    """Let the ramp follow tau (nv,) by steps of at most `longest`; add the bias and what pushes joints back into range.
+    """Let the ramp follow tau (nv,) by steps of at most `longest`; add the bias, and push joints back into range.
 
     tau_out, tau, bias (nv,), longest: N m; q (nv,): rad; rows: see `TorqueLimit`.
     """
     for j in range(tau_out.size):
-        rows[RAMP, j] += _within(tau[j] - rows[RAMP, j], -longest, longest)
-        back = rows[SPRING, j] * (_within(q[j], rows[LOW, j], rows[HIGH, j]) - q[j])
-        tau_out[j] = _within(rows[RAMP, j] + back + bias[j], -rows[EFFORT, j], rows[EFFORT, j])
+        rows[RAMP, j] += _clamp(tau[j] - rows[RAMP, j], -longest, longest)
+        back = rows[SPRING, j] * (_clamp(q[j], rows[LOW, j], rows[HIGH, j]) - q[j])
+        tau_out[j] = _clamp(rows[RAMP, j] + back + bias[j], -rows[EFFORT, j], rows[EFFORT, j])
 
 
 @compiled
 def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) -> bool:
-    """Let what is commanded follow q (nv,) in rad within limits, for the next `period` s; rows: see `JointLimit`.
+    """Let the command follow q (nv,) in rad within limits, for the next `period` s; rows (9, nv): see `JointLimit`.
 
-    Return False, and do nothing, when the arm, whose joints are `measured`, is too far.
+    Return False, and change nothing, if the joints `measured` (nv,) in rad are too far from the command.
     """
     square = 0.0
     for j in range(q.size):
@@ -149,20 +154,20 @@ def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) ->
         return False
     for j in range(q.size):
         before, longest = rows[COMMANDED, j], rows[FASTEST, j] * period
-        wanted = before + _within(q[j] - before, -longest, longest)
-        rows[COMMANDED, j] = _within(wanted, rows[LEAST, j], rows[MOST, j])
+        wanted = before + _clamp(q[j] - before, -longest, longest)
+        rows[COMMANDED, j] = _clamp(wanted, rows[LEAST, j], rows[MOST, j])
         rows[SPEED, j] = (rows[COMMANDED, j] - before) / period
     if rows[PULL, 0] > 0.0:
-        _drive(rows, measured, period)
+        _update_speeds(rows, measured, period)
     return True
 
 
 @inlined
-def _drive(rows: Array, measured: Array, period: float) -> None:
-    """Compute the speeds that lead joints along what is commanded until the end of the period."""
+def _update_speeds(rows: Array, measured: Array, period: float) -> None:
+    """Compute the speeds that move the joints to the command within the period."""
     for j in range(measured.size):
         wanted, fastest = rows[SPEED, j] + rows[PULL, j] * (rows[EXPECTED, j] - measured[j]), rows[FASTEST, j]
         least, most = (rows[LEAST, j] - measured[j]) / period, (rows[MOST, j] - measured[j]) / period
-        rows[DRIVEN, j] = _within(_within(wanted, -fastest, fastest), min(least, 0.0), max(most, 0.0))
+        rows[DRIVEN, j] = _clamp(_clamp(wanted, -fastest, fastest), min(least, 0.0), max(most, 0.0))
         share = 1.0 - exp(-period / max(rows[LAG, j], 1e-9))
         rows[EXPECTED, j] += share * (rows[COMMANDED, j] - rows[SPEED, j] * period / 2 - rows[EXPECTED, j])

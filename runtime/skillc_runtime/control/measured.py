@@ -1,4 +1,4 @@
-"""What an arm measured last, as the world sees it."""
+"""The last measurement of an arm, in the world frame."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.pose import Array, Pose
 
 NEAR_JOINT_RAD = 0.02
-"""How far a joint may be from its reference to count as there."""
+"""Error below which a joint has reached its reference."""
 
 STILL_RAD_S = 0.03
-"""Joints slower than this rest; the noise of a force sensor alone moves those of a compliant arm with 0.02 rad/s."""
+"""Slower joints are at rest; the noise of a force sensor alone moves those of a compliant arm with 0.02 rad/s."""
 
 
 class MeasuredArm:
     """The last state of an arm, implementing `ArmMeasurements`: world axes, SI units, arrays that are copies.
 
-    `base` returns where the arm stands in the world; `contact_wrench` what the environment does to the tool (6,), N and
-    N m, in the arm's base axes. `state` is the measurement itself, in base: it is set once a control period.
+    `base` returns the pose of the arm's base in the world; `contact_wrench` the wrench (6,) of the environment on the
+    tool, N and N m, base axes. `state` is the measurement itself, in base; it is set once a control period.
     """
 
     def __init__(self, base: Callable[[], Pose], contact_wrench: Callable[[], Array], state: ArmState) -> None:
@@ -39,7 +39,7 @@ class MeasuredArm:
 
     @property
     def wrench(self) -> Array:
-        """What the environment does to the tool (6,), N and N m, world axes; measured at the wrist, else estimated."""
+        """The wrench (6,) of the environment on the tool, N and N m, world axes; measured or estimated."""
         return self._in_world(self._contact_wrench())
 
     @property
@@ -49,7 +49,7 @@ class MeasuredArm:
 
     @property
     def still(self) -> bool:
-        """Whether no joint moves."""
+        """Whether all joints are at rest."""
         return bool(np.abs(self.state.dq).max() < STILL_RAD_S)
 
     def at_joints(self, q: Array) -> bool:
@@ -57,11 +57,11 @@ class MeasuredArm:
         return bool(np.abs(self.state.q - q).max() < NEAR_JOINT_RAD)
 
     def in_world(self, point: Array) -> Array:
-        """Return a point (3,) in m of the arm's base frame in the world."""
+        """Return a point (3,) in m of the arm's base frame in the world frame."""
         return self.base().apply(point)
 
     def in_base(self, direction: Array) -> Array:
-        """Return a direction (3,) of the world in the arm's base axes."""
+        """Return a direction (3,) of the world in the axes of the arm's base."""
         return self.base().rotation.T @ direction
 
     def _in_world(self, vector: Array) -> Array:

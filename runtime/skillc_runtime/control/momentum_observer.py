@@ -1,4 +1,4 @@
-"""What a torque-controlled arm without a sensor at its wrist feels: the momentum that its torques do not explain.
+"""Estimates the external wrench on a torque-controlled arm without wrist sensor, from its momentum.
 
 r = (M (dq_1 - dq_0) - int (tau - bias) dt) / T over short windows, low-passed; W = (J J^T + lam^2 I)^-1 J r.
 De Luca et al. 2006, with the mass matrix taken as constant within a window.
@@ -17,17 +17,17 @@ from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, prod
 from skillc_runtime.motion.pose import Array
 
 WINDOW_S = 0.01
-"""How long momentum is gathered before it is compared."""
+"""Time over which momentum is integrated before it is compared."""
 
 LAG_S = 0.01
 """Time constant of the low-pass on the comparison."""
 
 DAMPING = 1e-3
-"""lam^2: near a singularity a force along the lost direction is felt less, instead of noise being felt as force."""
+"""lam^2: near a singularity it reduces the estimate along the lost direction instead of amplifying noise."""
 
 
 class MomentumObserver:
-    """Estimates the wrench of the environment on the tool from what one arm was commanded and how it moved."""
+    """Estimates the wrench of the environment on the tool of one arm from its commands and its motion."""
 
     def __init__(self, state: ArmState) -> None:
         joints = state.q.size
@@ -36,11 +36,11 @@ class MomentumObserver:
         self._elapsed = 0.0
 
     def add_command(self, tau: Array, bias: Array, period: float) -> None:
-        """Take in the joint torques (nv,) in N m, bias included, that hold for the next `period` s, and the bias."""
+        """Add the joint torques tau (nv,) in N m, bias included, of the next `period` s, and the bias (nv,)."""
         add_impulse(self._impulse, tau, bias, period)
 
     def step(self, state: ArmState, period: float) -> None:
-        """Take in what was measured at the end of a period of `period` s."""
+        """Update the estimate with the state measured at the end of a period of `period` s."""
         self._elapsed += period
         if self._elapsed > WINDOW_S - period / 2:
             share = 1 - exp(-self._elapsed / LAG_S)
@@ -57,7 +57,7 @@ class MomentumObserver:
 
 @compiled
 def add_impulse(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
-    """Add to the impulse (nv,) what tau gives beside the bias of the period's start."""
+    """Add (tau - bias) period to the impulse (nv,) in N m s; tau, bias (nv,): N m, period: s."""
     for j in range(impulse.size):
         impulse[j] += (tau[j] - bias[j]) * period
 
@@ -66,7 +66,10 @@ def add_impulse(impulse: OutVector, tau: Vector, bias: Vector, period: float) ->
 def update_external_torque(
     torque: OutVector, impulse: OutVector, dq: OutVector, dq_now: Vector, mass: Matrix, elapsed: float, share: float
 ) -> None:
-    """Let the torque (nv,) of the surroundings follow M (dq_now - dq) - impulse per s; begin a new window."""
+    """Let the external torque (nv,) in N m follow (M (dq_now - dq) - impulse) / elapsed; begin a new window.
+
+    impulse (nv,): N m s; dq, dq_now (nv,): rad/s, at start and end; mass (nv, nv): kg m^2; elapsed: s.
+    """
     faster, gained = np.empty(torque.size), np.empty(torque.size)
     for j in range(torque.size):
         faster[j] = dq_now[j] - dq[j]
@@ -78,7 +81,10 @@ def update_external_torque(
 
 @compiled
 def estimate_wrench(wrench: OutVector, torque: Vector, J: Matrix) -> None:
-    """wrench (6,) = (J J^T + lam^2 I)^-1 J torque."""
+    """wrench (6,) = (J J^T + lam^2 I)^-1 J torque, N and N m, base axes.
+
+    torque (nv,): N m; J (6, nv): [linear m; angular rad] per rad, base axes.
+    """
     gram, force = np.empty((6, 6)), np.empty(6)
     product(J, J.T, gram)
     for i in range(6):

@@ -1,4 +1,4 @@
-"""Moving the tool or the joints of one arm, for skills."""
+"""Motions of the tool or the joints of one arm, for skills."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 
 
 class MotionControl:
-    """Implements `MotionInterface` for an arm whose joint motions keep the tool below a speed in m/s.
+    """Implements `MotionInterface` for an arm; joint motions keep the tool below a speed in m/s.
 
     A new motion starts where the one before it comes to rest, never at the measured pose.
     """
@@ -21,7 +21,7 @@ class MotionControl:
 
     @property
     def reference(self) -> Reference:
-        """Where the tool shall be, in the world, as of the last control period."""
+        """The reference of the tool in the world, of the last control period."""
         task = self._task
         if task.joints is None:
             return task.tool.reference.transform(task.base())
@@ -37,40 +37,40 @@ class MotionControl:
 
     @property
     def done(self) -> bool:
-        """Whether the reference rests, overlays aside."""
+        """Whether the reference without overlays is at rest."""
         task = self._task
         return (task.joints or task.tool.reference_generator).done(task.now)
 
     @property
     def at_rest(self) -> bool:
-        """Whether the reference rests and no overlay is left."""
+        """Whether the reference is at rest and no overlay is left."""
         task = self._task
         return (task.joints or task.tool.reference_generator).at_rest(task.now)
 
     @property
     def tracking_error_message(self) -> str | None:
-        """How far the arm is from its reference along what it is to hold, in words; None when near enough."""
+        """A message about the error of the arm along stiff axes; None if it is small."""
         task = self._task
         if task.joints is not None:
             return task.kinematics.tracking_error_message(task.joints.sample(task.now).q, task.measured.state.q)
         return task.tool.tracking_error_message(task.measured.state, task.now)
 
     def stopping_pose(self) -> Pose:
-        """Return where a new motion of the tool starts, in the world: where its reference rests when stopped now.
+        """Return the pose in the world where a new motion of the tool starts: where its reference rests if stopped now.
 
-        An arm that moves its joints moves its tool from now on.
+        Switches the arm to tool control.
         """
         tool = self._task.move_tool()
         return self._task.base() @ tool.reference_generator.stopping_pose(self._task.now)
 
     def stopping_joints(self) -> Array:
-        """Return where a new motion of the joints starts, (nv,) in rad; asking changes nothing."""
+        """Return the joints (nv,) in rad where a new motion of the joints starts; nothing changes."""
         return (self._task.joints or self._task.stopping_joint_reference()).stopping_joints(self._task.now)
 
     def move_along(self, trajectory: Trajectory) -> None:
-        """Move the tool along a trajectory in the world, more slowly where a joint would be too fast.
+        """Move the tool along a trajectory in the world, slowed down if a joint would be too fast.
 
-        ValueError where it does not start at `stopping_pose`; Infeasible where the arm cannot follow.
+        Raises ValueError if it does not start at `stopping_pose`, Infeasible if the arm cannot follow it.
         """
         task, tool = self._task, self._task.move_tool()
         state = task.measured.state
@@ -78,10 +78,10 @@ class MotionControl:
         tool.reference_generator.follow(task.kinematics.slow_to_feasible(local, q, task.limits, state), task.now)
 
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
-        """Return the motion of the joints from where they come to rest through all of `way`, each (nv,) in rad.
+        """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
 
-        share: of their greatest speeds, above 0 to 1, less where the tool would be too fast. Postures on the way are
-        passed without a stop if `blend` > 0, to 1 at most.
+        share: of the greatest joint speeds, above 0 to 1; reduced if the tool would be too fast. blend: share, 0 to 1,
+        of the possible overlap at each intermediate posture; the motion stops there at 0.
         """
         task = self._task
         postures, speeds = (self.stopping_joints(), *way), (share, self._tool_speed_m_s)
@@ -92,11 +92,11 @@ class MotionControl:
         self.follow_joints(self.joint_motion((goal,), share))
 
     def follow_joints(self, motion: JointTrajectory) -> None:
-        """Move the joints along a motion, which must start at `stopping_joints`, else ValueError."""
+        """Move the joints along a motion; ValueError if it does not start at `stopping_joints`."""
         self._task.move_joints().follow(motion, self._task.now)
 
     def stop(self) -> None:
-        """Come to rest within the acceleration limit; compliance, push and overlays stay."""
+        """Come to rest within the acceleration limit; compliance, push and overlays are kept."""
         self._task.stop()
 
     def hold_position(self) -> None:
@@ -104,17 +104,17 @@ class MotionControl:
         self._task.move_tool().reference_generator.stop(self._task.now)
 
     def pause(self) -> None:
-        """Slow down to a standstill on the way."""
+        """Slow down to a standstill along the motion."""
         (self._task.joints or self._task.tool.reference_generator).pause(self._task.now)
 
     def resume(self) -> None:
-        """Go on where `pause` stopped."""
+        """Continue after `pause`."""
         (self._task.joints or self._task.tool.reference_generator).resume(self._task.now)
 
     def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
-        """Add a motion along `axes` (3, 3), columns in the world, to whatever the tool does; return its handle.
+        """Add an overlay along `axes` (3, 3), columns in the world, to the motion of the tool; return its handle.
 
-        It grows for `fade` s. Infeasible where a joint would be too fast.
+        It fades in for `fade` s. Raises Infeasible if a joint would be too fast.
         """
         task, tool = self._task, self._task.move_tool()
         in_base = task.base().rotation.T @ axes
@@ -122,13 +122,13 @@ class MotionControl:
         return tool.reference_generator.add(overlay, in_base, fade, task.now)
 
     def remove_overlay(self, handle: int) -> None:
-        """Let an overlay fade out."""
+        """Fade an overlay out."""
         self._task.tool.reference_generator.remove(handle, self._task.now)
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
-        """Return joints (nv,) in rad, within limits, that put the tool at a pose of the world; None if there are none.
+        """Return joints (nv,) in rad, within limits, with the tool at a pose in the world; None if there are none.
 
-        They are near `seed` (nv,).
+        The result is near `seed` (nv,).
         """
         task = self._task
         return task.kinematics.inverse_kinematics(

@@ -1,4 +1,4 @@
-"""Keeping the posture of a redundant arm without moving its tool.
+"""Keeps the posture of a redundant arm without moving its tool.
 
 tau_0 = k (q_n - q) - d dq;  (J J^T + lam^2 I) y = J tau_0;  tau_null = tau_0 - J^T y
 A share lam^2 / (s_i^2 + lam^2) of tau_0 reaches the tool along singular direction i, so lam stays tiny until the arm
@@ -25,7 +25,7 @@ SINGULAR_BELOW, SINGULAR_REGULARISATION = 5e-3, 1e-2
 
 
 class Nullspace:
-    """Pulls towards `rest` (nv,) in rad with `stiffness` N m/rad."""
+    """A torque towards the posture `rest` (nv,) in rad with `stiffness` N m/rad."""
 
     def __init__(self, stiffness: float, joints: int) -> None:
         self.rest = np.zeros(joints)
@@ -43,7 +43,7 @@ class Nullspace:
 
 @inlined
 def regularisation(manipulability: float) -> float:
-    """Return lam^2 for the manipulability seen last."""
+    """Return lam^2 for the manipulability of the period before; both have no unit."""
     near = max(0.0, 1 - manipulability / SINGULAR_BELOW)
     return REGULARISATION + SINGULAR_REGULARISATION * near * near
 

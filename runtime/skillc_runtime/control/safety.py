@@ -1,4 +1,4 @@
-"""What no skill may do to an arm or with it: limits on force, speed and place of the tool, from knowledge."""
+"""Safety limits of an arm: contact force, speed and workspace of its tool, whichever skill moves it."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from skillc_runtime.motion.numerics.linear import times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 
 CHECK_PERIOD_S = 0.005
-"""How often the limits are looked at."""
+"""Period with which limits are checked."""
 
 
 @dataclass(frozen=True, slots=True)
 class Workspace:
-    """A box: its middle and axes in the arm's base frame, its size (3,) in m."""
+    """A box that the tool must not leave: the pose of its centre in the arm's base frame, its size (3,) in m."""
 
     middle: Pose
     size: Array
 
     def outside(self, point: Array) -> float:
-        """Return how far in m a point (3,) of the base frame is outside; 0 within."""
+        """Return the distance in m of a point (3,) of the base frame from the box; 0 inside."""
         return distance_outside(point, self.middle.position, self.middle.rotation, self.size)
 
 
 @dataclass(frozen=True, slots=True)
 class SafetyLimits:
-    """What makes an arm stop, whoever moves it.
+    """Limits beyond which an arm is stopped.
 
-    contact_force_n: of the tool on its surroundings; tool_speed_m_s: of the tool centre point; workspace: where that
-    must stay, fixed to the arm's base, None for anywhere.
+    contact_force_n: of the tool on its surroundings; tool_speed_m_s: of the tool centre point; workspace: which the
+    tool centre point must not leave, in the base frame, None for no limit.
     """
 
     contact_force_n: float = inf
@@ -44,7 +44,7 @@ class SafetyLimits:
 
 
 class SafetyMonitor:
-    """Watches the limits of one arm; a violation is reported once, until the arm is within its limits again."""
+    """Monitors the limits of one arm; a violation is reported once, until the arm is within its limits again."""
 
     def __init__(self, limits: SafetyLimits, state: ArmState, torque: bool) -> None:
         self.limits = limits
@@ -52,12 +52,12 @@ class SafetyMonitor:
         self._age, self._violated = 0.0, False
 
     def add_command(self, command: Command, bias: Array, period: float) -> None:
-        """Take in what the arm is commanded for the next `period` s, and its bias (nv,) in N m."""
+        """Store the command for the next `period` s, and the bias (nv,) in N m."""
         if self.momentum_observer is not None and isinstance(command, Torque):
             self.momentum_observer.add_command(command.tau, bias, period)
 
     def violation(self, state: ArmState, period: float) -> str | None:
-        """Return which limit is broken, once per violation; to be called every control period."""
+        """Return which limit is violated, once per violation; to be called every control period, of `period` s."""
         if self.momentum_observer is not None:
             self.momentum_observer.step(state, period)
         self._age += period
@@ -83,7 +83,7 @@ class SafetyMonitor:
 
 @compiled
 def tool_speed(J: Matrix, dq: Vector) -> float:
-    """Return the speed of the tool in m/s. J (6, nv): [linear m; angular rad] per rad; dq (nv,): rad/s."""
+    """Return the speed of the tool in m/s. J (6, nv): [linear m; angular rad] per rad, any frame; dq (nv,): rad/s."""
     twist = np.empty(6)
     times(J, dq, twist)
     return sqrt(twist[0] * twist[0] + twist[1] * twist[1] + twist[2] * twist[2])
@@ -91,7 +91,10 @@ def tool_speed(J: Matrix, dq: Vector) -> float:
 
 @compiled
 def distance_outside(point: Vector, middle: Vector, axes: Matrix, size: Vector) -> float:
-    """Return how far in m a point is outside a box with axes (3, 3) and size (3,); 0 within."""
+    """Return the distance in m of a point (3,) from a box with centre (3,), axes (3, 3) and size (3,); 0 inside.
+
+    All in m, in the same frame.
+    """
     away, along, square = np.empty(3), np.empty(3), 0.0
     for i in range(3):
         away[i] = point[i] - middle[i]

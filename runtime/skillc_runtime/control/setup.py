@@ -1,4 +1,4 @@
-"""What an arm is set up with: all that drives it must know of it besides what it measures."""
+"""The setup of an arm: everything that its driver needs besides measurements."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from skillc_runtime.motion.pose import Pose
 class ArmSetup:
     """One arm, the gains of its controller and the limits of its joints.
 
-    `virtual` is the arm's `virtual_model`, `base` returns where the arm stands in the world, `period` s is from one
-    command to the next. An arm that breaks a limit of `safety` holds still at once, whoever moves it.
+    `virtual` is of `load_virtual_model`; `base` returns the pose of the arm's base in the world; `period` is the
+    control period in s. An arm that violates a limit of `safety` is held at once.
     """
 
     arm: Arm

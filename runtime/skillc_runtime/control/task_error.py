@@ -1,4 +1,4 @@
-"""The error of the tool in the compliance frame, as all laws need it."""
+"""The error of the tool in the compliance frame, for all control laws."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 
 CLAMP_M, CLAMP_RAD = 0.05, 0.3
-"""Greatest error that a spring sees, so that a wrong goal cannot produce an unbounded force."""
+"""Greatest error that acts on a spring, so that a wrong goal cannot produce an unbounded force."""
 
 ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING, BRAKING = range(9)
 """Rows of `TaskError.rows`."""
@@ -22,15 +22,15 @@ ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING, BRAKING 
 
 @dataclass(frozen=True, slots=True)
 class TaskError:
-    """What `task_error` computes, and what laws make of it, along the axes of the compliance frame C.
+    """Errors, velocities and forces along the axes of the compliance frame C.
 
     axes (3, 3): C in base. rows (9, 6), each [linear; angular]: ERROR, tool minus reference, m and rad, clamped in
     length; TWIST, m/s and rad/s, and ACCELERATION, per s, of the reference; MEASURED: the velocity of the tool, m/s and
-    rad/s, or the wrench on it, N and N m, whichever a law gives; HELD: 1 for a stiff axis, 0 for a released one,
-    between below a tenth of the full stiffness; SOFTNESS: ten times the inverse of the full stiffness, m/N and
+    rad/s, or the wrench on it, N and N m, as the law passes it; HELD: 1 for a stiff axis, 0 for a released one,
+    between them below a tenth of the full stiffness; SOFTNESS: ten times the inverse of the full stiffness, m/N and
     rad/(N m). For the impedance law: EXERTED, N and N m; DAMPING and BRAKING, N s/m and N m s/rad.
 
-    One block of rows is one argument: what a compiled call costs beside its work grows with their number.
+    All rows are one array, since each argument of a compiled call costs time.
     """
 
     axes: OutMatrix
@@ -38,7 +38,7 @@ class TaskError:
 
 
 def make_task_error(stiffness: Array) -> TaskError:
-    """Return room for the errors of an arm whose axes have `stiffness` (6,), N/m and N m/rad, when unreleased."""
+    """Return the arrays for an arm with `stiffness` (6,) along the axes of C, N/m and N m/rad, without releases."""
     task = TaskError(np.eye(3), np.zeros((9, 6)))
     task.rows[SOFTNESS] = 10 / stiffness
     return task
@@ -48,9 +48,9 @@ def make_task_error(stiffness: Array) -> TaskError:
 def compute_task_error(
     task: TaskError, tool: Pose, reference: Reference, compliance: Compliance, measured: Array
 ) -> None:
-    """Compute axes and the first five rows of `task`; measured (6,) and tool in base.
+    """Compute axes and the first five rows of `task`; measured (6,), m/s and rad/s or N and N m, and tool in base.
 
-    HELD scales the first three rows, since a released axis follows no reference.
+    HELD scales the first three rows, since a released axis does not follow the reference.
     """
     rows, axes, rotation, in_base = task.rows, task.axes, reference.rows[1:4], np.empty((8, 3))
     product(rotation, compliance.frame, axes)
@@ -71,7 +71,7 @@ def compute_task_error(
 
 @inlined
 def clamp_length(vector: Array, longest: float) -> None:
-    """Shorten a vector (3,) in place to a length."""
+    """Scale a vector (3,), in any frame and any unit, down in place to a length of at most `longest`."""
     square = vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
     if square > longest * longest:
         vector *= longest / sqrt(square)
@@ -79,6 +79,6 @@ def clamp_length(vector: Array, longest: float) -> None:
 
 @inlined
 def speed_excess(velocity: float, fastest: float) -> float:
-    """Return by how much a velocity is over the greatest one, both in m/s, whose sign says which way that holds."""
+    """Return by how much a velocity in m/s exceeds `fastest` m/s in the direction of the sign of `fastest`; else 0."""
     excess = velocity - fastest
     return excess if excess * fastest > 0 else 0.0

@@ -1,9 +1,9 @@
-"""One arm alone, without motors and weight: its kinematics, and light virtual masses that make the tool move evenly.
+"""A model of one arm without motors and weight: its kinematics, and virtual masses for forward-dynamics compliance.
 
 The virtual model of forward-dynamics compliance (Scherzinger 2017): 1 kg and 1 kg m^2 at the tool centre point, a
-hundredth of it at every link's origin, no gravity; so the tool responds to a wrench nearly alike in all directions.
-Links of a tenth, as first published, let an acceleration in the plane push along the normal: 4.7 % rms at the frequency
-of a circle of 15 mm, where these have 1.4 %. Without the Coriolis forces the mean force is 1 % too low.
+hundredth of it at every link's origin, no gravity; so the response of the tool to a wrench is nearly isotropic. With
+links of a tenth, as published, an acceleration in the plane causes a force along the normal: 4.7 % rms at the frequency
+of a circle of 15 mm, compared with 1.4 %. Without Coriolis forces the mean force is 1 % too low.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ TOOL_MASS_KG, TOOL_INERTIA = 1.0, 1.0
 
 
 def load_virtual_model(path: Path) -> mujoco.MjModel:
-    """Load an arm's MJCF, which has a site `flange`, with virtual masses; its root stands for the arm's base frame."""
+    """Load an arm's MJCF, which has a site `flange`, with virtual masses; its root is the arm's base frame."""
     spec = mujoco.MjSpec.from_file(str(path))
     for part in (*spec.geoms, *spec.actuators, *spec.sensors, *spec.keys):
         spec.delete(part)
@@ -48,7 +48,7 @@ def _concentrate(body: mujoco.MjsBody, mass: float, inertia: float) -> None:
 
 @dataclass(frozen=True, slots=True)
 class VirtualState:
-    """Where a virtual arm is and what it weighs, in the arm's base frame; the arrays change with the arm.
+    """Pose and dynamics of a virtual arm, in the arm's base frame; the arrays change with the arm.
 
     tool: the tool centre point; jacobian (6, nv): [linear m; angular rad] per rad; inertia (nv, nv): kg m^2, may be
     overwritten; bias (nv,): N m, Coriolis and centrifugal.
@@ -63,7 +63,7 @@ class VirtualState:
 class VirtualArm:
     """Kinematics and virtual inertia at joint positions q, in the arm's base frame. Arrays are reused.
 
-    `state` is all of it. `virtual` is what `virtual_model` makes; it is copied, since the place of the tool changes.
+    `state` has all results. `virtual` is from `load_virtual_model`; it is copied, since the tool's pose in it changes.
     """
 
     def __init__(self, virtual: mujoco.MjModel) -> None:
@@ -82,34 +82,37 @@ class VirtualArm:
 
     @property
     def tool(self) -> Pose:
-        """Where the tool centre point is, in base; a copy."""
+        """The tool centre point in base; a copy."""
         return Pose(self._position.copy(), self._rotation.copy())
 
     def joint_name(self, index: int) -> str:
-        """Return what the arm's model calls a joint, counted from 0; one without a name by its number from 1."""
+        """Return the name of a joint, counted from 0, in the arm's model, or its number from 1 if it has none."""
         name = self._model.joint(index).name
         return f"the joint {name}" if name else f"joint {index + 1}"
 
     def mount_tool(self, q: Array, tool: Pose) -> None:
-        """Place the tool centre point on the hand so that it is at `tool`, in base, for q (nv,) rad and move there."""
-        self._hang(self._flange)
+        """Place the tool centre point on the hand so that it is at `tool` in base for joints q (nv,) in rad.
+
+        Move there.
+        """
+        self._place_tool(self._flange)
         self.update_kinematics(q)
-        self._hang(self._flange @ self.tool.inverse() @ tool)
+        self._place_tool(self._flange @ self.tool.inverse() @ tool)
         self.update_kinematics(q)
 
-    def _hang(self, mount: Pose) -> None:
+    def _place_tool(self, mount: Pose) -> None:
         self._model.body_pos[self._body] = mount.position
         self._model.body_quat[self._body] = quaternion_from_rotation(mount.rotation)
 
     def update_kinematics(self, q: Array) -> None:
-        """Take joint positions q (nv,) in rad and update `tool` and `jacobian` (6, nv)."""
+        """Update `tool` and `jacobian` (6, nv) for joint positions q (nv,) in rad."""
         self._qpos[:] = q
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
         mujoco.mj_jacBody(self._model, self._data, self._jacp, self._jacr, self._body)
 
     def update_dynamics(self, dq: Array) -> None:
-        """Update `inertia` (nv, nv) and, at dq (nv,) rad/s, `bias` (nv,): N m of Coriolis and centrifugal forces."""
+        """Update `inertia` (nv, nv) in kg m^2 and, for dq (nv,) in rad/s, the Coriolis forces `bias` (nv,) in N m."""
         self._data.qvel[:] = dq
         mujoco.mj_comVel(self._model, self._data)
         mujoco.mj_rne(self._model, self._data, 0, self.bias)

@@ -1,24 +1,27 @@
-"""Notices when whoever moves devices is not heard of any more: a tree that is not ticked, say."""
+"""Detects that a client of devices, for example a behaviour tree, sends no heartbeats any more."""
 
 from __future__ import annotations
 
 from math import inf
 
 HEARTBEAT_TIMEOUT_S = 0.25
-"""Silence after which everything is stopped; a tree ticks at 50 to 100 Hz."""
+"""Time without heartbeat after which all devices are stopped; a tree ticks at 50 to 100 Hz."""
 
 
 class HeartbeatWatchdog:
-    """Implements `Watchdog`: whoever has beaten once must go on until it retires. Times: s of the cell's clock."""
+    """Implements `Watchdog`: a client that has sent a heartbeat must continue until it retires.
 
-    def __init__(self, patience_s: float = HEARTBEAT_TIMEOUT_S) -> None:
-        self._patience = patience_s
+    Times: s of the cell.
+    """
+
+    def __init__(self, timeout_s: float = HEARTBEAT_TIMEOUT_S) -> None:
+        self._timeout = timeout_s
         self._last: dict[object, float] = {}
         self._late: set[object] = set()
         self._due = inf
 
     def beat(self, who: object, now: float) -> bool:
-        """Take a sign of life; False when it comes too late and devices have been stopped meanwhile."""
+        """Receive a heartbeat; False if it is too late and devices have been stopped."""
         if who in self._late:
             return False
         self._last[who] = now
@@ -26,21 +29,21 @@ class HeartbeatWatchdog:
         return True
 
     def retire(self, who: object) -> None:
-        """Expect nothing of it any more."""
+        """Expect no further heartbeats of a client."""
         self._last.pop(who, None)
         self._late.discard(who)
         self._due = self._earliest()
 
     def expired(self, now: float) -> bool:
-        """Tell, once for everybody who is late, that devices must be stopped."""
+        """Tell, once for each late client, that devices must be stopped."""
         if now <= self._due:
             return False
-        late = {who for who, last in self._last.items() if now - last > self._patience}
+        late = {who for who, last in self._last.items() if now - last > self._timeout}
         self._late |= late
         self._last = {who: last for who, last in self._last.items() if who not in late}
         self._due = self._earliest()
         return True
 
     def _earliest(self) -> float:
-        """Return when the first of all must have beaten again."""
-        return min(self._last.values(), default=inf) + self._patience
+        """Return the time by which the next heartbeat must arrive."""
+        return min(self._last.values(), default=inf) + self._timeout

@@ -1,4 +1,4 @@
-"""Protocols and values of devices: arms, grippers, bases, sensors and the cell that has them, simulated or real.
+"""Protocols and values of devices: arms, grippers, bases, sensors and their cell, simulated or real.
 
-Start with `cell`, then `arm` (what is read and commanded once a control period) and `arm_driver` (what skills see).
+Start with `cell`, then `arm` (read and commanded once a control period) and `arm_driver` (the interface for skills).
 """

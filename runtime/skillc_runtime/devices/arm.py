@@ -1,4 +1,4 @@
-"""The seam between a controller and an arm, simulated or real."""
+"""The interface between a controller and an arm, simulated or real."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from skillc_runtime.motion.pose import Array, Pose
 
 @dataclass(frozen=True, slots=True)
 class ArmState:
-    """What an arm measures at one instant, in the arm's base frame; reference point is the tool centre point.
+    """The measurements of an arm at one instant, in the arm's base frame, at the tool centre point.
 
     q, dq (nv,): rad, rad/s. tool: tool centre point in base. jacobian (6, nv): [linear m; angular rad] per rad.
-    mass_matrix (nv, nv): kg m^2. bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): what
-    the environment does to the tool, N and N m, base axes, tool weight removed; zeros where the arm has no such sensor.
+    mass_matrix (nv, nv): kg m^2. bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): of
+    the environment on the tool, N and N m, base axes, without tool weight; zeros if the arm has no sensor for it.
     """
 
     q: Vector
@@ -29,7 +29,7 @@ class ArmState:
 
 @dataclass(frozen=True, slots=True)
 class Torque:
-    """Joint torques (nv,) in N m, gravity compensation included."""
+    """Joint torques (nv,) in N m, including gravity compensation."""
 
     tau: Array
 
@@ -50,11 +50,11 @@ class JointVelocity:
 
 Command: TypeAlias = Torque | JointPosition | JointVelocity
 Mode: TypeAlias = Literal["torque", "position", "velocity"]
-"""Which of the commands an arm takes."""
+"""The kind of commands that an arm takes."""
 
 
 def command_values(command: Command) -> Array:
-    """Return what a command consists of, (nv,)."""
+    """Return the values (nv,) of a command: N m, rad or rad/s."""
     match command:
         case Torque(tau=tau):
             return tau
@@ -67,14 +67,14 @@ def command_values(command: Command) -> Array:
 
 
 class ModeRefused(Exception):
-    """An arm does not go over to a mode; it stays in the one it is in. The message is for people."""
+    """An arm cannot switch to a mode and stays in its present one; the message says why."""
 
 
 @dataclass(frozen=True, slots=True)
 class ArmLimits:
-    """What an arm can do: joint range (nv, 2) rad, velocity (nv,) rad/s, effort (nv,) N m, acceleration (nv,) rad/s^2.
+    """Limits of joints: range (nv, 2) rad, velocity (nv,) rad/s, effort (nv,) N m, acceleration (nv,) rad/s^2.
 
-    The acceleration is infinite where nobody states it.
+    The acceleration is infinite if it is not known.
     """
 
     range: Array
@@ -85,7 +85,7 @@ class ArmLimits:
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """What an arm offers: the modes it knows, whether it measures the wrench at its tool, its limits."""
+    """The modes of an arm, whether it measures the wrench at its tool, and its limits."""
 
     modes: tuple[Mode, ...]
     feels_force: bool
@@ -93,23 +93,23 @@ class Capabilities:
 
 
 class Arm(Protocol):
-    """An arm that is read and commanded once a control period; one that is not commanded any more holds still.
+    """An arm that is read and commanded once a control period; it holds still if commands stop.
 
-    `tests/backends` says what is expected of every implementation.
+    `tests/backends` tests every implementation.
     """
 
     @property
     def capabilities(self) -> Capabilities:
-        """What the arm offers."""
+        """The capabilities of the arm."""
         ...
 
     @property
     def interface(self) -> Mode:
-        """Which command the arm takes at present."""
+        """The kind of commands that the arm takes at present."""
         ...
 
     def switch(self, mode: Mode) -> None:
-        """Take commands of this kind from now on, holding still until the first; ModeRefused where it cannot."""
+        """Take commands of this kind from now on, holding still until the first; ModeRefused if it cannot."""
         ...
 
     def state(self) -> ArmState:
@@ -117,5 +117,5 @@ class Arm(Protocol):
         ...
 
     def command(self, command: Command) -> None:
-        """Take a command for the next control period; TypeError for a kind the interface does not take."""
+        """Take a command for the next control period; TypeError for another kind than `interface`."""
         ...

@@ -1,4 +1,4 @@
-"""What skills see of an arm: what it measures, its motions, its compliance. `control` drives arms in this way."""
+"""The interface of an arm for skills: measurements, motion and compliance. `control` implements it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 
 
 class Infeasible(ValueError):
-    """An arm cannot follow a motion: `problem` names the joint or the distance, `place` (3,) m is in the arm's base."""
+    """An arm cannot follow a motion: `problem` names the joint or the distance, `place` (3,) m is in the base frame."""
 
     def __init__(self, problem: str, place: Array) -> None:
         x, y, z = place
@@ -24,7 +24,7 @@ class Infeasible(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class TaskLimits:
-    """What skills may ask an arm for: force N, speed m/s, acceleration m/s^2 of its tool, jerk m/s^3 of its motions."""
+    """Limits of skills: force N, speed m/s and acceleration m/s^2 of the tool, jerk m/s^3 of motions."""
 
     force_n: float
     speed_m_s: float
@@ -34,7 +34,7 @@ class TaskLimits:
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """Something pushes back with more than `force_n` N for `for_s` s, once the tool approaches steadily."""
+    """The contact force exceeds `force_n` N for `for_s` s, once the tool approaches steadily."""
 
     force_n: float = 2.0
     for_s: float = 0.005
@@ -42,7 +42,7 @@ class Contact:
 
 @dataclass(frozen=True, slots=True)
 class Standstill:
-    """A tool stays below a share of its approach speed for `for_s` s; `from_start_s` where it never got going."""
+    """The tool is slower than a share of its approach speed for `for_s` s, or `from_start_s` if it has not moved."""
 
     share: float = 1 / 3
     for_s: float = 0.02
@@ -51,21 +51,21 @@ class Standstill:
 
 @dataclass(frozen=True, slots=True)
 class Travel:
-    """The tool has gone farther than `distance_m` m."""
+    """The tool has moved farther than `distance_m` m."""
 
     distance_m: float
 
 
 StopCondition: TypeAlias = Contact | Standstill | Travel
-"""What ends a phase of a motion; evaluated once a control period, so that no skill has to run there."""
+"""A condition that ends a phase of a motion; evaluated once a control period, without code of skills."""
 
 
 @dataclass(frozen=True, slots=True)
 class GuardedPush:
-    """Approach what lies opposite to `along`, a unit vector (3,) in the world, and press on it with `force_n` N.
+    """Approach a surface opposite to `along`, a unit vector (3,) in the world, and press on it with `force_n` N.
 
-    It is touched when any of some conditions is met; where it gives way later, the tool approaches again. The arm stops
-    where nothing is met within the travel, and where the tool sinks by as much after it was touched.
+    There is contact when any of the conditions is met; if it is lost later, the tool approaches again. The arm stops if
+    there is no contact within the travel, or the tool sinks by as much after contact.
     """
 
     along: Array
@@ -76,16 +76,16 @@ class GuardedPush:
 
 
 class PushProgress(Protocol):
-    """A guarded push under way."""
+    """A guarded push in progress."""
 
     @property
     def has_touched(self) -> bool:
-        """Whether something has been met."""
+        """Whether contact was made at some time."""
         ...
 
 
 class ArmMeasurements(Protocol):
-    """What an arm measured last, in world axes; arrays are copies."""
+    """The last measurement of an arm, in world axes; arrays are copies."""
 
     @property
     def pose(self) -> Pose:
@@ -99,7 +99,7 @@ class ArmMeasurements(Protocol):
 
     @property
     def wrench(self) -> Array:
-        """What the environment does to the tool (6,), N and N m; measured at the wrist, else estimated."""
+        """The wrench (6,) of the environment on the tool, N and N m; measured or estimated."""
         ...
 
     @property
@@ -112,19 +112,19 @@ class ArmMeasurements(Protocol):
         ...
 
     def in_world(self, point: Array) -> Array:
-        """Return a point (3,) in m of the arm's base frame in the world."""
+        """Return a point (3,) in m of the arm's base frame in the world frame."""
         ...
 
 
 class MotionInterface(Protocol):
-    """Moves the tool or the joints; poses, directions and axes are of the world, so arms on a driving base come along.
+    """Moves the tool or the joints. Poses, directions and axes are in the world, so the base of an arm may move.
 
     A new motion starts where the one before it comes to rest, never at the measured pose.
     """
 
     @property
     def reference(self) -> Reference:
-        """Where the tool shall be, in the world, as of the last control period."""
+        """The reference of the tool in the world, of the last control period."""
         ...
 
     @property
@@ -134,34 +134,34 @@ class MotionInterface(Protocol):
 
     @property
     def done(self) -> bool:
-        """Whether the reference rests, overlays aside."""
+        """Whether the reference without overlays is at rest."""
         ...
 
     @property
     def tracking_error_message(self) -> str | None:
-        """How far the arm is from its reference along what it is to hold, in words; None when near enough."""
+        """A message about the error of the arm along stiff axes; None if it is small."""
         ...
 
     def stopping_pose(self) -> Pose:
-        """Return where a new motion of the tool starts, in the world; the arm moves its tool from now on."""
+        """Return the pose in the world where a new motion of the tool starts; switches the arm to tool control."""
         ...
 
     def stopping_joints(self) -> Array:
-        """Return where a new motion of the joints starts, (nv,) in rad; asking changes nothing."""
+        """Return the joints (nv,) in rad where a new motion of the joints starts; nothing changes."""
         ...
 
     def move_along(self, trajectory: Trajectory) -> None:
-        """Move the tool along a trajectory in the world, more slowly where a joint would be too fast.
+        """Move the tool along a trajectory in the world, slowed down if a joint would be too fast.
 
-        ValueError where it does not start at `stopping_pose`; Infeasible where the arm cannot follow.
+        Raises ValueError if it does not start at `stopping_pose`, Infeasible if the arm cannot follow it.
         """
         ...
 
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
-        """Return the motion of the joints from where they come to rest through all of `way`, each (nv,) in rad.
+        """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
 
-        share: of their greatest speeds, above 0 to 1. Postures on the way are passed without a stop if `blend` > 0, to
-        1 at most.
+        share: of the greatest joint speeds, above 0 to 1. blend: share, 0 to 1, of the possible overlap at each
+        intermediate posture; the motion stops there at 0.
         """
         ...
 
@@ -170,78 +170,78 @@ class MotionInterface(Protocol):
         ...
 
     def follow_joints(self, motion: JointTrajectory) -> None:
-        """Move the joints along a motion, which must start at `stopping_joints`, else ValueError."""
+        """Move the joints along a motion; ValueError if it does not start at `stopping_joints`."""
         ...
 
     def stop(self) -> None:
-        """Come to rest within the acceleration limit; compliance, push and overlays stay."""
+        """Come to rest within the acceleration limit; compliance, push and overlays are kept."""
         ...
 
     def pause(self) -> None:
-        """Slow down to a standstill on the way."""
+        """Slow down to a standstill along the motion."""
         ...
 
     def resume(self) -> None:
-        """Go on where `pause` stopped."""
+        """Continue after `pause`."""
         ...
 
     def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
-        """Add a motion along `axes` (3, 3), columns in the world, growing for `fade` s; return its handle.
+        """Add an overlay along `axes` (3, 3), columns in the world, which fades in for `fade` s; return its handle.
 
-        Infeasible where a joint would be too fast.
+        Raises Infeasible if a joint would be too fast.
         """
         ...
 
     def remove_overlay(self, handle: int) -> None:
-        """Let an overlay fade out."""
+        """Fade an overlay out."""
         ...
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
-        """Return joints (nv,) in rad, near `seed`, that put the tool at a pose of the world; None if there are none."""
+        """Return joints (nv,) in rad, near `seed`, with the tool at a pose in the world; None if there are none."""
         ...
 
 
 class ComplianceInterface(Protocol):
-    """Lets the tool yield, and pushes with it; directions (3,) are unit vectors in the world."""
+    """Releases axes of the tool and pushes with it; directions (3,) are unit vectors in the world."""
 
     @property
     def commanded_stiffness(self) -> Array:
-        """The stiffness (6,) that skills want along the axes of the compliance frame, N/m and N m/rad."""
+        """The commanded stiffness (6,) along the axes of the compliance frame, N/m and N m/rad."""
         ...
 
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
-        """Let the tool yield along a direction with a stiffness in N/m.
+        """Release a direction, with a remaining stiffness in N/m.
 
-        Nested releases must be parallel or at right angles to the first, else ValueError.
+        Raises ValueError for a nested release that is neither parallel nor perpendicular to the first.
         """
         ...
 
     def restore(self) -> None:
-        """Undo the last release: hold the tool, along what it has yielded, where it is now. Gives up a motion."""
+        """Undo the last release: hold the tool, along the released axis, where it is now. Abandons a motion."""
         ...
 
     def yields_along(self, axis: Array) -> bool:
-        """Tell whether the tool was released along a direction."""
+        """Tell whether a direction is released."""
         ...
 
     def release_rotation(self) -> None:
-        """Let the tool turn about the two axes across the released one."""
+        """Release the rotations about the two axes perpendicular to the released one."""
         ...
 
     def restore_rotation(self) -> None:
-        """Hold the tool in the rotation that it has now. Gives up a motion."""
+        """Hold the present rotation of the tool. Abandons a motion."""
         ...
 
     def push(self, axis: Array, force_n: float, fastest_m_s: float = inf) -> None:
-        """Press against what lies opposite to a direction, along which the tool must yield; else ValueError."""
+        """Push opposite to a direction, which must be released; ValueError if it is not."""
         ...
 
     def push_off(self) -> None:
-        """Let the push fade."""
+        """Fade the push out."""
         ...
 
     def start_push(self, push: GuardedPush) -> PushProgress:
-        """Begin to approach and then to press; what is returned says how far it is."""
+        """Begin to approach and then to push; the result gives the progress."""
         ...
 
     def end_push(self, push: PushProgress) -> None:
@@ -250,33 +250,33 @@ class ComplianceInterface(Protocol):
 
 
 class ArmDriver(Protocol):
-    """One arm under control. An arm that stops by itself says why in a fault, which whoever moves it takes."""
+    """One arm under control. If an arm stops by itself, `take_fault` returns the reason."""
 
     @property
     def limits(self) -> ArmLimits:
-        """What the joints can do."""
+        """The limits of the joints."""
         ...
 
     @property
     def task_limits(self) -> TaskLimits:
-        """What skills may ask for."""
+        """The limits of skills."""
         ...
 
     @property
     def measured(self) -> ArmMeasurements:
-        """What the arm measured last."""
+        """The last measurement."""
         ...
 
     @property
     def motion(self) -> MotionInterface:
-        """What moves the arm."""
+        """The motion of tool and joints."""
         ...
 
     @property
     def compliance(self) -> ComplianceInterface:
-        """What lets the arm yield and push."""
+        """The compliance and push of the tool."""
         ...
 
     def take_fault(self) -> str | None:
-        """Return why the arm stopped by itself, once; None while it has not."""
+        """Return why the arm stopped by itself, once; None if it did not."""
         ...

@@ -1,4 +1,4 @@
-"""The seam to a mobile base, simulated or real."""
+"""The interface of a mobile base, simulated or real."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from skillc_runtime.motion.pose import Pose
 
 
 class MobileBase(Protocol):
-    """A base that drives on the floor; poses are of its middle on the floor, in the world."""
+    """A base that drives on the floor; poses are of its centre on the floor, in the world frame."""
 
     @property
     def pose(self) -> Pose:
-        """Where the base is."""
+        """The pose of the base."""
         ...
 
     @property
     def done(self) -> bool:
-        """Whether the base stands at the last goal."""
+        """Whether the base has arrived at the last goal."""
         ...
 
     @property
     def at_rest(self) -> bool:
-        """Whether the base stands, at a goal or anywhere else."""
+        """Whether the base does not move, at a goal or elsewhere."""
         ...
 
     def drive_to(self, goal: Pose) -> None:
-        """Begin to drive to a pose: turn towards it, go straight, turn into its heading; returns at once.
+        """Begin to drive to a pose: rotate towards it, drive straight, rotate to its heading; returns at once.
 
         A moving base brakes first.
         """
         ...
 
     def stop(self) -> None:
-        """Brake; `done` becomes false for good until the next goal."""
+        """Brake; `done` is false until the next goal."""
         ...

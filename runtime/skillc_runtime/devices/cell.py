@@ -1,4 +1,4 @@
-"""What primitives work with: the devices of a scene by the IRI of their individual, the time, and the world model."""
+"""The interface of a robot cell for primitives: its devices by IRI, the time, and the world model."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ if TYPE_CHECKING:
 
 
 class WatchdogTimeout(Exception):
-    """Somebody gave no sign of life for so long that everything has been stopped; the message is for people."""
+    """A client sent no heartbeat for so long that all devices have been stopped; the message says so."""
 
 
 class Watchdog(Protocol):
-    """Stops all devices when whoever moves them gives no signs of life. Times are in s of the cell's clock."""
+    """Stops all devices if a client sends no heartbeats any more. Times are in s of the cell's clock."""
 
     def beat(self, who: object, now: float) -> bool:
-        """Take a sign of life; False when it comes too late and devices have been stopped meanwhile."""
+        """Receive a heartbeat; False if it is too late and devices have been stopped."""
         ...
 
     def retire(self, who: object) -> None:
-        """Expect nothing of it any more."""
+        """Expect no further heartbeats of a client."""
         ...
 
 
@@ -34,7 +34,7 @@ class Cell(Protocol):
 
     @property
     def now(self) -> float:
-        """Seconds since the cell started; simulated time in simulation."""
+        """The time in s since the cell started; simulated time in simulation."""
         ...
 
     @property
@@ -44,25 +44,25 @@ class Cell(Protocol):
 
     @property
     def watchdog(self) -> Watchdog:
-        """What every run gives signs of life; when one is missing, all devices stop."""
+        """The watchdog, to which every run sends heartbeats."""
         ...
 
     def arm(self, individual: str) -> ArmDriver:
-        """Return an arm's driver; KeyError where the cell has no such arm."""
+        """Return an arm's driver; KeyError if the cell has no such arm."""
         ...
 
     def gripper(self, individual: str) -> Gripper:
-        """Return a gripper; KeyError where the cell has no such gripper."""
+        """Return a gripper; KeyError if the cell has no such gripper."""
         ...
 
     def base(self, individual: str) -> MobileBase:
-        """Return the mobile base of a robot; KeyError where it has none."""
+        """Return the mobile base of a robot; KeyError if it has none."""
         ...
 
     def camera(self) -> Camera:
-        """Return what inspects surfaces."""
+        """Return the camera that inspects surfaces."""
         ...
 
     def button(self, individual: str) -> Button:
-        """Return a button; KeyError where the cell has no such button."""
+        """Return a button; KeyError if the cell has no such button."""
         ...

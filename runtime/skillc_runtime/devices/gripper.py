@@ -1,4 +1,4 @@
-"""The seam to a gripper, simulated or real."""
+"""The interface of a gripper, simulated or real."""
 
 from __future__ import annotations
 
@@ -10,44 +10,44 @@ from skillc_runtime.motion.pose import Array, Pose
 
 
 class Gripper(Protocol):
-    """Fingers that open and close, and what they hold."""
+    """Fingers that open and close, and the object that they hold."""
 
     @property
     def max_opening_m(self) -> float:
-        """Greatest distance between the fingers."""
+        """The greatest distance between the fingers in m."""
         ...
 
     @property
     def max_force_n(self) -> float:
-        """Greatest grasping force."""
+        """The greatest grasping force in N."""
         ...
 
     @property
     def opening_m(self) -> float:
-        """Measured distance between the fingers."""
+        """The measured distance between the fingers in m."""
         ...
 
     @property
     def moving(self) -> bool:
-        """Whether the fingers still move towards what was asked."""
+        """Whether the fingers still move towards the commanded opening."""
         ...
 
     def move(self, opening_m: float, force_n: float) -> None:
-        """Move the fingers to an opening with at most this force; returns at once."""
+        """Move the fingers to an opening in m with at most a force in N; returns at once."""
         ...
 
     def stop(self) -> None:
-        """Keep the fingers where they are."""
+        """Stop the fingers at their present opening."""
         ...
 
     def touches(self, thing: str) -> bool:
-        """Whether fingers touch a thing (its IRI) from opposite sides."""
+        """Tell whether fingers touch an object, by IRI, from opposite sides."""
         ...
 
     def attach(self, thing: str, in_tool_centre: Pose) -> None:
-        """Count the thing as held from now on, its frame at `in_tool_centre` of the gripper's tool centre point.
+        """Count an object as held, its frame at `in_tool_centre` in the frame of the gripper's tool centre point.
 
-        RuntimeError when the fingers do not touch it from both sides.
+        Raises RuntimeError if the fingers do not touch it from opposite sides.
         """
         ...
 
@@ -57,14 +57,14 @@ class Gripper(Protocol):
 
     @property
     def holding(self) -> str | None:
-        """The thing that counts as held; nothing as soon as the gripper feels that it has lost it."""
+        """The IRI of the object that counts as held; None as soon as the gripper senses that it was lost."""
         ...
 
 
 def working_face(size: Array) -> Pose:
-    """Return the tool centre point of a tool of size (3,) m, in the tool's frame.
+    """Return the tool centre point of a tool of size (3,) in m, in the tool's frame.
 
-    The tool's frame lies in the middle of its block, z away from the working face; the tool centre point lies in the
-    middle of that face, z out of the tool, x along the tool's x.
+    The tool's frame is at the centre of its block, z away from the working face; the tool centre point is at the centre
+    of that face, z out of the tool, x along the tool's x.
     """
     return Pose(np.array([0.0, 0.0, -size[2] / 2]), np.diag([1.0, -1.0, -1.0]))

@@ -1,4 +1,4 @@
-"""What really happens in a cell, which only a simulation knows: for reports and trials, never for skills."""
+"""The true state of a cell, which only a simulation knows: for reports and trials, never for skills."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from skillc_runtime.motion.pose import Array, Pose
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A stretch of a run, one row a step, read-only. Truth from the simulator, in the world, SI units.
+    """A time interval of a run, one row a simulation step, read-only. True values in the world frame, SI units.
 
     force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4),
-    velocity (n, 3): of the middle of that face, z out of the tool. reference, reference_velocity (n, 3): what the
-    arm's controller was asked for; path, path_velocity (n, 3): the same without overlays. on_surface (n,): N, of the
-    force on the face that part which presses on a surface, and not on what lies on it. rows (n, 25): all of it.
+    velocity (n, 3): of the centre of that face, z out of the tool. reference, reference_velocity (n, 3): of the arm's
+    controller; path, path_velocity (n, 3): the same without overlays. on_surface (n,): N, the part of the force that
+    presses on a surface itself, and not on an object on it. rows (n, 25): all columns.
     """
 
     rows: Array
 
     @property
     def time(self) -> Array:
-        """Seconds since the cell started (n,)."""
+        """The time (n,) in s since the cell started."""
         return self.rows[:, 0]
 
     @property
@@ -40,7 +40,7 @@ class Recording:
 
     @property
     def quaternion(self) -> Array:
-        """Orientation of the working face (n, 4), w first."""
+        """Orientation of the working face as unit quaternions (n, 4), (w, x, y, z)."""
         return self.rows[:, 5:9]
 
     @property
@@ -50,22 +50,22 @@ class Recording:
 
     @property
     def reference(self) -> Array:
-        """Position the controller was asked for (n, 3) in m."""
+        """Reference position of the controller (n, 3) in m."""
         return self.rows[:, 12:15]
 
     @property
     def reference_velocity(self) -> Array:
-        """Velocity the controller was asked for (n, 3) in m/s."""
+        """Reference velocity of the controller (n, 3) in m/s."""
         return self.rows[:, 15:18]
 
     @property
     def path(self) -> Array:
-        """Position the controller was asked for, overlays aside (n, 3) in m."""
+        """Reference position without overlays (n, 3) in m."""
         return self.rows[:, 18:21]
 
     @property
     def path_velocity(self) -> Array:
-        """Velocity the controller was asked for, overlays aside (n, 3) in m/s."""
+        """Reference velocity without overlays (n, 3) in m/s."""
         return self.rows[:, 21:24]
 
     @property
@@ -74,34 +74,34 @@ class Recording:
         return self.rows[:, 24]
 
     def between(self, start: float, end: float) -> Recording:
-        """Return the rows with start <= time < end."""
+        """Return the rows with start <= time < end, in s."""
         first, last = np.searchsorted(self.time, (start, end))
         return Recording(self.rows[first:last])
 
-    def without(self, stretches: Sequence[tuple[float, float]]) -> Recording:
-        """Return the rows before the last of some stretches, s, that are in none of them."""
-        wanted = self.time < max(end for _, end in stretches)
-        for start, end in stretches:
+    def without(self, intervals: Sequence[tuple[float, float]]) -> Recording:
+        """Return the rows before the end of the last of some intervals, in s, that are in none of them."""
+        wanted = self.time < max(end for _, end in intervals)
+        for start, end in intervals:
             wanted &= (self.time < start) | (self.time >= end)
         return Recording(self.rows[wanted])
 
 
-def join_recordings(stretches: Sequence[Recording]) -> Recording:
-    """Return the rows of several stretches one after the other."""
-    return stretches[0] if len(stretches) == 1 else Recording(np.concatenate([each.rows for each in stretches]))
+def join_recordings(intervals: Sequence[Recording]) -> Recording:
+    """Return the rows of several recordings, one after the other."""
+    return intervals[0] if len(intervals) == 1 else Recording(np.concatenate([each.rows for each in intervals]))
 
 
 class GroundTruth(Protocol):
-    """The truth about a cell; things are named by their IRIs. `Cell` does not offer it, so no primitive sees it."""
+    """The true state of a cell; objects are named by IRI. `Cell` does not offer it, so primitives have no access."""
 
     def recording(self, tool: str) -> Recording:
-        """Return what was recorded of a tool while it was held; KeyError where the cell has no such tool."""
+        """Return the recording of a tool while it was held; KeyError if the cell has no such tool."""
         ...
 
     def peak_force_n(self, tool: str) -> float:
-        """Return the greatest force on a tool while it was held; KeyError where the cell has no such tool."""
+        """Return the greatest force on a tool while it was held; KeyError if the cell has no such tool."""
         ...
 
     def surface_pose(self, surface: str) -> Pose:
-        """Return where a surface really is, in the world; KeyError where the cell has no such surface."""
+        """Return the true pose of a surface in the world; KeyError if the cell has no such surface."""
         ...

@@ -1,4 +1,4 @@
-"""What inspects surfaces, and buttons: sensors of a cell, simulated or real."""
+"""Interfaces of the sensors of a cell, simulated or real: a camera and buttons."""
 
 from __future__ import annotations
 
@@ -6,21 +6,24 @@ from typing import Protocol
 
 
 class Camera(Protocol):
-    """Looks at surfaces."""
+    """A camera that inspects surfaces."""
 
     def inspect(self, surface: str) -> float:
-        """Return the share of a surface, given by IRI, that is clean; KeyError for a surface that is not there."""
+        """Return the share of a surface, by IRI, that is clean; KeyError if there is no such surface."""
         ...
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
-        """Return the share that was rubbed for so long at least; KeyError for a surface that is not there."""
+        """Return the share of a surface that was rubbed for at least `seconds`.
+
+        KeyError if there is no such surface.
+        """
         ...
 
 
 class Button(Protocol):
-    """A button that somebody else reads, too: a machine starts when it switches."""
+    """A button, for example one that starts a machine."""
 
     @property
     def switched(self) -> bool:
-        """Whether it is pressed so far in that it has switched."""
+        """Whether it is pressed so far that it has switched."""
         ...

@@ -1,4 +1,4 @@
-"""Motions as pure functions of time: paths, profiles, overlays, and the references that follow them.
+"""Motions as pure functions of time: paths, profiles, overlays, and the generators of references along them.
 
-Start with `reference` (what a motion says at one instant), then `path` and `reference_generator`; `numerics` compiles.
+Start with `reference` (a motion at one instant), then `path` and `reference_generator`. `numerics` compiles functions.
 """

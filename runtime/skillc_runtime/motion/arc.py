@@ -1,4 +1,4 @@
-"""One circular piece of motion between two poses, translation and rotation starting and ending together."""
+"""A circular segment of a path between two poses; translation and rotation start and end together."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.motion.smooth import SmoothProfile, smooth_profile
 
 STRAIGHT = 1e-6
-"""Sine below which three points count as lying on a line."""
+"""Sine of the angle between two chords below which three points count as collinear."""
 
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """A way along a circle and a turn about a fixed axis; all vectors in the parent frame.
+    """A motion along a circle and a rotation about a fixed axis; all vectors in the parent frame.
 
-    spoke (3,) m: from the centre to the start; across (3,) m: the spoke turned by a right angle towards the end;
-    axis (3,): unit vector of the turn, or zero.
+    way, turn: the profiles of path length in m and of the rotation angle in rad. spoke (3,) m: from the centre to the
+    start. across (3,) m: the spoke rotated by 90 deg towards the end. axis (3,): unit vector of the rotation, or zero.
     """
 
     way: Profile | SmoothProfile
@@ -33,54 +33,54 @@ class Arc:
 
     @property
     def radius(self) -> float:
-        """The circle's, in m."""
+        """The radius of the circle in m."""
         return float(np.linalg.norm(self.spoke))
 
     @property
     def duration(self) -> float:
-        """Seconds from rest to rest."""
+        """The time in s from rest to rest."""
         return max(self.way.duration, self.turn.duration)
 
     @property
     def rise(self) -> float:
-        """Seconds in which whatever moves is accelerating."""
+        """The acceleration time in s, the shorter of those of translation and rotation."""
         return min(part.rise for part in (self.way, self.turn) if part.length > 0)
 
     @property
     def fall(self) -> float:
-        """Seconds in which whatever moves is decelerating."""
+        """The deceleration time in s, the shorter of those of translation and rotation."""
         return min(part.fall for part in (self.way, self.turn) if part.length > 0)
 
     @property
     def start_direction(self) -> Array:
-        """The unit vector (3,) in which it starts."""
+        """The unit vector (3,) of the direction at the start, in the parent frame."""
         return self.across / self.radius
 
     @property
     def end_direction(self) -> Array:
-        """The unit vector (3,) in which it ends."""
+        """The unit vector (3,) of the direction at the end, in the parent frame."""
         angle = self.way.length / self.radius
         return (cos(angle) * self.across - sin(angle) * self.spoke) / self.radius
 
     def at(self, time: float) -> Array:
-        """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
+        """Return displacement, twist and acceleration (3, 6) `time` s after the start: [linear; angular], m and rad."""
         return piece.sample_segment(self.row, time)
 
     @property
     def row(self) -> Array:
-        """What `piece.motion_at` takes."""
+        """The segment as a row (21,) for `segment_sampling.motion_at`, in m, rad and s."""
         return np.array([*self.way.coefficients, *self.turn.coefficients, *self.axis, *self.spoke, *self.across])
 
     def transform(self, frame: Pose) -> Arc:
-        """Return the same motion, given in `frame`, in the frame's parent."""
+        """Return the same motion in the parent frame of `frame`."""
         R = frame.rotation
         return Arc(self.way, self.turn, R @ self.spoke, R @ self.across, R @ self.axis)
 
 
 def arc_through(start: Pose, via: Array, end: Pose, limits: MotionLimits) -> Arc:
-    """Return the motion from a pose to another along the circle through a point `via` (3,) m between them.
+    """Return the motion between two poses along the circle through a point `via` (3,) m, all in the same frame.
 
-    ValueError where the three points lie on a line or coincide.
+    Raises ValueError if the three points are collinear or coincide.
     """
     one, other = via - start.position, end.position - start.position
     normal = np.cross(one, other)
@@ -94,9 +94,10 @@ def arc_through(start: Pose, via: Array, end: Pose, limits: MotionLimits) -> Arc
 
 
 def arc_around(start: Pose, centre: Array, normal: Array, angle: float, end: Pose, limits: MotionLimits) -> Arc:
-    """Return the motion around a centre (3,) m by `angle` > 0 rad about a unit normal (3,); `end` tells the rotation.
+    """Return the motion around a centre (3,) m by `angle` > 0 rad about a unit normal (3,), all in the same frame.
 
-    ValueError where the start is the centre. The tool slows down for the pull towards the centre to stay within limits.
+    Only the rotation of `end` is used. The speed is lowered where the centripetal acceleration would exceed the limit.
+    Raises ValueError if the start is at the centre.
     """
     spoke = start.position - centre
     spoke = spoke - (spoke @ normal) * normal
@@ -118,6 +119,6 @@ def arc_around(start: Pose, centre: Array, normal: Array, angle: float, end: Pos
 
 
 def _angle(spoke: Array, chord: Array, normal: Array) -> float:
-    """Return the angle in rad, 0 to 2 pi, about the normal from a spoke to that at the end of a chord from it."""
+    """Return the angle in rad, 0 to 2 pi, about the normal between a spoke and the spoke at the end of a chord."""
     end = spoke + chord
     return atan2(float(np.cross(spoke, end) @ normal), float(spoke @ end)) % (2 * pi)

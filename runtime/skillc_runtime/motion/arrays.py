@@ -1,4 +1,4 @@
-"""Types of arrays that say how many dimensions they have, for people and for the compiler of `compiled`."""
+"""Array types that state the number of dimensions, for readers and for `numerics.compiled`."""
 
 from __future__ import annotations
 
@@ -11,4 +11,4 @@ Vector = Annotated[NDArray[np.float64], 1, "read"]
 Matrix = Annotated[NDArray[np.float64], 2, "read"]
 OutVector = Annotated[NDArray[np.float64], 1, "written"]
 OutMatrix = Annotated[NDArray[np.float64], 2, "written"]
-"""What a compiled function takes: arrays of so many dimensions that it reads, of any layout, or writes, in C order."""
+"""Arguments of compiled functions: arrays that are read, in any layout, or written, in C order."""

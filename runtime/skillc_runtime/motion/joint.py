@@ -1,4 +1,4 @@
-"""A straight line in joint space: all joints start and stop together, none exceeds its limits."""
+"""Straight lines in joint space: all joints start and stop together, and none exceeds its limits."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 
 @dataclass(frozen=True, slots=True)
 class JointReference:
-    """Where the joints shall be: q, dq, ddq (nv,) in rad, rad/s, rad/s^2."""
+    """The reference of the joints at one instant: q, dq, ddq (nv,) in rad, rad/s, rad/s^2."""
 
     q: Array
     dq: Array
@@ -21,31 +21,34 @@ class JointReference:
 
 
 class JointTrajectory(Protocol):
-    """A motion of the joints, from rest to rest, as a pure function of time."""
+    """A motion of the joints from rest to rest, as a pure function of time."""
 
     @property
     def start(self) -> Array:
-        """Where it begins, (nv,) in rad."""
+        """The joint positions (nv,) in rad at the start."""
         ...
 
     @property
     def end(self) -> Array:
-        """Where it ends, (nv,) in rad."""
+        """The joint positions (nv,) in rad at the end."""
         ...
 
     @property
     def duration(self) -> float:
-        """Seconds from rest to rest."""
+        """The time in s from rest to rest."""
         ...
 
     def at(self, time: float) -> JointReference:
-        """Return the reference `time` s after the start; before it the start, after the end the end."""
+        """Return the reference `time` s after the start.
+
+        It rests at the start before that, and at the end afterwards.
+        """
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class JointMotion:
-    """A motion from `start` by `change`, both (nv,) in rad; the profile runs from 0 to 1."""
+    """A motion from `start` by `change`, both joint positions (nv,) in rad; the profile goes from 0 to 1."""
 
     start: Array
     change: Array
@@ -53,12 +56,12 @@ class JointMotion:
 
     @property
     def end(self) -> Array:
-        """Where it ends, (nv,) in rad."""
+        """The joint positions (nv,) in rad at the end."""
         return self.start + self.change
 
     @property
     def duration(self) -> float:
-        """Seconds from rest to rest."""
+        """The time in s from rest to rest."""
         return self.profile.duration
 
     def at(self, time: float) -> JointReference:
@@ -68,11 +71,13 @@ class JointMotion:
 
 
 def joint_motion(start: Array, goal: Array, speed: Array, acceleration: Array) -> JointMotion:
-    """Return the fastest synchronised motion within joint speeds and accelerations (nv,) > 0, in rad/s and rad/s^2."""
+    """Return the fastest synchronised motion between joint positions (nv,) in rad.
+
+    speed, acceleration (nv,): limits > 0 in rad/s and rad/s^2.
+    """
     change = goal - start
     if np.abs(change).max() < 1e-9:
         return JointMotion(start.copy(), change, Profile(0.0, 0.0, 1.0, 1.0))
-    way = np.maximum(np.abs(change), 1e-12)
-    return JointMotion(
-        start.copy(), change, trapezoidal_profile(1.0, float((speed / way).min()), float((acceleration / way).min()))
-    )
+    distance = np.maximum(np.abs(change), 1e-12)
+    profile = trapezoidal_profile(1.0, float((speed / distance).min()), float((acceleration / distance).min()))
+    return JointMotion(start.copy(), change, profile)

@@ -1,8 +1,8 @@
-"""A way through several postures without stopping at them: straight pieces in joint space that overlap in time.
+"""Paths through several postures without stops: straight segments in joint space that overlap in time.
 
-q(t) = q_0 + sum s_i(t - t_i) c_i, c_i (nv,) the change of piece i, s_i from 0 to 1. Neighbours overlap by at most
-min(fall_i, rise_(i+1)); as both ramps are even, |dq_i| + |dq_(i+1)| then stays within the speed of each joint. Where
-they do, accelerations add up, so each piece is slowed down by what the worse of its two corners asks for.
+q(t) = q_0 + sum s_i(t - t_i) c_i, c_i (nv,) the change of segment i, s_i from 0 to 1. Neighbours overlap by at most
+min(fall_i, rise_(i+1)); both ramps are linear, so |dq_i| + |dq_(i+1)| stays within the speed limit of each joint. The
+accelerations add up in an overlap, so each segment is slowed down as its sharper corner requires.
 """
 
 from __future__ import annotations
@@ -20,24 +20,24 @@ from skillc_runtime.motion.pose import Array
 
 @dataclass(frozen=True, slots=True)
 class JointPath:
-    """Straight pieces, at least one, with their start times in s; no more than two move at once."""
+    """At least one straight segment, with start times in s; at most two overlap at any time. Joints: (nv,) in rad."""
 
     pieces: tuple[JointMotion, ...]
     starts: tuple[float, ...]
 
     @property
     def start(self) -> Array:
-        """Where it begins, (nv,) in rad."""
+        """The joint positions (nv,) in rad at the start."""
         return self.pieces[0].start
 
     @property
     def end(self) -> Array:
-        """Where it ends, (nv,) in rad."""
+        """The joint positions (nv,) in rad at the end."""
         return self.pieces[-1].end
 
     @property
     def duration(self) -> float:
-        """Seconds from rest to rest."""
+        """The time in s from rest to rest."""
         return self.starts[-1] + self.pieces[-1].duration
 
     def at(self, time: float) -> JointReference:
@@ -52,9 +52,10 @@ class JointPath:
 
 
 def joint_path(postures: Sequence[Array], speed: Array, acceleration: Array, blends: Sequence[float]) -> JointPath:
-    """Return the motion through at least two postures (nv,) in rad, within joint speeds and accelerations (nv,).
+    """Return the motion through at least two postures, joint positions (nv,) in rad.
 
-    `blends` says for each posture on the way which share, 0 to 1, of the possible overlap is taken; it stops at 0.
+    speed, acceleration (nv,): limits in rad/s and rad/s^2. blends: for each intermediate posture the share, 0 to 1, of
+    the possible overlap that is used; the motion stops there at 0.
     """
     pieces = [joint_motion(one, other, speed, acceleration) for one, other in pairwise(postures)]
     corners = zip(pairwise(pieces), blends, strict=True)
@@ -72,6 +73,6 @@ def joint_path(postures: Sequence[Array], speed: Array, acceleration: Array, ble
 
 
 def _sharpness(before: JointMotion, after: JointMotion, acceleration: Array) -> float:
-    """Return how many times the limit a joint is accelerated while one piece brakes and the next one speeds up."""
+    """Return the factor by which acceleration limits are exceeded where one segment ends and the next one begins."""
     both = after.change * after.profile.acceleration - before.change * before.profile.deceleration
     return max(1.0, float((np.abs(both) / acceleration).max()))

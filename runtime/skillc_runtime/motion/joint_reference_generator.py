@@ -1,4 +1,4 @@
-"""Where the joints shall be now: a joint motion and what is left of the one before it."""
+"""The reference of the joints: a joint motion, and the rest of the one before it."""
 
 from __future__ import annotations
 
@@ -11,22 +11,25 @@ from skillc_runtime.motion.time_scaling import TimeScaling
 
 
 class JointReferenceGenerator:
-    """The reference of one arm's joints; it stops with `deceleration` rad/s^2 of the fastest joint."""
+    """The reference of the joints of one arm.
+
+    q, dq (nv,): rad, rad/s. deceleration: of the fastest joint in a stop, rad/s^2. Times `now` in s, of any clock.
+    """
 
     def __init__(self, q: Array, dq: Array, deceleration: float, now: float) -> None:
-        """Come to rest from joint positions and speeds (nv,)."""
+        """Come to rest from joint positions and speeds."""
         self._deceleration = deceleration
         self._restart_from(q, dq, now)
 
     def _restart_from(self, q: Array, dq: Array, now: float) -> None:
         self._time = TimeScaling(since=now)
         self._stopping = stopping_motion(dq, self._deceleration)
-        self._rest = _at_rest(q + self._stopping.way)
+        self._rest = _at_rest(q + self._stopping.displacement)
         self._motion: JointTrajectory | None = None
         self._ends = self._stopping.duration
 
     def follow(self, motion: JointTrajectory, now: float) -> None:
-        """Follow a motion from now on; it must start at `stopping_joints`, else ValueError."""
+        """Follow a motion from now on; ValueError if it does not start at `stopping_joints`."""
         far = float(np.abs(motion.start - self.stopping_joints(now)).max())
         if far > 1e-3:
             raise ValueError(f"a motion must start where the last one ends; this one starts {far:.3f} rad beside it")
@@ -36,33 +39,33 @@ class JointReferenceGenerator:
         self._rest = _at_rest(motion.end)
 
     def stop(self, now: float) -> None:
-        """Give up the motion and come to rest."""
+        """Abandon the motion and come to rest."""
         present = self.sample(now)
         self._restart_from(present.q, present.dq, now)
 
     def stopping_joints(self, now: float) -> Array:
-        """Return the joints (nv,) where the reference rests if it is stopped now."""
+        """Return the joint positions (nv,) where the reference comes to rest if it is stopped now."""
         present = self.sample(now)
-        return present.q + stopping_motion(present.dq, self._deceleration).way
+        return present.q + stopping_motion(present.dq, self._deceleration).displacement
 
     def done(self, now: float) -> bool:
-        """Tell whether the motion has run out and nothing is left of the one before it."""
+        """Tell whether the motion has ended, and the one before it as well."""
         return self._time.at(now)[0] >= self._ends
 
     def at_rest(self, now: float) -> bool:
-        """Tell whether the reference stands still."""
+        """Tell whether the reference is at rest."""
         return self.done(now)
 
     def pause(self, now: float) -> None:
-        """Slow down to a standstill where the motion leads."""
+        """Slow down to a standstill along the motion."""
         self._time = self._time.towards(0.0, now)
 
     def resume(self, now: float) -> None:
-        """Go on where `pause` stopped."""
+        """Continue after `pause`."""
         self._time = self._time.towards(1.0, now)
 
     def sample(self, now: float) -> JointReference:
-        """Return the reference."""
+        """Return the reference at `now`."""
         time, rate, slope = self._time.at(now)
         if time >= self._ends:
             return self._rest

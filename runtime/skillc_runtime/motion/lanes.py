@@ -1,4 +1,4 @@
-"""Parallel lanes that cover a rectangle with a rectangular tool, run to and fro."""
+"""Parallel lanes, in alternating directions, along which a rectangular tool covers a rectangle."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 
 OVERHANG_M = (0.024, 0.012)
-"""How far the tool sticks out over the rectangle at the ends of a lane and beside the outer lanes.
+"""How far the tool extends beyond the rectangle at the ends of a lane and beside the outer lanes.
 
 It must exceed the lag of the tool behind its reference, most of which is friction force / stiffness; at the ends
-corners are cut as well. More would let the tool hang over the edge, which it then presses unevenly.
+corners are blended as well. With more the tool would tilt over the edge and press unevenly.
 """
 
 
 Direction: TypeAlias = Literal["longer", "x", "y"]
-"""Along which side of a surface lanes run."""
+"""The side of a surface to which lanes are parallel."""
 
 
 def plan_lanes(
@@ -28,11 +28,11 @@ def plan_lanes(
     overhang: tuple[float, float] = OVERHANG_M,
     direction: Direction = "longer",
 ) -> list[Pose]:
-    """Return the two ends of each lane in the surface frame: origin in the middle, z the outward normal.
+    """Return the two ends of each lane in the surface frame: origin in the centre, z the outward normal.
 
-    surface (2,), tool (2,): sizes in m, the tool's first one along the lane.
-    overlap: share of the tool's width that neighbours have in common, 0 .. 0.9. The tool's x points along the
-    lane, its z into the surface; it does not turn between lanes. Raises ValueError for sizes that are not positive.
+    surface (2,), tool (2,): sizes in m, the first one of the tool along the lane. overlap: share of the tool's width
+    that neighbouring lanes have in common, 0 to 0.9. The tool's x points along the lane, its z into the surface; it
+    does not rotate between lanes. Raises ValueError if a size is not positive.
     """
     if min(*surface[:2], *tool[:2]) <= 0 or not 0 <= overlap <= 0.9:
         raise ValueError(f"lanes need positive sizes and an overlap of 0 to 0.9: {surface}, {tool}, {overlap}")
@@ -51,7 +51,7 @@ def plan_lanes(
 
 
 def lane_axis(surface: Array, direction: Direction) -> int:
-    """Return the axis of a surface of a size (2,) in m along which lanes run: 0 for x, 1 for y."""
+    """Return the axis of a surface of size (2,) in m, in its frame, that lanes are parallel to: 0 for x, 1 for y."""
     match direction:
         case "longer":
             return 0 if surface[0] >= surface[1] else 1

@@ -1,4 +1,7 @@
-"""Motions that are added to whatever the tool does: periodic or growing figures in a plane, faded in and out."""
+"""Motions that are added to the motion of the tool: periodic or growing figures in a plane, faded in and out.
+
+The axes of an overlay are those that are passed to `ReferenceGenerator.add`, which gives them in the base frame.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,10 @@ Scalars = tuple[float, float, float]
 
 @compiled
 def circle_at(motion: OutMatrix, radius: float, rate: float, time: float) -> None:
-    """Compute a circle's offset, velocity and acceleration (3, 3) along x and y."""
+    """Compute offset, velocity and acceleration (3, 3) of a circle, along the axes of the overlay: m, m/s, m/s^2.
+
+    radius: m; rate: turns per s; time: s.
+    """
     w = 2 * pi * rate
     x, y = radius * cos(w * time), radius * sin(w * time)
     motion[0, 0], motion[0, 1] = x, y
@@ -27,7 +33,10 @@ def circle_at(motion: OutMatrix, radius: float, rate: float, time: float) -> Non
 
 @compiled
 def sines_at(motion: OutMatrix, amplitude: Vector, frequency: Vector, phase: Vector, time: float) -> None:
-    """Compute offset, velocity and acceleration (3, 3) of a sine along each axis."""
+    """Compute offset, velocity and acceleration (3, 3) of a sine along each of the axes of the overlay: m, m/s, m/s^2.
+
+    amplitude (3,): m; frequency (3,): Hz; phase (3,): rad; time: s.
+    """
     for i in range(3):
         w = 2 * pi * frequency[i]
         angle = w * time + phase[i]
@@ -38,18 +47,18 @@ def sines_at(motion: OutMatrix, amplitude: Vector, frequency: Vector, phase: Vec
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """A circle in the x-y plane: radius in m, rate in turns per s."""
+    """A circle in the x-y plane of the overlay frame: radius in m, rate in turns per s."""
 
     radius: float
     rate: float
 
     @property
     def speed(self) -> float:
-        """With how many m/s it is run."""
+        """The speed along the circle in m/s."""
         return 2 * pi * self.radius * self.rate
 
     def at(self, time: float) -> Array:
-        """Return offset, velocity and acceleration (3, 3)."""
+        """Return offset, velocity and acceleration (3, 3) at `time` s: m, m/s, m/s^2."""
         motion = np.zeros((3, 3))
         circle_at(motion, self.radius, self.rate, time)
         return motion
@@ -57,7 +66,7 @@ class Circle:
 
 @dataclass(frozen=True, slots=True)
 class Lissajous:
-    """A sine along each axis: amplitude (3,) m, frequency (3,) Hz, phase (3,) rad. One amplitude is a plain sine."""
+    """A sine along each axis of the overlay frame: amplitude (3,) m, frequency (3,) Hz, phase (3,) rad."""
 
     amplitude: Array
     frequency: Array
@@ -65,11 +74,11 @@ class Lissajous:
 
     @property
     def speed(self) -> float:
-        """How many m/s it reaches at most; no more than this where its axes are never at their fastest together."""
+        """An upper bound of the speed in m/s, reached if all axes are fastest at the same time."""
         return float(np.linalg.norm(2 * pi * self.frequency * self.amplitude))
 
     def at(self, time: float) -> Array:
-        """Return offset, velocity and acceleration (3, 3)."""
+        """Return offset, velocity and acceleration (3, 3) at `time` s: m, m/s, m/s^2."""
         motion = np.empty((3, 3))
         sines_at(motion, self.amplitude, self.frequency, self.phase, time)
         return motion
@@ -77,9 +86,9 @@ class Lissajous:
 
 @dataclass(frozen=True, slots=True)
 class Spiral:
-    """An Archimedes spiral in the x-y plane, run at constant path speed; at the greatest radius it stays on the circle.
+    """An Archimedean spiral in the x-y plane of the overlay frame, at constant speed; it ends in a circle.
 
-    pitch: m between turns; speed: m/s; radius: m.
+    pitch: m between turns; speed: m/s; radius: m, of the circle.
     """
 
     pitch: float
@@ -87,7 +96,7 @@ class Spiral:
     radius: float
 
     def at(self, time: float) -> Array:
-        """Return offset, velocity and acceleration (3, 3)."""
+        """Return offset, velocity and acceleration (3, 3) at `time` s: m, m/s, m/s^2."""
         b = self.pitch / (2 * pi)
         widest = self.radius / b
         rounded = (time - b * _arc(widest) / self.speed) * self.speed
@@ -113,7 +122,7 @@ def _arc(theta: float) -> float:
 
 
 def _angle_at(length: float) -> float:
-    """Return where the unit spiral has a given length: Newton on a convex function, from above the root."""
+    """Return the angle in rad at which the unit spiral has a given length, by Newton's method from above the root."""
     theta = min(length, sqrt(2 * length))
     for _ in range(8):
         theta -= (_arc(theta) - length) / sqrt(1 + theta * theta)
@@ -122,7 +131,10 @@ def _angle_at(length: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class FadedOverlay:
-    """An overlay that grows from nothing in the `fade` s after `start` and shrinks to nothing in those after `end`."""
+    """An overlay that fades in for `fade` s from `start` on, and out for as long from `end` on; times in s.
+
+    Its frame is that of the overlay.
+    """
 
     overlay: Overlay
     start: float
@@ -130,15 +142,15 @@ class FadedOverlay:
     end: float | None = None
 
     def end_at(self, time: float) -> FadedOverlay:
-        """Return this overlay with its end at `time`; an end that is set already stays."""
+        """Return this overlay with its end at `time`, or unchanged if it has an end already."""
         return self if self.end is not None else replace(self, end=time)
 
     def is_over(self, time: float) -> bool:
-        """Tell whether nothing is left of it."""
+        """Tell whether it has faded out."""
         return self.end is not None and time >= self.end + self.fade
 
     def at(self, time: float) -> Array:
-        """Return offset, velocity and acceleration (3, 3); the product rule twice."""
+        """Return offset, velocity and acceleration (3, 3): m, m/s, m/s^2, by the product rule applied twice."""
         g, dg, ddg = _rise((time - self.start) / self.fade, self.fade)
         if self.end is not None:
             f, df, ddf = _rise((self.end + self.fade - time) / self.fade, -self.fade)

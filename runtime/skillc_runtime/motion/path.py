@@ -1,4 +1,4 @@
-"""A path through poses: lines and arcs whose ends overlap in time, so that corners are cut by a bounded distance.
+"""Paths through poses: lines and arcs that overlap in time, so that corners are blended within a distance.
 
 Overlapping displacements add up: x_d = x_0 + sum s_i(t - t0_i) u_i. Rotations compose on the left in the same order.
 Two neighbours overlap by min(fall_i, rise_(i+1), sqrt(8 blend / (a |u_(i+1) - u_i|))), which keeps the corner within
@@ -24,15 +24,18 @@ from skillc_runtime.motion.segment_sampling import COLUMNS, motion_at
 from skillc_runtime.motion.segments import MotionLimits, Segment, segment_between
 
 START, END = COLUMNS, COLUMNS + 1
-"""When a piece starts and ends; the columns after those of the piece itself."""
+"""Columns of start and end time in s, after those of the segment itself."""
 
 PLACE, AXES = COLUMNS + 2, COLUMNS + 5
-"""Columns of the corner that it starts from: its position (3,) and its rotation, row by row (9,)."""
+"""Columns of the corner where the segment starts: position (3,) and rotation, row by row (9,)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """Segments with their start times in s; `corners[i]` is the pose where segment i would start without blending."""
+    """Segments with start times in s; `corners[i]` is the pose, in the parent frame, where segment i starts unblended.
+
+    table (n, 35): a row a segment, see `segment_sampling` and the columns above.
+    """
 
     corners: tuple[Pose, ...]
     segments: tuple[Segment | Arc, ...]
@@ -40,7 +43,7 @@ class Path:
     table: Array = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        """Lay the segments out as a row of numbers each."""
+        """Write each segment to a row of the table."""
         rows = [
             [*piece.row, start, start + piece.duration, *corner.position, *corner.rotation.ravel()]
             for piece, start, corner in zip(self.segments, self.starts, self.corners, strict=False)
@@ -49,11 +52,11 @@ class Path:
 
     @property
     def duration(self) -> float:
-        """Seconds from start to rest."""
+        """The time in s from start to rest."""
         return self.starts[-1] + self.segments[-1].duration if self.segments else 0.0
 
     def at(self, time: float) -> Reference:
-        """Return the reference at `time` s, in the frame of the poses."""
+        """Return the reference at `time` s, in the frame of the corners."""
         if not self.segments:
             return resting_reference(self.corners[0])
         rows = np.empty((8, 3))
@@ -61,7 +64,7 @@ class Path:
         return Reference(rows)
 
     def transform(self, frame: Pose) -> Path:
-        """Return the same motion, given in `frame`, in the frame's parent."""
+        """Return the same motion in the parent frame of `frame`."""
         corners = tuple(frame @ corner for corner in self.corners)
         return Path(corners, tuple(piece.transform(frame) for piece in self.segments), self.starts)
 
@@ -77,7 +80,7 @@ def _start_from(position: Array, rotation: Array, row: Array) -> None:
 
 @inlined
 def _move(position: Array, rotation: Array, way: Array) -> None:
-    """Go on from a pose by a way (6,): rotation <- exp(way[3:]) rotation."""
+    """Displace a pose by `way` (6,), m and rad: rotation <- exp(way[3:]) rotation."""
     for i in range(3):
         position[i] += way[i]
     if way[3] != 0.0 or way[4] != 0.0 or way[5] != 0.0:
@@ -88,7 +91,7 @@ def _move(position: Array, rotation: Array, way: Array) -> None:
 
 @inlined
 def _add(motion: Array, before: Array) -> None:
-    """Add to a motion (3, 6) the twist and acceleration of one that is turned by it; ways stay as they are."""
+    """Add to a motion (3, 6) the twist and acceleration of the one before, which it rotates; not the displacement."""
     turned, velocity, change, spun = np.empty((3, 3)), np.empty(3), np.empty(3), np.empty(3)
     rotation_by(motion[0, 3:], turned)
     times(turned, before[1, 3:], velocity)
@@ -103,7 +106,7 @@ def _add(motion: Array, before: Array) -> None:
 
 @inlined
 def _started_last(table: Array, time: float) -> int:
-    """Return the row that starts last of those that have started by `time` s, the first before any has."""
+    """Return the last row that has started by `time` s, or the first one if none has."""
     last, later = 0, table.shape[0]
     while later - last > 1:
         between = (last + later) // 2
@@ -116,7 +119,7 @@ def _started_last(table: Array, time: float) -> int:
 
 @compiled
 def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
-    """Compute the rows (8, 3) of the reference at `time` s from the table of a path, a row a piece, see `Path`."""
+    """Compute the rows (8, 3) of the reference at `time` s from the table of a `Path`, in the frame of its corners."""
     position, rotation = rows[0], rows[1:4]
     last, motion = _started_last(table, time), np.empty((3, 6))
     motion_at(motion, table[last, :COLUMNS], time - table[last, START])
@@ -135,7 +138,7 @@ def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
 
 
 def path_through(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0.0) -> Path:
-    """Return the motion through `poses`, the first being the start; corners are cut by at most `blend_m`."""
+    """Return the motion through poses of one frame, the first one the start; corners are blended within `blend_m`."""
     if not poses or blend_m < 0:
         raise ValueError("a path needs a start and a blend of at least 0 m")
     corners = _without_repetition(poses)
@@ -147,7 +150,7 @@ def path_through(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0
 def join_segments(
     corners: Sequence[Pose], pieces: Sequence[Segment | Arc], limits: MotionLimits, blend_m: float = 0.0
 ) -> Path:
-    """Return lines and arcs, one from each corner to the next, as one path; corners are cut by at most `blend_m`."""
+    """Return the path along segments, one from each corner to the next in one frame, blended within `blend_m`."""
     starts, time = [], 0.0
     for i, piece in enumerate(pieces):
         starts.append(time)
@@ -157,7 +160,7 @@ def join_segments(
 
 
 def _without_repetition(poses: Sequence[Pose]) -> list[Pose]:
-    """Return the poses without those that equal their predecessor, where nothing would move."""
+    """Return the poses without those that equal their predecessor."""
     corners = [poses[0]]
     for pose in poses[1:]:
         moved = np.abs(pose.position - corners[-1].position).max() > 1e-9
@@ -167,9 +170,9 @@ def _without_repetition(poses: Sequence[Pose]) -> list[Pose]:
 
 
 def _overlap(before: Segment | Arc, after: Segment | Arc, acceleration: float, blend_m: float) -> float:
-    """Return how many seconds `after` starts before `before` has ended.
+    """Return the time in s that `after` starts before `before` has ended.
 
-    Where one of them bends, the corner is cut by no more than half an overlap leads away from it: a (t/2)^2 / 2.
+    With an arc the distance to the corner is at most what half an overlap moves away from it: a (t/2)^2 / 2.
     """
     turn = float(np.linalg.norm(after.start_direction - before.end_direction))
     if isinstance(before, Arc) or isinstance(after, Arc):

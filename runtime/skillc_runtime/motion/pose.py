@@ -1,4 +1,4 @@
-"""Rigid poses and rotations: SI units, rotation matrices inside, quaternions (w, x, y, z) at the edges."""
+"""Poses and rotations: SI units, rotation matrices inside, quaternions (w, x, y, z) at interfaces."""
 
 from __future__ import annotations
 
@@ -21,25 +21,25 @@ class Pose:
     rotation: Matrix
 
     def __matmul__(self, other: Pose) -> Pose:
-        """Return `other`, given in this frame, in this frame's parent."""
+        """Return `other`, which is given in this frame, in the parent frame."""
         return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
 
     def inverse(self) -> Pose:
-        """Return the parent in this frame."""
+        """Return the pose of the parent in this frame."""
         return Pose(-self.rotation.T @ self.position, self.rotation.T.copy())
 
     def apply(self, point: Array) -> Array:
-        """Return a point (3,) of this frame in the parent."""
+        """Return a point (3,) in m of this frame in the parent frame."""
         return self.rotation @ point + self.position
 
     @staticmethod
     def of(position: Array | tuple[float, ...], quaternion: Array | tuple[float, ...] = (1.0, 0.0, 0.0, 0.0)) -> Pose:
-        """Make a pose from a position in m and a quaternion (w, x, y, z) of any norm but zero."""
+        """Return the pose of a position (3,) in m and a quaternion (4,), (w, x, y, z), of any norm above zero."""
         return Pose(np.array(position, dtype=float), rotation_from_quaternion(np.array(quaternion, dtype=float)))
 
 
 def rotation_from_quaternion(quaternion: Array) -> Array:
-    """Return the rotation (3, 3) of a quaternion (w, x, y, z); it need not be normalised."""
+    """Return the rotation (3, 3), from a frame to its parent, of a quaternion (4,), (w, x, y, z), normalised or not."""
     w, x, y, z = quaternion.tolist()
     s = 2 / (w * w + x * x + y * y + z * z)
     return np.array(
@@ -52,7 +52,7 @@ def rotation_from_quaternion(quaternion: Array) -> Array:
 
 
 def quaternion_from_rotation(rotation: Array) -> Array:
-    """Return the quaternion (w, x, y, z) of a rotation (3, 3), with w >= 0. Shepperd's method."""
+    """Return the unit quaternion (4,), (w, x, y, z), with w >= 0 of a rotation (3, 3) of a frame. Shepperd's method."""
     (a, b, c), (d, e, f), (g, h, i) = rotation.tolist()
     rows = (
         (1 + a + e + i, h - f, c - g, d - b),
@@ -66,7 +66,7 @@ def quaternion_from_rotation(rotation: Array) -> Array:
 
 
 def exp(rotation_vector: Array) -> Array:
-    """Return the rotation (3, 3) about a vector (3,) in rad. Rodrigues' formula."""
+    """Return the rotation (3, 3) about a vector (3,) in rad, both in the same frame. Rodrigues' formula."""
     x, y, z = rotation_vector.tolist()
     angle = sqrt(x * x + y * y + z * z)
     if angle < 1e-12:
@@ -82,7 +82,7 @@ def exp(rotation_vector: Array) -> Array:
 
 
 def log(rotation: Array) -> Array:
-    """Return the shortest rotation vector (3,) in rad, |angle| <= pi, of a rotation (3, 3)."""
+    """Return the rotation vector (3,) in rad, |angle| <= pi, of a rotation (3, 3), both in the same frame."""
     q = quaternion_from_rotation(rotation)
     sine = float(np.linalg.norm(q[1:]))
     if sine < 1e-12:
@@ -91,5 +91,5 @@ def log(rotation: Array) -> Array:
 
 
 def skew(v: Array) -> Array:
-    """Return the matrix (3, 3) of the cross product v x."""
+    """Return the matrix (3, 3) of the cross product with v (3,), along the same axes and in any unit."""
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])

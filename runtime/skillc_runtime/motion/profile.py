@@ -1,4 +1,4 @@
-"""The trapezoidal velocity profile: from rest to rest over a given length, as a pure function of time."""
+"""The trapezoidal velocity profile: a motion from rest to rest over a given length, as a pure function of time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ from skillc_runtime.motion.numerics.compiled import compiled
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """Accelerate, cruise, decelerate: `length` in m or rad, `peak` per s, the rest per s^2; `rate` stretches time."""
+    """Accelerate, cruise, decelerate over a `length` in m or rad.
+
+    peak: speed, m/s or rad/s; acceleration, deceleration: m/s^2 or rad/s^2. rate: factor of time, below 1 for a slower
+    motion.
+    """
 
     length: float
     peak: float
@@ -20,32 +24,32 @@ class Profile:
 
     @property
     def rise(self) -> float:
-        """Seconds of acceleration."""
+        """The acceleration time in s."""
         return self.peak / self.acceleration / self.rate if self.length > 0 else 0.0
 
     @property
     def fall(self) -> float:
-        """Seconds of deceleration."""
+        """The deceleration time in s."""
         return self.peak / self.deceleration / self.rate if self.length > 0 else 0.0
 
     @property
     def duration(self) -> float:
-        """Seconds from rest to rest; 0 for no length."""
+        """The time in s from rest to rest; 0 if the length is 0."""
         if self.length <= 0:
             return 0.0
         return (self.length / self.peak + self.peak / 2 * (1 / self.acceleration + 1 / self.deceleration)) / self.rate
 
     def at(self, time: float) -> tuple[float, float, float]:
-        """Return place, speed and acceleration at `time` s: at rest at 0 before, at rest at `length` after."""
+        """Return distance, speed and acceleration at `time` s: 0 before the start, `length` after the end."""
         return trapezoid_at(self.length, self.peak, self.acceleration, self.deceleration, self.rate, time)
 
     @property
     def coefficients(self) -> tuple[float, float, float, float, float, float]:
-        """Length, peak, acceleration, deceleration, rate, and no window to average over."""
+        """Length, peak speed, acceleration, deceleration, rate, and a window of 0 s: what `smooth_at` takes."""
         return self.length, self.peak, self.acceleration, self.deceleration, self.rate, 0.0
 
     def stretch_to(self, duration: float) -> Profile:
-        """Return this profile slowed down to take `duration` s, which must not be less than its own."""
+        """Return this profile slowed down to take `duration` s, at least its own duration."""
         return self if self.length <= 0 else replace(self, rate=self.rate * self.duration / duration)
 
 
@@ -53,7 +57,7 @@ class Profile:
 def trapezoid_at(
     length: float, peak: float, acceleration: float, deceleration: float, rate: float, time: float
 ) -> tuple[float, float, float]:
-    """Return place, speed and acceleration of a `Profile`."""
+    """Return distance, speed and acceleration of a `Profile` at `time` s, in its units."""
     if time <= 0 or length <= 0:
         return 0.0, 0.0, 0.0
     k, a, d = rate, acceleration, deceleration
@@ -68,9 +72,12 @@ def trapezoid_at(
 
 
 def trapezoidal_profile(length: float, speed: float, acceleration: float, deceleration: float | None = None) -> Profile:
-    """Return the fastest profile over `length` >= 0; it cruises at `speed`, or below on too short a way.
+    """Return the fastest profile over `length` >= 0 m or rad.
 
-    Speed in m/s or rad/s, acceleration and deceleration > 0 in m/s^2 or rad/s^2, alike when only one is given.
+    It cruises at `speed`, or slower if the length is too short.
+
+    speed: m/s or rad/s; acceleration, deceleration: > 0, in m/s^2 or rad/s^2, equal if only one is given. Raises
+    ValueError if one of them is not positive.
     """
     if length < 0 or min(speed, acceleration, deceleration or acceleration) <= 0:
         raise ValueError(f"a profile needs length >= 0, speed and accelerations > 0: {length}, {speed}, {acceleration}")

@@ -1,4 +1,4 @@
-"""What a controller is asked to do at one instant, and the seams that say it over time."""
+"""References and compliance that a controller receives, and the protocols of motions over time."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ POSITION, ROTATION, TWIST, ACCELERATION = slice(0, 1), slice(1, 4), slice(4, 6),
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """Where the tool centre point shall be and how it shall move; pose, twist and acceleration in one stated frame.
+    """The desired pose, twist and acceleration of the tool centre point, all in the parent frame of the pose.
 
-    rows (8, 3): all of it, one argument for compiled functions. Both motions are along the axes of the pose's parent
-    frame.
+    rows (8, 3): position in m, rotation, twist in m/s and rad/s, acceleration in m/s^2 and rad/s^2; one array, since
+    each argument of a compiled function costs time.
     """
 
     rows: Matrix
 
     @staticmethod
     def of(pose: Pose, twist: Array, acceleration: Array) -> Reference:
-        """Return the reference of a pose, a twist (6,) and an acceleration (6,)."""
+        """Return the reference of a pose, a twist (6,) and an acceleration (6,), [linear; angular]."""
         rows = np.empty((8, 3))
         rows[POSITION], rows[ROTATION] = pose.position, pose.rotation
         rows[TWIST], rows[ACCELERATION] = twist.reshape(2, 3), acceleration.reshape(2, 3)
@@ -34,21 +34,21 @@ class Reference:
 
     @property
     def pose(self) -> Pose:
-        """Where the tool shall be."""
+        """The desired pose."""
         return Pose(self.rows[0], self.rows[ROTATION])
 
     @property
     def twist(self) -> Array:
-        """Its velocity (6,): [linear m/s, angular rad/s]."""
+        """The desired twist (6,): [linear m/s; angular rad/s]."""
         return self.rows[TWIST].ravel()
 
     @property
     def acceleration(self) -> Array:
-        """Its acceleration (6,): [linear m/s^2, angular rad/s^2]."""
+        """The desired acceleration (6,): [linear m/s^2; angular rad/s^2]."""
         return self.rows[ACCELERATION].ravel()
 
     def transform(self, frame: Pose) -> Reference:
-        """Return the same, given in `frame`, in the frame's parent; `frame` itself rests."""
+        """Return the reference in the parent frame of `frame`, which does not move."""
         rows = self.rows @ frame.rotation.T
         rows[POSITION] += frame.position
         rows[ROTATION] = frame.rotation @ self.rows[ROTATION]
@@ -56,7 +56,7 @@ class Reference:
 
 
 def resting_reference(pose: Pose) -> Reference:
-    """Return the reference that holds a pose."""
+    """Return the reference that holds a pose, in the same frame."""
     return Reference.of(pose, np.zeros(6), np.zeros(6))
 
 
@@ -66,11 +66,11 @@ UNLIMITED_SPEED.flags.writeable = False
 
 @dataclass(frozen=True, slots=True)
 class Compliance:
-    """How the tool yields and pushes, in the compliance frame C.
+    """Stiffness and exerted wrench of the tool, in the compliance frame C at the tool centre point.
 
-    C is the reference tool frame turned by `frame` (3, 3), so it follows the reference. stiffness (6,): N/m, N m/rad;
-    wrench (6,): N, N m that the robot exerts on the environment; damping_ratio: 1 is critical. All at the tool centre.
-    fastest (3,): m/s along C's axes; its sign says which way the tool yields no faster, infinite lets it go.
+    C is the reference tool frame rotated by `frame` (3, 3), so it follows the reference. stiffness (6,): N/m, N m/rad;
+    wrench (6,): N, N m that the robot exerts on the environment; damping_ratio: 1 is critical. fastest (3,): m/s along
+    the axes of C, the greatest speed in the direction of its sign; infinite for no limit.
     """
 
     stiffness: Vector
@@ -81,25 +81,28 @@ class Compliance:
 
 
 class Trajectory(Protocol):
-    """A motion as a pure function of time."""
+    """A motion of the tool as a pure function of time."""
 
     @property
     def duration(self) -> float:
-        """Seconds from start to rest."""
+        """The time in s from start to rest."""
         ...
 
     def at(self, time: float) -> Reference:
-        """Return the reference `time` seconds after the start; before it the start, after the end the end."""
+        """Return the reference `time` s after the start.
+
+        It rests at the start before that, and at the end afterwards.
+        """
         ...
 
     def transform(self, frame: Pose) -> Trajectory:
-        """Return the same motion, given in `frame`, in the frame's parent; `frame` itself rests."""
+        """Return the same motion in the parent frame of `frame`, which does not move."""
         ...
 
 
 class Overlay(Protocol):
-    """A motion that is added to whatever the tool does, pure in time."""
+    """A motion that is added to the motion of the tool, as a pure function of time."""
 
     def at(self, time: float) -> Array:
-        """Return (3, 3): offset m, velocity m/s, acceleration m/s^2, each along the axes the overlay was made for."""
+        """Return offset, velocity and acceleration (3, 3) at `time` s: m, m/s, m/s^2, in the overlay's frame."""
         ...

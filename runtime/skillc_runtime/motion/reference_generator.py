@@ -1,4 +1,4 @@
-"""Where the tool shall be now: a trajectory, what is left of the motion before it, and overlays; all in one frame."""
+"""The reference of the tool: a trajectory, the rest of the motion before it, and overlays, all in one frame."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ from skillc_runtime.motion.stopping_motion import stopping_motion
 from skillc_runtime.motion.time_scaling import TimeScaling
 
 TURN_DECELERATION = 2.0
-"""rad/s^2 with which a turn is stopped."""
+"""Deceleration of a rotation in a stop, rad/s^2."""
 
 
 class ReferenceGenerator:
-    """The reference of one tool. A motion starts where the one before it comes to rest; the two overlap without a jump.
+    """The reference of one tool, in the base frame.
 
-    Motion time starts with each motion, overlay time runs on; a pause slows both to a standstill. `path` is the last
-    sample, overlays aside.
+    A motion starts where the one before it comes to rest; the two overlap in time, without a jump.
+    Motion time starts with each motion, overlay time runs on; a pause slows both down to a standstill. `path` is the
+    last sample without overlays. Times `now` are in s, of any clock.
     """
 
     def __init__(self, pose: Pose, deceleration: float) -> None:
-        """Hold a pose; motions that are given up stop with `deceleration` m/s^2."""
+        """Hold a pose; abandoned motions stop with `deceleration` m/s^2."""
         self._deceleration = deceleration
         self._overlays: dict[int, tuple[FadedOverlay, Array]] = {}
         self._next_handle = 0
@@ -33,19 +34,21 @@ class ReferenceGenerator:
         self.restart_from(pose, np.zeros(6), 0.0)
 
     def restart_from(self, pose: Pose, twist: Array, now: float) -> None:
-        """Come to rest from a pose and a twist (6,), whatever was done before."""
+        """Come to rest from a pose and a twist (6,), m/s and rad/s, whatever the motion was before."""
         self._time, self._overlay_time = TimeScaling(since=now), self._overlay_time.towards(1.0, now)
         self._way, self._turn = (
             stopping_motion(twist[:3], self._deceleration),
             stopping_motion(twist[3:], TURN_DECELERATION),
         )
-        self._rest = resting_reference(Pose(pose.position + self._way.way, exp(self._turn.way) @ pose.rotation))
+        self._rest = resting_reference(
+            Pose(pose.position + self._way.displacement, exp(self._turn.displacement) @ pose.rotation)
+        )
         self._trajectory: Trajectory | None = None
         self._ends = max(self._way.duration, self._turn.duration)
         self.path = self._rest
 
     def follow(self, trajectory: Trajectory, now: float) -> None:
-        """Follow a trajectory from now on; it must start at `stopping_pose`, else ValueError."""
+        """Follow a trajectory from now on; ValueError if it does not start at `stopping_pose`."""
         start, stopping = trajectory.at(0.0).pose, self.stopping_pose(now)
         far = float(np.abs(start.position - stopping.position).max())
         if far > 1e-3 or np.abs(start.rotation - stopping.rotation).max() > 1e-2:
@@ -58,69 +61,69 @@ class ReferenceGenerator:
         self._rest = resting_reference(trajectory.at(trajectory.duration).pose)
 
     def stop(self, now: float) -> None:
-        """Give up the trajectory and come to rest."""
+        """Abandon the trajectory and come to rest."""
         motion = self._motion(now)
         self.restart_from(motion.pose, motion.twist, now)
 
     def jump_to(self, pose: Pose, along: Array, now: float) -> None:
-        """Jump to a pose, and come to rest there; of the present motion only what is along the axes (3, n) goes on.
+        """Jump to a pose and come to rest there; of the present motion only the part along the axes (3, n) continues.
 
-        For axes along which the tool does not follow its reference anyway. Overlays are not part of the pose.
+        For directions in which the tool does not follow its reference anyway. Overlays are not part of the pose.
         """
         twist = self._motion(now).twist.copy()
         twist[:3] = along @ (along.T @ twist[:3])
         self.restart_from(pose, twist, now)
 
     def path_pose(self, now: float) -> Pose:
-        """Return where the reference is, overlays aside."""
+        """Return the pose of the reference without overlays."""
         return self._motion(now).pose
 
     def stopping_pose(self, now: float) -> Pose:
-        """Return where the reference, overlays aside, rests if it is stopped now: where a new motion must start."""
+        """Return the pose, without overlays, where the reference rests if it is stopped now: where a motion starts."""
         motion = self._motion(now)
-        way = stopping_motion(motion.twist[:3], self._deceleration).way
-        turn = stopping_motion(motion.twist[3:], TURN_DECELERATION).way
+        way = stopping_motion(motion.twist[:3], self._deceleration).displacement
+        turn = stopping_motion(motion.twist[3:], TURN_DECELERATION).displacement
         return Pose(motion.pose.position + way, exp(turn) @ motion.pose.rotation)
 
     def done(self, now: float) -> bool:
-        """Tell whether the motion has run out and nothing is left of the one before it."""
+        """Tell whether the motion has ended, and the one before it as well."""
         return self._time.at(now)[0] >= self._ends
 
     def at_rest(self, now: float) -> bool:
-        """Tell whether the reference stands still: the motion is done and no overlay is left."""
+        """Tell whether the reference is at rest: the motion has ended and no overlay is left."""
         return self.done(now) and not self._overlays
 
     def pause(self, now: float) -> None:
-        """Slow down to a standstill where the motion leads."""
+        """Slow down to a standstill along the motion."""
         self._time, self._overlay_time = self._time.towards(0.0, now), self._overlay_time.towards(0.0, now)
 
     def resume(self, now: float) -> None:
-        """Go on where `pause` stopped."""
+        """Continue after `pause`."""
         self._time, self._overlay_time = self._time.towards(1.0, now), self._overlay_time.towards(1.0, now)
 
     def add(self, overlay: Overlay, axes: Array, fade: float, now: float) -> int:
-        """Add an overlay along `axes` (3, 3), growing for `fade` s; return the handle by which to remove it."""
+        """Add an overlay along `axes` (3, 3), which fades in for `fade` s; return the handle to remove it with."""
         self._next_handle += 1
         self._overlays[self._next_handle] = (FadedOverlay(overlay, self._overlay_time.at(now)[0], fade), axes.copy())
         return self._next_handle
 
     def remove(self, handle: int, now: float) -> None:
-        """Let an overlay shrink to nothing; one that is gone already stays so."""
+        """Fade an overlay out; no effect if it has faded out already."""
         if handle in self._overlays:
             faded, axes = self._overlays[handle]
             self._overlays[handle] = (faded.end_at(self._overlay_time.at(now)[0]), axes)
 
     def drop_overlays(self) -> None:
-        """Forget all overlays at once, for who then takes up a pose anew."""
+        """Remove all overlays at once, for a caller that restarts from a pose next."""
         self._overlays = {}
 
     def fade_overlays(self, now: float) -> None:
-        """Let all overlays shrink to nothing."""
+        """Fade all overlays out."""
         for handle in self._overlays:
             self.remove(handle, now)
 
     def sample(self, now: float) -> Reference:
-        """Return the reference."""
+        """Return the reference at `now`."""
         self.path = self._motion(now)
         return self._overlaid(self.path, now) if self._overlays else self.path
 
@@ -136,7 +139,7 @@ class ReferenceGenerator:
         return Reference.of(motion.pose, rate * motion.twist, rate * rate * motion.acceleration + slope * motion.twist)
 
     def _braking(self, motion: Reference, time: float) -> Reference:
-        """Add what is left of the motion before: r = offset + r_b, R = E R_b."""
+        """Add the rest of the motion before: r = offset + r_b, R = E R_b."""
         offset, velocity, acceleration = self._way.at(time)
         turn, spin, change = self._turn.at(time)
         E = exp(turn)
@@ -161,9 +164,9 @@ class ReferenceGenerator:
 
 @compiled
 def add_overlay(rows: OutMatrix, motion: Matrix, axes: Matrix, rate: float, slope: float) -> None:
-    """Add an overlay's motion (3, 3) along `axes` (3, 3) to a reference's rows (8, 3).
+    """Add an overlay's motion (3, 3), m and s, along `axes` (3, 3) to the rows (8, 3) of a reference in the same frame.
 
-    The chain rule turns its time, of `rate`, into time.
+    rate, slope: of overlay time, and its change in 1/s; the chain rule.
     """
     added = np.empty((3, 3))
     product(motion, axes.T, added)

@@ -1,4 +1,4 @@
-"""One piece of a path as a row of numbers, and where it leads: a line or an arc, turning about a fixed axis."""
+"""A segment of a path, line or arc with a rotation about a fixed axis, as a row of numbers, and the motion along it."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ WAY, TURN = 0, 6
 """Columns of the two profiles: length, peak, acceleration, deceleration, rate, window each."""
 
 AXIS, SPOKE, ACROSS = 12, 15, 18
-"""Columns of vectors: of the turn; of an arc from its centre to its start, zero for a line; of the start's direction.
+"""Columns of vectors (3,) in the frame of the path: unit axis of the rotation; from the centre of an arc to its start,
+zero for a line; direction at the start.
 
-The last is of unit length for a line and as long as the radius for an arc.
+The last is a unit vector for a line and as long as the radius for an arc.
 """
 
 COLUMNS = 21
@@ -42,7 +43,10 @@ def _arc_at(motion: Array, way: tuple[float, float, float], spoke: Array, across
 
 @compiled
 def motion_at(motion: OutMatrix, row: Vector, time: float) -> None:
-    """Compute way, twist and acceleration (3, 6), [linear; angular], `time` s after the start of a piece."""
+    """Compute displacement, twist and acceleration (3, 6), [linear; angular] in m and rad, in the frame of the path.
+
+    row (21,): a segment, in m, rad and s; time: s after its start.
+    """
     way, turn = _profile_at(row, WAY, time), _profile_at(row, TURN, time)
     spoke, across = row[SPOKE : SPOKE + 3], row[ACROSS : ACROSS + 3]
     radius = sqrt(spoke[0] * spoke[0] + spoke[1] * spoke[1] + spoke[2] * spoke[2])
@@ -55,7 +59,7 @@ def motion_at(motion: OutMatrix, row: Vector, time: float) -> None:
 
 
 def sample_segment(row: Array, time: float) -> Array:
-    """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start of a piece."""
+    """Return what `motion_at` computes, (3, 6), for the row (21,) of a segment, in m, rad, s and the path's frame."""
     motion = np.empty((3, 6))
     motion_at(motion, row, time)
     return motion

@@ -1,4 +1,4 @@
-"""One straight piece of motion between two poses, translation and rotation starting and ending together."""
+"""A straight segment of a path between two poses; translation and rotation start and end together."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from skillc_runtime.motion.smooth import SmoothProfile, smooth_profile, window_f
 
 @dataclass(frozen=True, slots=True)
 class MotionLimits:
-    """How fast a planned motion may be: m/s, m/s^2, rad/s, rad/s^2, m/s^3, rad/s^3; without end unless stated.
+    """Limits of a planned motion: m/s, m/s^2, rad/s, rad/s^2, m/s^3, rad/s^3.
 
-    Where motions are blended, acceleration and jerk of both add up.
+    In a blend, acceleration and jerk of both segments add up.
     """
 
     speed: float
@@ -29,15 +29,16 @@ class MotionLimits:
 
     @property
     def window(self) -> float:
-        """Seconds over which motions are averaged so that their jerk stays within limits."""
+        """The time in s over which motions are averaged so that their jerk stays within limits."""
         return max(window_for(self.acceleration, self.jerk), window_for(self.turn_acceleration, self.turn_jerk))
 
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A displacement and a turn about a fixed axis.
+    """A straight displacement and a rotation about a fixed axis.
 
-    axes (2, 6): [direction, 0] of the displacement and [0, axis] of the turn, unit vectors in the parent frame or zero.
+    way, turn: the profiles of path length in m and of the rotation angle in rad. axes (2, 6): [direction, 0] of the
+    displacement and [0, axis] of the rotation, unit vectors in the parent frame, or zero.
     """
 
     way: Profile | SmoothProfile
@@ -46,47 +47,47 @@ class Segment:
 
     @property
     def duration(self) -> float:
-        """Seconds from rest to rest."""
+        """The time in s from rest to rest."""
         return max(self.way.duration, self.turn.duration)
 
     @property
     def rise(self) -> float:
-        """Seconds in which whatever moves is accelerating."""
+        """The acceleration time in s, the shorter of those of translation and rotation."""
         return min((part.rise for part in (self.way, self.turn) if part.length > 0), default=0.0)
 
     @property
     def fall(self) -> float:
-        """Seconds in which whatever moves is decelerating."""
+        """The deceleration time in s, the shorter of those of translation and rotation."""
         return min((part.fall for part in (self.way, self.turn) if part.length > 0), default=0.0)
 
     @property
     def start_direction(self) -> Array:
-        """The unit vector (3,) in which it starts; zero for a turn on the spot."""
+        """The unit vector (3,) of the direction at the start, in the parent frame; zero for a rotation only."""
         return self.axes[0, :3]
 
     @property
     def end_direction(self) -> Array:
-        """The unit vector (3,) in which it ends."""
+        """The unit vector (3,) of the direction at the end, in the parent frame; zero for a rotation only."""
         return self.axes[0, :3]
 
     def at(self, time: float) -> Array:
-        """Return way, twist and acceleration (3, 6), [linear; angular], `time` s after the start."""
+        """Return displacement, twist and acceleration (3, 6) `time` s after the start: [linear; angular], m and rad."""
         return piece.sample_segment(self.row, time)
 
     @property
     def row(self) -> Array:
-        """What `piece.motion_at` takes."""
+        """The segment as a row (21,) for `segment_sampling.motion_at`, in m, rad and s."""
         return np.array(
             [*self.way.coefficients, *self.turn.coefficients, *self.axes[1, 3:], 0.0, 0.0, 0.0, *self.axes[0, :3]]
         )
 
     def transform(self, frame: Pose) -> Segment:
-        """Return the same motion, given in `frame`, in the frame's parent."""
+        """Return the same motion in the parent frame of `frame`."""
         return Segment(self.way, self.turn, (self.axes.reshape(4, 3) @ frame.rotation.T).reshape(2, 6))
 
 
 def segment_between(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
-    """Return the straight motion between two poses of one frame; the shorter part is slowed down to the longer."""
+    """Return the straight motion between two poses of one frame; translation and rotation take equally long."""
     direction, length = _unit(end.position - start.position)
     axis, angle = _unit(log(end.rotation @ start.rotation.T))
     way = trapezoidal_profile(length, limits.speed, limits.acceleration)
@@ -100,6 +101,6 @@ def segment_between(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
 
 
 def _unit(vector: Array) -> tuple[Array, float]:
-    """Return the direction and the length of a vector; zeros where it is too short to have a direction."""
+    """Return direction and length of a vector; zeros if it is too short to have a direction."""
     length = float(np.linalg.norm(vector))
     return (vector / length, length) if length > 1e-9 else (np.zeros(3), 0.0)

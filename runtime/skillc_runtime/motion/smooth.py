@@ -1,4 +1,4 @@
-"""A profile whose acceleration changes evenly instead of jumping: the trapezoid, averaged over a window of time.
+"""A profile with limited jerk: the trapezoidal profile, averaged over a window of time.
 
 s_w(t) = 1/w int_(t-w)^t s;  v_w = (s(t) - s(t-w)) / w;  a_w = (v(t) - v(t-w)) / w;  jerk <= 2 a / w.
 """
@@ -14,9 +14,9 @@ from skillc_runtime.motion.profile import Profile, trapezoid_at
 
 @dataclass(frozen=True, slots=True)
 class SmoothProfile:
-    """A profile averaged over a window in s, by which it lasts longer; speed and acceleration do not grow.
+    """A profile averaged over a window in s, which makes it longer by as much; speed and acceleration do not increase.
 
-    Rise and fall are half of the time each where it does not cruise.
+    Rise and fall are half of the duration each if it does not cruise.
     """
 
     profile: Profile
@@ -24,39 +24,39 @@ class SmoothProfile:
 
     @property
     def length(self) -> float:
-        """The way in m or rad."""
+        """The length in m or rad."""
         return self.profile.length
 
     @property
     def rise(self) -> float:
-        """Seconds until it cruises."""
+        """The acceleration time in s."""
         return min(self.profile.rise + self.window, self.duration / 2) if self.length > 0 else 0.0
 
     @property
     def fall(self) -> float:
-        """Seconds from cruising to rest."""
+        """The deceleration time in s."""
         return min(self.profile.fall + self.window, self.duration / 2) if self.length > 0 else 0.0
 
     @property
     def duration(self) -> float:
-        """Seconds from rest to rest; 0 for no length."""
+        """The time in s from rest to rest; 0 if the length is 0."""
         return self.profile.duration + self.window if self.length > 0 else 0.0
 
     def at(self, time: float) -> tuple[float, float, float]:
-        """Return place, speed and acceleration at `time` s."""
+        """Return distance, speed and acceleration at `time` s, in m or rad."""
         return smooth_at(*self.coefficients, time)
 
     @property
     def coefficients(self) -> tuple[float, float, float, float, float, float]:
-        """What `smooth_at` takes."""
+        """Length, peak speed, acceleration, deceleration, rate and window, in m or rad and s, for `smooth_at`."""
         return (*self.profile.coefficients[:5], self.window)
 
 
 @inlined
 def _area(speed: float, rise: float, fall: float, length: float, end: float, time: float) -> float:
-    """Return the integral of the way until `time` s, for a trapezoid that cruises with `speed` and lasts until `end`.
+    """Return the integral of the distance until `time` s, for a profile that cruises with `speed` and ends at `end` s.
 
-    It accelerates for `rise` and brakes for `fall` s.
+    It accelerates for `rise` s and decelerates for `fall` s.
     """
     if time <= 0:
         return 0.0
@@ -75,7 +75,10 @@ def _area(speed: float, rise: float, fall: float, length: float, end: float, tim
 def smooth_at(
     length: float, peak: float, acceleration: float, deceleration: float, rate: float, window: float, time: float
 ) -> tuple[float, float, float]:
-    """Return place, speed and acceleration of a `SmoothProfile`; a window of 0 s leaves the plain profile."""
+    """Return distance, speed and acceleration of a `SmoothProfile` at `time` s.
+
+    With a window of 0 s those of the profile.
+    """
     now = trapezoid_at(length, peak, acceleration, deceleration, rate, time)
     if window == 0.0 or length <= 0.0:
         return now
@@ -94,7 +97,7 @@ def smooth_profile(profile: Profile, window: float) -> Profile | SmoothProfile:
 
 
 def window_for(acceleration: float, jerk: float) -> float:
-    """Return the window in s that keeps the jerk below a limit > 0, which may be infinite."""
+    """Return the window in s that keeps the jerk below a limit > 0, in m/s^3 for m/s^2; ValueError for another one."""
     if jerk <= 0:
         raise ValueError(f"a jerk must be above 0, not {jerk:g}")
     return 0.0 if isinf(jerk) else 2 * acceleration / jerk

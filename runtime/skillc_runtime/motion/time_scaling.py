@@ -1,16 +1,19 @@
-"""The time of a motion, which can be slowed to a standstill and taken up again without a jump in speed."""
+"""The time of a motion, which can be slowed to a standstill and resumed without a jump in speed."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 RAMP_S = 0.5
-"""Seconds from full speed to standstill."""
+"""Time from full speed to standstill."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimeScaling:
-    """From `since` on, when motion time was `time` and ran at `rate`, the rate changes evenly to `goal`, 0 or 1."""
+    """A change of the rate of motion time, linear in time, from `rate` to `goal`, 0 or 1.
+
+    It begins at `since` s, when motion time is `time` s. Times `now` are in s.
+    """
 
     since: float = 0.0
     time: float = 0.0
@@ -18,7 +21,7 @@ class TimeScaling:
     goal: float = 1.0
 
     def at(self, now: float) -> tuple[float, float, float]:
-        """Return motion time in s, its rate, and the rate's change per s."""
+        """Return motion time in s, its rate, and the change of the rate in 1/s."""
         passed = now - self.since
         if self.rate == self.goal:
             return self.time + self.goal * passed, self.goal, 0.0
@@ -29,6 +32,6 @@ class TimeScaling:
         return self.time + self.rate * passed + slope * passed * passed / 2, self.rate + slope * passed, slope
 
     def towards(self, goal: float, now: float) -> TimeScaling:
-        """Return the scaling that from now on changes to `goal`."""
+        """Return the scaling whose rate changes to `goal` from now on."""
         time, rate, _ = self.at(now)
         return TimeScaling(now, time, rate, goal)

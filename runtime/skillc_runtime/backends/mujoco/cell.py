@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -10,15 +11,12 @@ import mujoco
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.base import SimulatedBase
 from skillc_runtime.backends.mujoco.button import SimulatedButton, make_buttons
-from skillc_runtime.backends.mujoco.coverage import CoverageMap
+from skillc_runtime.backends.mujoco.coverage import CoverageMap, SimulatedCamera
 from skillc_runtime.backends.mujoco.driver_factory import make_driver
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
-from skillc_runtime.backends.mujoco.ground_truth import SimulatedTruth
-from skillc_runtime.backends.mujoco.inspection import SimulatedCamera
 from skillc_runtime.backends.mujoco.model_builder import build_model
-from skillc_runtime.backends.mujoco.observer import ToolObserver
+from skillc_runtime.backends.mujoco.observer import SimulatedTruth, ToolObserver
 from skillc_runtime.backends.mujoco.person import make_people
-from skillc_runtime.backends.mujoco.physics_warnings import print_warnings
 from skillc_runtime.backends.mujoco.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.mujoco.variation import Variation, draw_variation
 from skillc_runtime.control.driver import CompliantArmDriver
@@ -221,3 +219,12 @@ class SimulatedCell:
             if gripper is not None:
                 hands[facts.individual] = SimulatedGripper(gripper, names, self.scene.tools, arm, self.model, self.data)
         return arms, hands
+
+
+def print_warnings() -> None:
+    """Have every warning of MuJoCo told on stderr, and no file written, from now on in this process."""
+    mujoco.set_mju_user_warning(_print_warning)
+
+
+def _print_warning(warning: str) -> None:
+    print(f"simulation: {warning}", file=sys.stderr)

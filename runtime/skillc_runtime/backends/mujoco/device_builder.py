@@ -1,4 +1,4 @@
-"""Adds arms with their grippers, and tools, to a model under construction, with the numbers of their data sheets."""
+"""Adds arms with grippers, tools and fixtures to a model under construction, with the numbers of their data sheets."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
+from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
 from skillc_runtime.backends.mujoco.names import (
     box_geom_name,
     contact_sensor_name,
@@ -30,6 +32,9 @@ WRIST_SENSORS = (
 
 NET_FORCE = 3
 """How MuJoCo's contact sensor makes one of many contacts: it adds their forces up, in world axes."""
+
+BLOCKAGE = "blockage"
+"""The geom of a model that blocks a fixture; it is removed unless the fixture is blocked."""
 
 TOUCH_MARGIN_M = 0.01
 """How far the zone of a tool's touch sensor reaches beyond its working geom, so that pressed-in contacts count."""
@@ -162,3 +167,29 @@ def _add_contact_sensor(spec: Any, name: str, root: Any) -> None:
 
 def _add_sensor(spec: Any, name: str, kind: Any, site: str) -> None:
     spec.add_sensor(name=name, type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=site)
+
+
+def add_fixture(spec: Any, name: str, fixture: FixtureSpec, true: FixtureVariation) -> None:
+    """Attach the model of a fixture to the world as it really is; one that is missing is seen and touched by nobody."""
+    model, pose = mujoco.MjSpec.from_file(str(fixture.model)), true.true_pose(fixture.pose)
+    blockage = model.geom(BLOCKAGE)
+    if blockage is not None and not true.blocked:
+        model.delete(blockage)
+    for geom in model.geoms:
+        _rub(geom, true.friction)
+        if not true.present:
+            _vanish(geom)
+    for joint in model.joints:
+        joint.stiffness[0] *= 1.0 + true.stiffness_share
+    frame = spec.worldbody.add_frame(pos=pose.position, quat=quaternion_from_rotation(pose.rotation))
+    spec.attach(model, prefix=part_name(name, ""), frame=frame)
+
+
+def _rub(geom: Any, friction: float | None) -> None:
+    if friction is not None:
+        geom.friction[0] = friction
+
+
+def _vanish(geom: Any) -> None:
+    geom.contype = geom.conaffinity = 0
+    geom.rgba = [0.0, 0.0, 0.0, 0.0]

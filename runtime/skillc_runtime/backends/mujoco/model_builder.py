@@ -8,8 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.device_builder import add_arm, add_pressing_sensor, add_tool
-from skillc_runtime.backends.mujoco.fixtures import add_fixture
+from skillc_runtime.backends.mujoco.device_builder import add_arm, add_fixture, add_pressing_sensor, add_tool
 from skillc_runtime.backends.mujoco.names import (
     base_body_name,
     box_geom_name,
@@ -130,7 +129,7 @@ def _add_surface(spec: Any, name: str, surface: SurfaceSpec, true: SurfaceVariat
 def _add_hole(spec: Any, name: str, surface: Pose, area: Hole, friction: float) -> None:
     """Add what stands out of a surface at a hole; one that is flat is shown as a dark mark, which nothing touches."""
     height = max(area.height, MARK_M)
-    top = surface @ Pose(np.append(area.middle, height), np.eye(3))
+    top = surface @ Pose(np.append(area.centre, height), np.eye(3))
     _add_box(spec, name, top, np.append(area.size, height), friction, STEEL)
     if area.height == 0:
         spec.geom(box_geom_name(name)).contype = spec.geom(box_geom_name(name)).conaffinity = 0

@@ -13,7 +13,8 @@ from skillc_runtime.backends.mujoco.names import contact_sensor_name, face_senso
 from skillc_runtime.backends.mujoco.recorder import Recorder
 from skillc_runtime.backends.mujoco.scene_spec import ToolSpec
 from skillc_runtime.devices.arm_driver import ArmDriver
-from skillc_runtime.motion.pose import Array, rotation_from_quaternion
+from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
 STEPS_PER_UPDATE = 10
 """Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
@@ -87,3 +88,22 @@ def _pressing(
             first = int(model.sensor(sensor).adr[0])
             found.append((surface, data.sensordata[first : first + 3]))
     return found
+
+
+class SimulatedTruth:
+    """Implements `GroundTruth` from what observers saw of tools and where surfaces were put."""
+
+    def __init__(self, observers: Mapping[str, ToolObserver], surfaces: Mapping[str, Pose]) -> None:
+        self._observers, self._surfaces = observers, surfaces
+
+    def recording(self, tool: str) -> Recording:
+        """Return what was recorded of a tool while it was held; KeyError where the cell has no such tool."""
+        return self._observers[tool].recorder.recording()
+
+    def peak_force_n(self, tool: str) -> float:
+        """Return the greatest force on a tool while it was held; KeyError where the cell has no such tool."""
+        return self._observers[tool].peak_force.newton
+
+    def surface_pose(self, surface: str) -> Pose:
+        """Return where a surface really is, in the world; KeyError where the cell has no such surface."""
+        return self._surfaces[surface]

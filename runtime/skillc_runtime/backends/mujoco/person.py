@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.mujoco.names import part_name
-from skillc_runtime.backends.mujoco.person_spec import PersonSpec
-from skillc_runtime.backends.mujoco.person_variation import PersonVariation
+from skillc_runtime.backends.mujoco.people import PersonSpec, PersonVariation
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.backends.mujoco.variation import Variation
 from skillc_runtime.devices.arm_driver import ArmDriver

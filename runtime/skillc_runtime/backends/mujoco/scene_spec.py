@@ -8,7 +8,7 @@ from typing import Final
 
 from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec, read_fixtures
 from skillc_runtime.backends.mujoco.friction import read_friction_range
-from skillc_runtime.backends.mujoco.person_spec import PersonSpec, read_people
+from skillc_runtime.backends.mujoco.people import PersonSpec, read_people
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose

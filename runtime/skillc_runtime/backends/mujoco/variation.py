@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation, draw_fixture
-from skillc_runtime.backends.mujoco.person_variation import PersonVariation, draw_person
+from skillc_runtime.backends.mujoco.people import PersonVariation, draw_person
 from skillc_runtime.backends.mujoco.rng import rng_for
 from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
 from skillc_runtime.backends.mujoco.start_postures import draw_start

@@ -1,8 +1,8 @@
-"""Compiles functions over arrays where numba is installed (the extra `fast`); elsewhere they run as they are.
+"""Compiles functions over arrays if numba is installed (the extra `fast`); otherwise they run as plain Python.
 
-Each is compiled when it is first called, or when another that calls it is compiled. Loops over numbers compile fast;
-an expression over arrays costs ten times as much, a slice that is assigned to half a second. The machine code is kept
-in the user's cache folder, named after the sources it was made of.
+Each function is compiled at its first call, or with a function that calls it. Loops over numbers compile fast; an
+expression over arrays takes ten times as long to compile, an assignment to a slice half a second. Machine code is
+stored in the user's cache folder under a name that depends on the sources.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 
 COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("numba") is not None
-"""Whether functions are compiled; SKILLC_COMPILED=0 in the environment leaves them as they are."""
+"""Whether functions are compiled; SKILLC_COMPILED=0 in the environment turns it off."""
 
 
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
 
-    It may take dataclasses with fields of these types and of such dataclasses, which it only reads: what an array in a
-    field holds may be written. One that does is called from Python only. Functions it calls are `compiled` or `part`
-    themselves.
+    Parameters may be dataclasses whose fields have these types or are such dataclasses; the fields are read-only, the
+    contents of arrays are not. Such a function can only be called from Python. Functions that it calls are `compiled`
+    or `inlined` themselves.
     """
     if not COMPILES:
         return function
@@ -49,7 +49,7 @@ def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Paramet
     compile_for = made.compile
 
     def compile_once(_first_call: object) -> object:
-        """Compile for the annotated types, whatever those of the first call, and for no others."""
+        """Compile for the annotated types only, not for those of the first call."""
         types = get_annotations(function, eval_str=True)
         returns = _type(types.pop("return"))
         with _lock(), _our_settings() as kept:
@@ -67,7 +67,7 @@ def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Paramet
 
 
 def inlined(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Let compiled functions call this one, compiled with them for whatever they pass; elsewhere it stays as it is."""
+    """Let compiled functions call this one; it is compiled with them, for the types that they pass."""
     if not COMPILES:
         return function
     callable_inside = import_module("numba.extending").register_jitable(
@@ -78,9 +78,10 @@ def inlined(function: Callable[Parameters, Result]) -> Callable[Parameters, Resu
 
 
 def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
-    """Return what calls a compiled function with the fields of its dataclasses, one by one.
+    """Return a function that passes the fields of dataclasses one by one to a compiled function.
 
-    Numba takes named tuples, but only of arrays of one layout and all writable, or none; single arrays it converts.
+    Numba takes named tuples only if all arrays in them have the same layout and are writable, or none is; it converts
+    single arrays.
     """
     annotations = get_annotations(function, eval_str=True)
     returns = annotations.pop("return")
@@ -103,16 +104,16 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
 
 @cache
 def _names_in(function: Any) -> set[str]:
-    """Return the names of what a function, and those it calls, read from elsewhere: fields among them."""
+    """Return the names that a function, and the functions it calls, read from outside, attributes included."""
     found = set(function.__code__.co_names)
     called = (inner for name in found if isfunction(inner := function.__globals__.get(name)))
     return found.union(*map(_names_in, called))
 
 
 def _packed(function: Any, annotation: Any, path: str, leaves: dict[str, Any], names: dict[str, Any]) -> str:
-    """Return the expression that makes a parameter of single values; add these, and what makes it, to the last two.
+    """Return the expression that builds a parameter from single values; add them to `leaves`, its type to `names`.
 
-    A field whose name the function does not use is left out: every value that is passed costs time.
+    Fields that the function does not use are left out: each argument costs time.
     """
     if not is_dataclass(annotation):
         leaves[path] = annotation
@@ -120,7 +121,7 @@ def _packed(function: Any, annotation: Any, path: str, leaves: dict[str, Any], n
     assert isinstance(annotation, type)
     hints = get_type_hints(annotation, include_extras=True)
     parts = [(field.name, hints[field.name]) for field in fields(annotation) if field.name in _names_in(function)]
-    # Numba tells named tuples apart by their names and the types of their fields alone, so no two may share a name.
+    # Numba distinguishes named tuples only by name and field types, so names must be unique.
     kind = f"{function.__module__}_{function.__name__}_{annotation.__name__}".replace(".", "_")
     names[kind] = namedtuple(kind, [name for name, _ in parts])
     inside = (_packed(function, hint, f"{path}.{each}", leaves, names) for each, hint in parts)
@@ -139,16 +140,16 @@ def _type(annotation: Any) -> Any:
 
 
 def _lock() -> AbstractContextManager[object]:
-    """Return what numba holds while it compiles, so that threads never wait for each other in turn."""
+    """Return the lock that numba holds while it compiles; taking it first avoids deadlocks of threads."""
     lock: AbstractContextManager[object] = import_module("numba.core.compiler_lock").global_compiler_lock
     return lock
 
 
 @contextmanager
 def _our_settings() -> Iterator[bool]:
-    """Let numba keep what it compiles in our folder, and tell if there is one; its settings are put back afterwards.
+    """Let numba store machine code in our folder, and yield whether there is one; restore its settings afterwards.
 
-    Loops over three to seven numbers gain nothing from what numba does for long ones but take longer to compile.
+    Vectorisation does not speed up loops over three to seven numbers, and makes compiling slower.
     """
     config: Any = import_module("numba").config
     ours = {"CACHE_DIR": _folder(), "OPT": 1, "LOOP_VECTORIZE": 0}
@@ -162,7 +163,7 @@ def _our_settings() -> Iterator[bool]:
 
 @cache
 def _folder() -> str:
-    """Return where machine code is kept, empty where nothing can be; say so when it has to be made first."""
+    """Return the folder of machine code, empty if none can be written; print a message if it is new."""
     base = cache_folder()
     if base is None:
         return ""
@@ -178,7 +179,7 @@ def _folder() -> str:
 
 
 def _digest() -> str:
-    """Return a name for the sources of whatever may be compiled: numba itself looks at one file at a time."""
+    """Return a digest of the sources of all compiled functions: numba itself checks only the file of each function."""
     runtime = Path(__file__).parents[2]
     sources = sorted(path for path in runtime.rglob("*.py") if b"motion.numerics" in path.read_bytes())
     return sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()[:16]

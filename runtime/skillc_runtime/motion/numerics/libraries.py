@@ -1,4 +1,4 @@
-"""Linear algebra of small matrices by numpy and MuJoCo: fastest where every operation costs a call."""
+"""Linear algebra of small matrices by numpy and MuJoCo: fastest if functions are not compiled."""
 
 from __future__ import annotations
 
@@ -9,42 +9,42 @@ from skillc_runtime.motion.pose import Array, exp
 
 
 def times(A: Array, x: Array, out: Array) -> None:
-    """out (m,) = A (m, n) x (n,)."""
+    """out (m,) = A (m, n) x (n,), in any unit."""
     np.dot(A, x, out=out)
 
 
 def transposed_times(A: Array, x: Array, out: Array) -> None:
-    """out (n,) = A^T x for A (m, n) and x (m,)."""
+    """out (n,) = A^T x for A (m, n) and x (m,), in any unit."""
     np.dot(x, A, out=out)
 
 
 def product(A: Array, B: Array, out: Array) -> None:
-    """out (m, n) = A (m, k) B (k, n)."""
+    """out (m, n) = A (m, k) B (k, n), in any unit."""
     np.dot(A, B, out=out)
 
 
 def cross(a: Array, b: Array, out: Array) -> None:
-    """out (3,) = a x b."""
+    """out (3,) = a x b (3,), along the same axes and in any unit."""
     mujoco.mju_cross(out, a, b)
 
 
 def cholesky(A: Array) -> None:
-    """Turn A (n, n), symmetric and positive, into its lower factor L with A = L L^T; what is above stays."""
+    """Replace A (n, n), positive definite and in any unit, by its lower factor L, A = L L^T; the part above is kept."""
     mujoco.mju_cholFactor(A, 0.0)
 
 
 def cholesky_solve(L: Array, b: Array, out: Array) -> None:
-    """Solve L L^T out = b for b (n,)."""
+    """Solve L L^T out = b for L (n, n) and b (n,), in any unit."""
     mujoco.mju_cholSolve(out, L, b)
 
 
 def rotation_by(vector: Array, out: Array) -> None:
-    """out (3, 3) = the rotation about a vector (3,) in rad."""
+    """out (3, 3) = the rotation about a vector (3,) in rad of the same frame."""
     out[:] = exp(vector)
 
 
 def rotation_between(start: Array, end: Array, out: Array) -> None:
-    """out (3,) = log(end start^T): the shortest turn in rad between rotations (3, 3), along their parent's axes."""
+    """out (3,) = log(end start^T): the rotation vector in rad between rotations (3, 3), in their parent frame."""
     quaternion = np.empty(4)
     mujoco.mju_mat2Quat(quaternion, np.dot(end, start.T).ravel())
     mujoco.mju_quat2Vel(out, quaternion, 1.0)
@@ -53,10 +53,10 @@ def rotation_between(start: Array, end: Array, out: Array) -> None:
 def add_under(
     grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
 ) -> None:
-    """Add to the points of a grid (m, n), rows y (m,) and columns x (n,), that a rectangle reaches; in m.
+    """Add `amount` to the points of a grid (m, n), with rows y (m,) and columns x (n,), that are under a rectangle.
 
-    The grid lies in the plane z = 0. The rectangle has its middle (3,) and a size (2,) along the first columns of axes
-    (3, 3), all in the grid's frame; it may reach to `near` above the plane.
+    Lengths in m. The grid lies in the plane z = 0. The rectangle has its centre `middle` (3,) and a size (2,) along the
+    first columns of axes (3, 3), all in the frame of the grid; points at most `near` below it count.
     """
     reach = np.hypot(size[0], size[1]) / 2
     left, right = np.searchsorted(x, (middle[0] - reach, middle[0] + reach))

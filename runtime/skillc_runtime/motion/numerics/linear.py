@@ -1,6 +1,6 @@
-"""The linear algebra of small matrices, and cells under a tool: loops if compiled, else calls of libraries.
+"""Linear algebra of small matrices, and cells under a tool: compiled loops, or calls of libraries without numba.
 
-The two agree but for rounding. Results are written to the last argument.
+Both agree up to rounding. Results are written to the last argument.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Linear algebra of small matrices in loops to be compiled; `libraries` says what each function does."""
+"""Linear algebra of small matrices as loops, to be compiled; the same functions as in `libraries`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from skillc_runtime.motion.pose import Array
 
 @inlined
 def times(A: Array, x: Array, out: Array) -> None:
-    """out (m,) = A (m, n) x (n,)."""
+    """out (m,) = A (m, n) x (n,), in any unit."""
     for i in range(A.shape[0]):
         total = 0.0
         for j in range(A.shape[1]):
@@ -20,7 +20,7 @@ def times(A: Array, x: Array, out: Array) -> None:
 
 @inlined
 def transposed_times(A: Array, x: Array, out: Array) -> None:
-    """out (n,) = A^T x for A (m, n) and x (m,)."""
+    """out (n,) = A^T x for A (m, n) and x (m,), in any unit."""
     for j in range(A.shape[1]):
         total = 0.0
         for i in range(A.shape[0]):
@@ -30,7 +30,7 @@ def transposed_times(A: Array, x: Array, out: Array) -> None:
 
 @inlined
 def product(A: Array, B: Array, out: Array) -> None:
-    """out (m, n) = A (m, k) B (k, n)."""
+    """out (m, n) = A (m, k) B (k, n), in any unit."""
     for i in range(A.shape[0]):
         for j in range(B.shape[1]):
             total = 0.0
@@ -41,7 +41,7 @@ def product(A: Array, B: Array, out: Array) -> None:
 
 @inlined
 def cross(a: Array, b: Array, out: Array) -> None:
-    """out (3,) = a x b."""
+    """out (3,) = a x b (3,), along the same axes and in any unit."""
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
@@ -49,7 +49,7 @@ def cross(a: Array, b: Array, out: Array) -> None:
 
 @inlined
 def cholesky(A: Array) -> None:
-    """Turn A (n, n), symmetric and positive, into its lower factor L with A = L L^T; what is above stays."""
+    """Replace A (n, n), positive definite and in any unit, by its lower factor L, A = L L^T; the part above is kept."""
     for j in range(A.shape[0]):
         left = A[j, j]
         for k in range(j):
@@ -64,7 +64,7 @@ def cholesky(A: Array) -> None:
 
 @inlined
 def cholesky_solve(L: Array, b: Array, out: Array) -> None:
-    """Solve L L^T out = b for b (n,)."""
+    """Solve L L^T out = b for L (n, n) and b (n,), in any unit."""
     n = L.shape[0]
     for i in range(n):
         left = b[i]
@@ -80,7 +80,7 @@ def cholesky_solve(L: Array, b: Array, out: Array) -> None:
 
 @inlined
 def rotation_by(vector: Array, out: Array) -> None:
-    """out (3, 3) = the rotation about a vector (3,) in rad. Rodrigues' formula; see `motion.pose`."""
+    """out (3, 3) = the rotation about a vector (3,) in rad of the same frame. Rodrigues' formula; see `motion.pose`."""
     x, y, z = vector[0], vector[1], vector[2]
     angle = sqrt(x * x + y * y + z * z)
     s, c = 1.0, 0.0
@@ -93,7 +93,10 @@ def rotation_by(vector: Array, out: Array) -> None:
 
 @inlined
 def rotation_between(start: Array, end: Array, out: Array) -> None:
-    """out (3,) = log(end start^T). Shepperd's quaternion, its signs such that w >= 0; see `motion.pose`."""
+    """out (3,) = log(end start^T) in rad, along the axes of the parent of both rotations (3, 3). See `motion.pose`.
+
+    Shepperd's quaternion, its signs such that w >= 0.
+    """
     a, b, c = _row(end, start, 0)
     d, e, f = _row(end, start, 1)
     g, h, i = _row(end, start, 2)
@@ -128,10 +131,10 @@ def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
 def add_under(
     grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
 ) -> None:
-    """Add to the points of a grid (m, n), rows y (m,) and columns x (n,), that a rectangle reaches; in m.
+    """Add `amount` to the points of a grid (m, n), with rows y (m,) and columns x (n,), that are under a rectangle.
 
-    The grid lies in the plane z = 0. The rectangle has its middle (3,) and a size (2,) along the first columns of axes
-    (3, 3), all in the grid's frame; it may reach to `near` above the plane.
+    Lengths in m. The grid lies in the plane z = 0. The rectangle has its centre `middle` (3,) and a size (2,) along the
+    first columns of axes (3, 3), all in the frame of the grid; points at most `near` below it count.
     """
     reach = hypot(size[0], size[1]) / 2
     for row in range(y.size):

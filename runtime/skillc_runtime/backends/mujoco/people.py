@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from skillc_runtime.backends.mujoco.rng import rng_for
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import number_of, range_below
@@ -40,3 +41,27 @@ def read_people(state: WorldState) -> tuple[PersonSpec, ...]:
         for each in sorted(state.instances(PERSON))
         for arm in sorted(state.objects(each, LEADS))
     )
+
+
+@dataclass(frozen=True, slots=True)
+class PersonVariation:
+    """One person: m beside the believed place along each axis of the world, N at most; or not `present` at all."""
+
+    person: str
+    place_m: tuple[float, float, float]
+    strength_n: float
+    present: bool = True
+
+    @property
+    def description(self) -> str:
+        """What differs, in words."""
+        x, y, z = (1e3 * each for each in self.place_m)
+        return f"leads {x:+.0f}, {y:+.0f} and {z:+.0f} mm beside, with {self.strength_n:.0f} N at most"
+
+
+def draw_person(person: PersonSpec, seed: int) -> PersonVariation:
+    """Draw the differences, evenly within the ranges of the facts."""
+    rng = rng_for(person.individual, seed)
+    x, y, z = (person.range_m * rng.uniform(-1.0, 1.0, 3)).tolist()
+    strength = person.strength_n + person.strength_range_n * float(rng.uniform(-1.0, 1.0))
+    return PersonVariation(person.individual, (x, y, z), strength)
