@@ -86,7 +86,7 @@ def understood(text: str) -> Program:
 
 def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -> Claims:
     """Explore a body and return everything that is claimed of it."""
-    run = prover.run(implementation, body)
+    run = prover.new_exploration(implementation, body)
     prover.leaks(implementation)
     ends = run.explore(run, body, {initial_state(run.types, implementation): None}, EvalContext())
     findings = prover.proofs[implementation.key].findings

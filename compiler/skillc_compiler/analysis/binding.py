@@ -9,7 +9,7 @@ from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.evaluate import canonical_condition
 from skillc_compiler.analysis.state import IndividualTerm, State
 from skillc_compiler.logic.effects import NoEffect, effects_of
-from skillc_compiler.program.typed import Call, Implementation, Parameter, Program, Requirement, Skill
+from skillc_compiler.program.typed import Call, Parameter, Program, Requirement, Skill
 from skillc_model.conditions import (
     And,
     Condition,
@@ -56,19 +56,11 @@ class Binding:
         return substitute(effect, self.after)
 
 
-def candidates(program: Program, call: Call) -> tuple[Implementation, ...]:
-    """Return the implementations that may be selected for a call."""
-    if call.skill is None:
-        return ()
-    known = program.implementations_of.get(call.skill.name, ())
-    return tuple(one for one in known if call.implementation in (None, one.name))
-
-
 def call_requirements(program: Program, call: Call, kind: str) -> tuple[Requirement, ...]:
     """Return the conditions of the description, and those of the implementation if only one can be selected."""
     if call.skill is None:
         return ()
-    chosen = candidates(program, call)
+    chosen = program.candidates(call)
     own = chosen[0].requirements if len(chosen) == 1 else ()
     return tuple(each for each in (*call.skill.requirements, *own) if each.kind == kind)
 
@@ -87,7 +79,7 @@ def bind_call(types: AliasTypes, state: State, call: Call, requirements: Sequenc
     `requirements` are its preconditions. An inferred parameter is known if they leave only one individual.
     """
     assert call.skill is not None, "a call of an unknown skill has no parameters"
-    passed = dict(_passed(call.skill, call))
+    passed = dict(_passed_arguments(call.skill, call))
     start: dict[str, Expression] = {}
     after: dict[str, Expression] = {}
     open_: dict[str, Parameter] = {}
@@ -110,7 +102,7 @@ def bind_call(types: AliasTypes, state: State, call: Call, requirements: Sequenc
     return Binding(call.skill, start, after, made, {p.name: _given_answer(p, passed) for p in call.skill.parameters})
 
 
-def _passed(skill: Skill, call: Call) -> Iterator[tuple[str, Expression]]:
+def _passed_arguments(skill: Skill, call: Call) -> Iterator[tuple[str, Expression]]:
     """Yield the arguments of a call.
 
     A value that is no individual where one is required is reported elsewhere; it is left open here.

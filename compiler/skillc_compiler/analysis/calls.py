@@ -11,7 +11,6 @@ from skillc_compiler.analysis.binding import (
     Binding,
     bind_call,
     call_requirements,
-    candidates,
     class_of,
     definite_effects,
     fresh_variable,
@@ -131,8 +130,8 @@ def _monitored_ends(
         good = outcome == "success"
         ended, trail = (after[0], trails[0]) if good else (after[1], trails[1])
         for monitor in sorted(monitors):
-            told = ended.replace(monitor=monitor)
-            yield outcome, run.monitor.on_success(run, told, name) if good else told, trail
+            remembered = ended.replace(monitor=monitor)
+            yield outcome, run.monitor.on_success(run, remembered, name) if good else remembered, trail
 
 
 def _assume_started(run: Exploration, binding: Binding, conditions: Sequence[Requirement], state: State) -> State:
@@ -144,9 +143,9 @@ def _assume_started(run: Exploration, binding: Binding, conditions: Sequence[Req
 
 def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: State) -> State:
     """Return the state after the skill succeeded: its writes are applied and its postconditions hold."""
-    hidden_writes = {write for one in candidates(run.program, call) for write in run.leaks(one)}
+    hidden_writes = {write for one in run.program.candidates(call) for write in run.leaks(one)}
     if "fallback" in binding.skill.flags:
-        hidden_writes |= {w for one in candidates(run.program, call) for w in run.summaries.writes_on_failure(one)}
+        hidden_writes |= {w for one in run.program.candidates(call) for w in run.summaries.writes_on_failure(one)}
     state = havoc(run.types, state, _hide_unstable(run, in_caller_terms(call, frozenset(hidden_writes))))
     if call.out is not None:
         state = state.without_name(call.out.text)

@@ -83,7 +83,7 @@ def _explore_kind(run: Exploration, node: TypedNode, states: StatePaths, context
         case s.ApplyPosts():
             return _explore_apply(run, node, written, states, context)
         case s.CallSkill():
-            assert node.call is not None, "a call is understood as one"
+            assert node.call is not None, "a call node has a call"
             return explore_call(run, node.call, states, context)
         case s.With():
             return explore_with(run, node, states, context)

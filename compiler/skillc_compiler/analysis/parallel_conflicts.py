@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from skillc_compiler.analysis.axioms import RelationAxioms
-from skillc_compiler.analysis.binding import candidates
 from skillc_compiler.analysis.findings import ParallelConflict
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.writes import PropertyWrite, RelationWrite, Write
@@ -50,7 +49,7 @@ def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> fro
         return frozenset()
     passed = {argument.name.text: argument.value.meaning for argument in call.arguments}
     names = {device.parameter.text for device in call.skill.devices if device.kind == "uses"}
-    for implementation in candidates(program, call):
+    for implementation in program.candidates(call):
         if isinstance(implementation.body, TypedNode):
             for inner in calls_in(implementation.body):
                 found = _devices(program, inner, (*context, call.skill.name))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TypeVar
 
-from skillc_compiler.analysis import end_states as ending
+from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.axioms import RelationAxioms, build_axioms
 from skillc_compiler.analysis.evaluate import evaluate
@@ -51,7 +51,7 @@ def prove(program: Program) -> Mapping[str, Proof]:
     for implementation in program.implementations:
         prover.leaks(implementation)
     for task in program.tasks:
-        prover.task(task)
+        prover.prove_task(task)
     return prover.proofs
 
 
@@ -80,19 +80,19 @@ class Prover:
             return NO_WRITES
         if implementation.key not in self.proofs:
             self._busy.add(implementation.key)
-            self.proofs[implementation.key] = self._implementation(implementation, implementation.body)
+            self.proofs[implementation.key] = self._prove_implementation(implementation, implementation.body)
             self._busy.discard(implementation.key)
         return self.proofs[implementation.key].leaks
 
-    def task(self, task: Task) -> None:
+    def prove_task(self, task: Task) -> None:
         """Prove the body of a task."""
         if task.body is not None:
-            run = self.run(None, task.body)
+            run = self.new_exploration(None, task.body)
             run.explore(run, task.body, {State(): None}, EvalContext())
-            findings = self._kept(task, task.body, run, ())
+            findings = self._all_findings(task, task.body, run, ())
             self.proofs[f"task {task.name}"] = Proof(task, findings)
 
-    def run(self, implementation: Implementation | None, body: TypedNode) -> Exploration:
+    def new_exploration(self, implementation: Implementation | None, body: TypedNode) -> Exploration:
         """Return a new exploration of a body."""
         types = AliasTypes(self.program.vocabulary, self._axioms)
         lets: tuple[Let, ...] = implementation.lets if implementation else ()
@@ -113,29 +113,31 @@ class Prover:
             stable=frozenset(stable),
         )
 
-    def _implementation(self, implementation: Implementation, body: TypedNode) -> Proof:
-        run = self.run(implementation, body)
+    def _prove_implementation(self, implementation: Implementation, body: TypedNode) -> Proof:
+        run = self.new_exploration(implementation, body)
         start = initial_state(run.types, implementation)
         ends = explore(run, body, {start: None}, EvalContext())
-        told = tuple(ending.end_findings(run, implementation, start, ends))
-        told = (*told, *self._verified(implementation, body, start))
-        leaks = ending.undeclared_writes(run, implementation, start, ends)
-        return Proof(implementation, self._kept(implementation, body, run, told), leaks)
+        end_findings = (
+            *end_states.end_findings(run, implementation, start, ends),
+            *self._verify_findings(implementation, body, start),
+        )
+        leaks = end_states.undeclared_writes(run, implementation, start, ends)
+        return Proof(implementation, self._all_findings(implementation, body, run, end_findings), leaks)
 
-    def _verified(self, implementation: Implementation, body: TypedNode, start: State) -> Iterator[Finding]:
+    def _verify_findings(self, implementation: Implementation, body: TypedNode, start: State) -> Iterator[Finding]:
         for line in implementation.verify:
-            run = self.run(implementation, body)
-            run.monitor = watch = VerifyMonitor(line, self.program, self.summaries, self.run)
+            run = self.new_exploration(implementation, body)
+            run.monitor = monitor = VerifyMonitor(line, self.program, self.summaries, self.new_exploration)
             ends = explore(run, body, {start: None}, EvalContext())
-            watch.on_end(run, ends.success)
-            watch.observe(run, ends.failed)
-            if watch.broken is not None:
-                yield ViolatedProperty(line, watch.broken)
-            elif watch.open_ or run.widened_at is not None:
+            monitor.on_end(run, ends.success)
+            monitor.observe(run, ends.failed)
+            if monitor.broken is not None:
+                yield ViolatedProperty(line, monitor.broken)
+            elif monitor.open_ or run.widened_at is not None:
                 yield UndecidedProperty(line)
 
-    def _kept(
-        self, of: Implementation | Task, body: TypedNode, run: Exploration, told: tuple[Finding, ...]
+    def _all_findings(
+        self, of: Implementation | Task, body: TypedNode, run: Exploration, end_findings: tuple[Finding, ...]
     ) -> tuple[Finding, ...]:
         found = [
             *run.found.values(),
@@ -143,7 +145,7 @@ class Prover:
             *unreachable_nodes(run, body, parameter_state(of) if isinstance(of, Implementation) else State()),
             *find_parallel_conflicts(self.program, self.summaries, self._axioms, body),
             *leaked_scopes(of, body),
-            *told,
+            *end_findings,
         ]
         if run.widened_at is not None:
             found.append(TooManyStates(run.widened_at))

@@ -67,8 +67,8 @@ def possible_witnesses(state: State, condition: Exists) -> Iterator[frozenset[In
 
 def is_ruled_out(types: AliasTypes, state: State, asked: Condition) -> bool:
     """Whether no individual satisfies a known-false `exists`, and the asked condition would make one satisfy it."""
-    nobody = [fact for fact, true in state.facts.items() if not true and isinstance(fact, Exists)]
-    for fact in nobody:
+    denied = [fact for fact, true in state.facts.items() if not true and isinstance(fact, Exists)]
+    for fact in denied:
         for thing in {part for part in walk(asked) if isinstance(part, Variable | Individual)}:
             parts = tuple(conjuncts(substitute(fact.body, {fact.variable: thing})))
             known = all(part == asked or _is_known(state, part) for part in parts)

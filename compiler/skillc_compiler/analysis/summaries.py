@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from skillc_compiler.analysis.alias_types import AliasTypes, any_individual
 from skillc_compiler.analysis.apply_effects import apply_effects
 from skillc_compiler.analysis.axioms import RelationAxioms
-from skillc_compiler.analysis.binding import candidates, class_of, definite_effects
+from skillc_compiler.analysis.binding import class_of, definite_effects
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
 from skillc_compiler.analysis.writes import (
@@ -43,7 +43,7 @@ class WriteSummaries:
         """Return what the implementation may write before it ends, in any way."""
         if implementation.key not in self._whole:
             self._whole[implementation.key] = NO_WRITES
-            self._whole[implementation.key] = frozenset(self._of(implementation))
+            self._whole[implementation.key] = frozenset(self._writes_of(implementation))
         return self._whole[implementation.key]
 
     def writes_on_failure(self, implementation: Implementation) -> frozenset[Write]:
@@ -74,7 +74,7 @@ class WriteSummaries:
         values = _argument_values(call, call.skill)
         found = {
             _substitute_write(write, values)
-            for one in candidates(self._program, call)
+            for one in self._program.candidates(call)
             for write in (self.writes_on_failure(one) if failing else self.all_writes(one))
         }
         return frozenset(found)
@@ -94,7 +94,7 @@ class WriteSummaries:
             return NO_WRITES
         if "scoped" in call.skill.flags:
             return self.writes_of_call(call)
-        bodies = [one.body for one in candidates(self._program, call) if isinstance(one.body, TypedNode)]
+        bodies = [one.body for one in self._program.candidates(call) if isinstance(one.body, TypedNode)]
         inner = (
             write
             for body in bodies
@@ -138,7 +138,7 @@ class WriteSummaries:
             )
         )
 
-    def _of(self, implementation: Implementation) -> Iterator[Write]:
+    def _writes_of(self, implementation: Implementation) -> Iterator[Write]:
         if isinstance(implementation.body, TypedNode):
             visible = [p.name for p in implementation.parameters if p.direction != "out"]
             whole = self.writes_of_node(implementation.body, implementation)

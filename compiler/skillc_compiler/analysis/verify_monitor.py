@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from skillc_compiler.analysis.binding import candidates
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.initial_state import initial_state
@@ -44,7 +43,7 @@ class VerifyMonitor:
         if pattern == "never" and first.skill == skill:
             self._violate(path)
         if pattern == "outside" and first.skill == skill and not inside:
-            self._outside(run, state, path, second)
+            self._check_outside(run, state, path, second)
         if pattern == "before" and second is not None and second.skill == skill and number == 0:
             self._violate(path)
         if pattern == "outside" and second is not None and second.skill == skill:
@@ -65,14 +64,14 @@ class VerifyMonitor:
         """Return the states with conditions evaluated and remembered; a violation is recorded."""
         found: dict[State, Path] = {}
         for state, path in states.items():
-            add_state(found, self._seen(run, state, path) if self._depth == 0 else state, path)
+            add_state(found, self._observe_state(run, state, path) if self._depth == 0 else state, path)
         return found
 
     def after_body(self, call: Call, before: State, state: State, path: PathStep) -> Mapping[str, frozenset[Monitor]]:
         """Return the possible memories after the body of a call, by outcome; `before` is the state before it."""
         ended: dict[str, set[Monitor]] = {"success": set(), "failure": {before.monitor}, "broken": set()}
-        for one in candidates(self.program, call):
-            for outcome, monitors in self._of(one, state.monitor, path).items():
+        for one in self.program.candidates(call):
+            for outcome, monitors in self._after_implementation(one, state.monitor, path).items():
                 ended[outcome] |= monitors
         stays = call.skill is not None and "scoped" in call.skill.flags
         lasting = {(number, inside if stays else before.monitor[1]) for number, inside in ended["success"]}
@@ -97,7 +96,7 @@ class VerifyMonitor:
             if self.property.pattern == "eventually" and state.monitor[0] == 1 and path is not None:
                 self._violate(path)
 
-    def _outside(self, run: Exploration, state: State, path: PathStep, second: Event | None) -> None:
+    def _check_outside(self, run: Exploration, state: State, path: PathStep, second: Event | None) -> None:
         if second is not None and second.condition is not None:
             known = evaluate(run.types, state, second.condition.meaning) if self._depth == 0 else None
             if known is not False:
@@ -105,9 +104,9 @@ class VerifyMonitor:
                 return
         self._violate(path)
 
-    def _seen(self, run: Exploration, state: State, path: Path) -> State:
+    def _observe_state(self, run: Exploration, state: State, path: Path) -> State:
         number, inside = state.monitor
-        first = self._known(run, state, self.property.first)
+        first = self._holds(run, state, self.property.first)
         match self.property.pattern:
             case "never" if first and path is not None:
                 self._violate(path)
@@ -115,9 +114,9 @@ class VerifyMonitor:
                 self._violate(path)
             case "before" if first:
                 number = 1
-            case "before" if number == 0 and path is not None and self._known(run, state, self.property.second):
+            case "before" if number == 0 and path is not None and self._holds(run, state, self.property.second):
                 self._violate(path)
-            case "eventually" if self._known(run, state, self.property.second):
+            case "eventually" if self._holds(run, state, self.property.second):
                 number = 0
             case "eventually" if first:
                 number = 1
@@ -125,7 +124,7 @@ class VerifyMonitor:
                 pass
         return state.replace(monitor=(number, inside)) if number != state.monitor[0] else state
 
-    def _known(self, run: Exploration, state: State, event: Event | None) -> bool:
+    def _holds(self, run: Exploration, state: State, event: Event | None) -> bool:
         return (
             event is not None
             and event.condition is not None
@@ -136,17 +135,19 @@ class VerifyMonitor:
         if self.broken is None or path_length(path) < path_length(self.broken):
             self.broken = path
 
-    def _of(self, implementation: Implementation, monitor: Monitor, path: PathStep) -> Mapping[str, frozenset[Monitor]]:
+    def _after_implementation(
+        self, implementation: Implementation, monitor: Monitor, path: PathStep
+    ) -> Mapping[str, frozenset[Monitor]]:
         """Return the possible memories after a body that began with `monitor`, by outcome."""
         key = (implementation.key, monitor)
         if key not in self._inside:
             alone = frozenset({monitor})
             self._inside[key] = {"success": alone, "failure": alone, "broken": alone}
             if isinstance(implementation.body, TypedNode):
-                self._inside[key] = self._explored(implementation, implementation.body, monitor, path)
+                self._inside[key] = self._explore(implementation, implementation.body, monitor, path)
         return self._inside[key]
 
-    def _explored(
+    def _explore(
         self, implementation: Implementation, body: TypedNode, monitor: Monitor, path: PathStep
     ) -> dict[str, frozenset[Monitor]]:
         run = self.new_run(implementation, body)

@@ -16,18 +16,18 @@ NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield the problems with the arguments of each call of a skill or function."""
     for call in all_calls(program):
-        yield from _twice(call)
+        yield from _check_duplicates(call)
         if call.skill:
-            yield from _missing(call, call.skill)
+            yield from _check_missing(call, call.skill)
     for node in all_nodes(program):
         if isinstance(node.written, s.With) and node.call and node.call.skill:
-            yield from _scoped(node.call, node.call.skill)
+            yield from _check_scoped(node.call, node.call.skill)
     for value in all_values(program):
         if isinstance(value.meaning, Invoke):
-            yield from _counted(program, value, value.meaning)
+            yield from _check_count(program, value, value.meaning)
 
 
-def _twice(call: Call) -> Iterator[Diagnostic]:
+def _check_duplicates(call: Call) -> Iterator[Diagnostic]:
     seen: dict[str, s.Name] = {}
     for argument in call.written.arguments:
         first = seen.setdefault(argument.name.text, argument.name)
@@ -41,7 +41,7 @@ def _twice(call: Call) -> Iterator[Diagnostic]:
             )
 
 
-def _missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
+def _check_missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
     passed = {argument.name.text for argument in call.written.arguments}
     if any(skill.parameter(name) is None for name in passed):
         return  # a misspelt argument is reported as such
@@ -57,7 +57,7 @@ def _missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
         )
 
 
-def _scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
+def _check_scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
     if "scoped" not in skill.flags:
         yield Diagnostic(
             "not-scoped",
@@ -68,7 +68,7 @@ def _scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
         )
 
 
-def _counted(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[Diagnostic]:
+def _check_count(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[Diagnostic]:
     function = program.vocabulary.functions.get(meaning.function)
     if function and len(function.parameters) != len(meaning.arguments):
         names = ", ".join(name for name, _ in function.parameters)

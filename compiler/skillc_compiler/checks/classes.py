@@ -24,7 +24,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 asked = (condition.values[0].type, condition.values[1].type)
             case _:
                 continue
-        if _disjoint(program.vocabulary, *asked):
+        if _are_disjoint(program.vocabulary, *asked):
             yield Diagnostic(
                 "disjoint-types",
                 condition.span,
@@ -33,7 +33,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             )
 
 
-def _disjoint(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
+def _are_disjoint(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
     match one, other:
         case Thing(cls=str(a)), Thing(cls=str(b)):
             return vocabulary.disjoint(a, b)

@@ -15,7 +15,7 @@ NAMES = ("post-not-established",)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each postcondition that some successful end does not establish."""
-    for several in _together(program):
+    for several in _group_by_path(program):
         one = several[0]
         verb = "makes it false" if one.false else "does not establish it"
         texts = " and ".join(f"`{each.post.text}`" for each in several)
@@ -29,7 +29,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         )
 
 
-def _together(program: Program) -> Iterator[tuple[UnprovedPost, ...]]:
+def _group_by_path(program: Program) -> Iterator[tuple[UnprovedPost, ...]]:
     """Group what the same path leaves open, as it has one cause."""
     groups: dict[object, tuple[UnprovedPost, ...]] = {}
     for one in findings_of(program, UnprovedPost):

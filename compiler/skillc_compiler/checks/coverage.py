@@ -21,13 +21,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
         implementations = program.implementations_of[skill.name]
         for index, parameter in enumerate(skill.parameters if implementations else ()):
             taken = [implementation.parameters[index] for implementation in implementations]
-            yield from _left_out(program.vocabulary, skill, parameter, taken)
+            yield from _check_parameter(program.vocabulary, skill, parameter, taken)
     for call in all_calls(program):
         if call.skill:
-            yield from _called(program, call, call.skill)
+            yield from _check_call(program, call, call.skill)
 
 
-def _left_out(
+def _check_parameter(
     vocabulary: Vocabulary, skill: Skill, parameter: Parameter, taken: Sequence[Parameter]
 ) -> Iterator[Diagnostic]:
     if not isinstance(parameter.type, Thing) or any(fits(vocabulary, parameter.type, each.type) for each in taken):
@@ -52,10 +52,8 @@ def _lowest(vocabulary: Vocabulary) -> list[str]:
     return sorted(iri for iri in vocabulary.classes if iri not in parents)
 
 
-def _called(program: Program, call: Call, skill: Skill) -> Iterator[Diagnostic]:
-    candidates = [
-        each for each in program.implementations_of.get(skill.name, ()) if call.implementation in (None, each.name)
-    ]
+def _check_call(program: Program, call: Call, skill: Skill) -> Iterator[Diagnostic]:
+    candidates = program.candidates(call)
     for argument in call.arguments:
         parameter = skill.parameter(argument.name.text)
         if parameter is None or not candidates or not fits(program.vocabulary, argument.value.type, parameter.type):

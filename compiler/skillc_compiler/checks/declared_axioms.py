@@ -16,13 +16,13 @@ NAMES = ("impossible-class", "class-cycle", "impossible-relation")
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield the problems of the terms that the library declares."""
-    told: set[frozenset[str]] = set()
+    reported: set[frozenset[str]] = set()
     for unit in program.files:
         for declaration in unit.file.declarations:
             match declaration:
                 case s.ClassDeclaration():
                     iri = _iri(program, unit.library, declaration.name.text)
-                    yield from _class(program.vocabulary, declaration, iri, told)
+                    yield from _class(program.vocabulary, declaration, iri, reported)
                 case s.RelationDeclaration(traits=traits):
                     yield from _relation(declaration, {trait.kind: trait for trait in traits})
                 case _:
@@ -44,13 +44,13 @@ def _iri(program: Program, library: str, name: str) -> str:
 
 
 def _class(
-    vocabulary: Vocabulary, declaration: s.ClassDeclaration, iri: str, told: set[frozenset[str]]
+    vocabulary: Vocabulary, declaration: s.ClassDeclaration, iri: str, reported: set[frozenset[str]]
 ) -> Iterator[Diagnostic]:
     above = vocabulary.ancestors.get(iri, frozenset())
     circle = frozenset(other for other in above if other != iri and vocabulary.is_a(other, iri))
     if circle or (iri in vocabulary.classes and iri in vocabulary.classes[iri].parents):
-        if circle | {iri} not in told:
-            told.add(circle | {iri})
+        if circle | {iri} not in reported:
+            reported.add(circle | {iri})
             way = "".join(f", by `{local_name(other)}`" for other in sorted(circle))
             message = f"`{declaration.name.text}` is declared below itself{way}"
             yield Diagnostic("class-cycle", declaration.name.span, message, "remove one of the parents")

@@ -20,10 +20,12 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for device in skill.devices:
             parameter = skill.parameter(device.parameter.text)
             if parameter is not None:
-                yield from _problem(program.vocabulary, skill, device, parameter)
+                yield from _check_device(program.vocabulary, skill, device, parameter)
 
 
-def _problem(vocabulary: Vocabulary, skill: Skill, device: s.DeviceUse, parameter: Parameter) -> Iterator[Diagnostic]:
+def _check_device(
+    vocabulary: Vocabulary, skill: Skill, device: s.DeviceUse, parameter: Parameter
+) -> Iterator[Diagnostic]:
     what = _reason(vocabulary, parameter)
     if what is None:
         return

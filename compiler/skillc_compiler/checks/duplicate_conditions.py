@@ -17,16 +17,16 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each fact that is already stated in the same kind of condition."""
     for skill in program.skills.values():
         for kind in ("pre", "hold", "post"):
-            yield from _repeated(_facts(skill.requirements, kind), ())
+            yield from _find_duplicates(_facts(skill.requirements, kind), ())
     for implementation in program.implementations:
         for kind in ("pre", "hold", "post"):
             given = _facts(implementation.skill.requirements, kind)
-            yield from _repeated(_facts(implementation.requirements, kind), given)
-    for condition in _alone(program):
-        yield from _repeated(facts_in(condition), ())
+            yield from _find_duplicates(_facts(implementation.requirements, kind), given)
+    for condition in _single_conditions(program):
+        yield from _find_duplicates(facts_in(condition), ())
 
 
-def _alone(program: Program) -> Iterator[TypedCondition]:
+def _single_conditions(program: Program) -> Iterator[TypedCondition]:
     yield from (task.goal for task in program.tasks if task.goal)
     for node in all_nodes(program):
         yield from node.conditions
@@ -36,7 +36,7 @@ def _facts(requirements: Iterable[Requirement], kind: str) -> list[TypedFact]:
     return [fact for r in requirements if r.kind == kind for fact in facts_in(r.condition)]
 
 
-def _repeated(facts: Iterable[TypedFact], given: Iterable[TypedFact]) -> Iterator[Diagnostic]:
+def _find_duplicates(facts: Iterable[TypedFact], given: Iterable[TypedFact]) -> Iterator[Diagnostic]:
     first: dict[tuple[Condition, bool], TypedFact] = {(fact.meaning, fact.holds): fact for fact in given}
     for fact in facts:
         former = first.setdefault((fact.meaning, fact.holds), fact)

@@ -17,14 +17,14 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield an error for each node with empty braces."""
     removable = {child.written.span for node in all_nodes(program) for child in node.children if len(node.children) > 1}
     for node in all_nodes(program):
-        found = _empty(node.written)
+        found = _describe_empty(node.written)
         if found is not None:
             span = node.written.span
             fix = Fix(span, "", "delete it", safe=False) if span in removable and "else" not in found[0] else None
-            yield Diagnostic("empty-block", _head(span), found[0], help=found[1], fix=fix)
+            yield Diagnostic("empty-block", _first_line(span), found[0], help=found[1], fix=fix)
 
 
-def _empty(node: s.Node) -> tuple[str, str] | None:
+def _describe_empty(node: s.Node) -> tuple[str, str] | None:
     """Return the message and help for a node without steps; None if it has steps, or no braces."""
     match node:
         case s.If(then=(), text=text):
@@ -40,7 +40,7 @@ def _empty(node: s.Node) -> tuple[str, str] | None:
     return None
 
 
-def _head(span: Span) -> Span:
+def _first_line(span: Span) -> Span:
     """Return the first line of a node, at most."""
     if span.end_line == span.line:
         return span

@@ -21,11 +21,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
         return
     written = _written(program)
     for task in program.tasks:
-        told: set[str] = set()
+        reported: set[str] = set()
         for condition in conditions_in(task.goal) if task.goal else ():
             term = _term(condition)
-            if term is not None and term not in told and not _may_change(term, written, program.vocabulary):
-                told.add(term)
+            if term is not None and term not in reported and not _may_change(term, written, program.vocabulary):
+                reported.add(term)
                 yield Diagnostic(
                     "unachievable-goal",
                     condition.span,

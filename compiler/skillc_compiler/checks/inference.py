@@ -15,7 +15,7 @@ NAMES = ("unlinked-inference",)
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each inferred parameter that no precondition determines."""
     for skill in program.skills.values():
-        linked = {name for r in skill.requirements if r.kind == "pre" for name in _linked(r.condition)}
+        linked = {name for r in skill.requirements if r.kind == "pre" for name in _constrained_variables(r.condition)}
         asked = {name for r in skill.requirements if r.kind == "pre" for name in free_variables(r.condition.meaning)}
         for parameter in skill.parameters:
             if parameter.direction == "infer" and parameter.name not in (asked if parameter.any_ else linked):
@@ -33,13 +33,13 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     )
 
 
-def _linked(condition: TypedCondition) -> set[str]:
+def _constrained_variables(condition: TypedCondition) -> set[str]:
     """Return the variables that a condition, if it holds, constrains."""
     match condition.meaning:
         case And() | Exists():
-            return set().union(*(_linked(part) for part in condition.parts))
+            return set().union(*(_constrained_variables(part) for part in condition.parts))
         case Or():
-            return set.intersection(*(_linked(part) for part in condition.parts))
+            return set.intersection(*(_constrained_variables(part) for part in condition.parts))
         case Holds() | Same() | Compare() | HasProperty() | IsA():
             return set(free_variables(condition.meaning))
         case _:

@@ -19,19 +19,19 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each operation and comparison with incompatible operands."""
     for value in all_values(program):
         if isinstance(value.meaning, Arithmetic):
-            yield from _arithmetic(value, value.meaning)
+            yield from _check_arithmetic(value, value.meaning)
     for condition in all_conditions(program):
         if isinstance(condition.meaning, Compare):
-            yield from _compared(program, condition, condition.meaning)
+            yield from _check_comparison(program, condition, condition.meaning)
 
 
-def _arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[Diagnostic]:
+def _check_arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[Diagnostic]:
     left, right = (part.type for part in value.parts)
     if arithmetic_type(meaning.operator, left, right) is None:
         yield _problem(value.span, meaning.operator, left, right)
 
 
-def _compared(program: Program, condition: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:
+def _check_comparison(program: Program, condition: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:
     if len(condition.values) != 2:
         return
     left, right = (side.type for side in condition.values)
@@ -55,11 +55,11 @@ def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
         "unlike-dimensions" if unlike else "wrong-operands",
         span,
         f"`{operator}` cannot combine {describe_type(left)} and {describe_type(right)}",
-        help=_cure(left, right) if unlike else "use values of one type",
+        help=_suggest(left, right) if unlike else "use values of one type",
     )
 
 
-def _cure(left: Type, right: Type) -> str:
+def _suggest(left: Type, right: Type) -> str:
     match left, right:
         case Vector() | Direction(), Vector() | Direction():
             return "convert both vectors to one dimension: multiply one by a quantity, as in `5 cm * normal`"

@@ -19,13 +19,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield warnings about planned skills, and an error for names that collide in PDDL."""
     for skill in program.skills.values():
         if "noplan" not in skill.flags:
-            yield from _effect(skill)
-            yield from _parameters(skill)
-            yield from _numbers(program, skill)
-    yield from _colliding(program)
+            yield from _check_effect(skill)
+            yield from _check_parameters(skill)
+            yield from _check_numbers(program, skill)
+    yield from _check_names(program)
 
 
-def _effect(skill: Skill) -> Iterator[Diagnostic]:
+def _check_effect(skill: Skill) -> Iterator[Diagnostic]:
     if not any(requirement.kind == "post" for requirement in skill.requirements):
         yield Diagnostic(
             "no-effect",
@@ -36,7 +36,7 @@ def _effect(skill: Skill) -> Iterator[Diagnostic]:
         )
 
 
-def _parameters(skill: Skill) -> Iterator[Diagnostic]:
+def _check_parameters(skill: Skill) -> Iterator[Diagnostic]:
     for parameter in skill.parameters:
         if parameter.direction in ("in", "infer") and not isinstance(parameter.type, Thing | UnknownType):
             yield Diagnostic(
@@ -49,7 +49,7 @@ def _parameters(skill: Skill) -> Iterator[Diagnostic]:
             )
 
 
-def _numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
+def _check_numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
     for post in (requirement for requirement in skill.requirements if requirement.kind == "post"):
         for effect in effects_of(post.condition):
             if not isinstance(effect, Assign) or effect.property not in program.vocabulary.properties:
@@ -67,7 +67,7 @@ def _numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
                 )
 
 
-def _colliding(program: Program) -> Iterator[Diagnostic]:
+def _check_names(program: Program) -> Iterator[Diagnostic]:
     seen: dict[str, Skill] = {}
     for skill in program.skills.values():
         first = seen.setdefault(kebab(skill.name), skill)

@@ -20,33 +20,35 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each relation that cannot be made true."""
     conflicts = Conflicts(program.vocabulary)
     for skill in program.skills.values():
-        yield from _of(conflicts, skill.requirements, ())
+        yield from _check_posts(conflicts, skill.requirements, ())
     for implementation in program.implementations:
-        yield from _of(conflicts, implementation.requirements, implementation.skill.requirements)
+        yield from _check_posts(conflicts, implementation.requirements, implementation.skill.requirements)
 
 
-def _of(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
+def _check_posts(
+    conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]
+) -> Iterator[Diagnostic]:
     whole = (*given, *own)
     names = equal_names(whole)
     posts = [(rename_fact(f, names), r) for r in whole if r.kind == "post" for f in facts_in(r.condition)]
     gone = [fact.meaning for fact, _ in posts if not fact.holds and isinstance(fact.meaning, Holds)]
     pre = (rename_fact(fact, names) for r in whole if r.kind == "pre" for fact in facts_in(r.condition))
     known = [fact for fact in pre if fact.holds]
-    staying = [fact for fact in known if not _undone(conflicts, fact, gone)]
+    staying = [fact for fact in known if not _is_undone(conflicts, fact, gone)]
     for number, (fact, post) in enumerate(posts):
         if post not in own or not fact.holds or not isinstance(fact.meaning, Holds):
             continue
         others = [*(each for each, _ in posts[:number] if each.holds), *staying]
-        yield from _breaks(conflicts, fact, fact.meaning, post, others)
+        yield from _check_axioms(conflicts, fact, fact.meaning, post, others)
 
 
-def _undone(conflicts: Conflicts, fact: TypedFact, gone: list[Holds]) -> bool:
+def _is_undone(conflicts: Conflicts, fact: TypedFact, gone: list[Holds]) -> bool:
     if not isinstance(fact.meaning, Holds):
         return True
     return any(covers(absent, link) for absent in gone for link in conflicts.implied(fact.meaning))
 
 
-def _breaks(
+def _check_axioms(
     conflicts: Conflicts, fact: TypedFact, meaning: Holds, post: Requirement, others: list[TypedFact]
 ) -> Iterator[Diagnostic]:
     name = local_name(meaning.relation)

@@ -20,15 +20,20 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield the problems of the posts of each skill, and of those that an implementation adds."""
     conflicts = Conflicts(program.vocabulary)
     for skill in program.skills.values():
-        yield from _check(conflicts, skill.requirements, ())
+        yield from _check_posts(conflicts, skill.requirements, ())
     for implementation in program.implementations:
-        yield from _check(conflicts, implementation.requirements, implementation.skill.requirements)
+        yield from _check_posts(conflicts, implementation.requirements, implementation.skill.requirements)
 
 
-def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]) -> Iterator[Diagnostic]:
+def _check_posts(
+    conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]
+) -> Iterator[Diagnostic]:
     names = equal_names((*given, *own))
     known = [
-        (_same(effect, names), post) for post in given if post.kind == "post" for effect in effects_of(post.condition)
+        (_with_equal_names(effect, names), post)
+        for post in given
+        if post.kind == "post"
+        for effect in effects_of(post.condition)
     ]
     for post in (requirement for requirement in own if requirement.kind == "post"):
         for effect in effects_of(post.condition):
@@ -37,21 +42,21 @@ def _check(conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Req
                     yield _not_literal(effect)
                 continue
             if not post.sensed:
-                yield from _computed(conflicts.vocabulary, effect, post)
-            seen = _same(effect, names)
+                yield from _check_computed(conflicts.vocabulary, effect, post)
+            seen = _with_equal_names(effect, names)
             for other, earlier in known:
                 if not isinstance(other, NoEffect) and not isinstance(seen, NoEffect):
-                    yield from _conflict(conflicts, seen, post, other, earlier)
+                    yield from _check_conflict(conflicts, seen, post, other, earlier)
             known.append((seen, post))
-    yield from _values(conflicts, own, given, names)
+    yield from _check_measured(conflicts, own, given, names)
 
 
-def _same(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
+def _with_equal_names(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
     """Return the effect with equal names replaced by their representative."""
     return effect if isinstance(effect, NoEffect) else substitute(effect, names)
 
 
-def _values(
+def _check_measured(
     conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement], names: Mapping[str, Expression]
 ) -> Iterator[Diagnostic]:
     """Report a measured value that contradicts the one of another post."""
@@ -60,9 +65,9 @@ def _values(
     valued = [(fact, post) for fact, post in facts if isinstance(fact.meaning, Compare | HasProperty)]
     for number, (fact, post) in enumerate(valued):
         for other, earlier in valued[:number] if post in own else ():
-            told = _is_assigned(fact) and _is_assigned(other)
-            if not told and (post.sensed or earlier.sensed) and conflicts.exclude(fact, other):
-                yield _either("contradicting-posts", post, earlier, "another post says the opposite")
+            both_assigned = _is_assigned(fact) and _is_assigned(other)
+            if not both_assigned and (post.sensed or earlier.sensed) and conflicts.exclude(fact, other):
+                yield _report_either("contradicting-posts", post, earlier, "another post says the opposite")
 
 
 def _is_assigned(fact: TypedFact) -> bool:
@@ -84,7 +89,7 @@ def _not_literal(part: NoEffect) -> Diagnostic:
     )
 
 
-def _computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:
+def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:
     term: PropertyTerm | RelationTerm | None
     if isinstance(effect, Assign):
         term = vocabulary.properties.get(effect.property)
@@ -99,7 +104,7 @@ def _computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iter
         )
 
 
-def _conflict(
+def _check_conflict(
     conflicts: Conflicts, effect: Effect, post: Requirement, other: Effect, earlier: Requirement
 ) -> Iterator[Diagnostic]:
     match effect, other:
@@ -107,16 +112,18 @@ def _conflict(
             relation = conflicts.two_values(_holds(effect), _holds(other))
             if relation is not None:
                 message = f"`{local_name(relation)}` can have one value only, and another post gives it a second"
-                yield _either("two-values", post, earlier, message)
+                yield _report_either("two-values", post, earlier, message)
         case Assign(value=Literal() as one), Assign(value=Literal() as two):
             if (effect.subject, effect.property) == (other.subject, other.property) and one != two:
-                yield _either("two-values", post, earlier, f"`{local_name(effect.property)}` is given two values")
+                yield _report_either(
+                    "two-values", post, earlier, f"`{local_name(effect.property)}` is given two values"
+                )
         case (Assert() as true, Retract() as false) | (Retract() as false, Assert() as true):
             if any(covers(_holds(false), link) for link in conflicts.implied(_holds(true))):
-                yield _either("contradicting-posts", post, earlier, "another post says the opposite")
+                yield _report_either("contradicting-posts", post, earlier, "another post says the opposite")
 
 
-def _either(name: str, post: Requirement, earlier: Requirement, message: str) -> Diagnostic:
+def _report_either(name: str, post: Requirement, earlier: Requirement, message: str) -> Diagnostic:
     labels = (Label(earlier.condition.span, "the other one"),)
     return Diagnostic(name, post.condition.span, message, "keep one of the two", labels=labels)
 

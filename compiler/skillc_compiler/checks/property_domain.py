@@ -19,13 +19,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each property of an individual whose class does not have it."""
     for value in all_values(program):
         if isinstance(value.meaning, PropertyOf):
-            yield from _fits(program, value.meaning.property, value.parts[0])
+            yield from _check_domain(program, value.meaning.property, value.parts[0])
     for condition in all_conditions(program):
         if isinstance(condition.meaning, HasProperty):
-            yield from _fits(program, condition.meaning.property, condition.values[0])
+            yield from _check_domain(program, condition.meaning.property, condition.values[0])
 
 
-def _fits(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnostic]:
+def _check_domain(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnostic]:
     term = program.vocabulary.properties.get(iri)
     if term is None or any(fits(program.vocabulary, of.type, Thing(domain)) for domain in term.domains):
         return

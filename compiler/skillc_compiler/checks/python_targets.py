@@ -48,7 +48,7 @@ def _primitive(implementation: Implementation, written: s.Text, reader: _Reader)
         case ClassInfo() as found:
             yield from _class(implementation, written, found)
         case FunctionInfo() | Other():
-            yield _no_primitive(written, "is not a class", f"name a subclass of {PRIMITIVE.replace(':', '.')}")
+            yield _not_a_primitive(written, "is not a class", f"name a subclass of {PRIMITIVE.replace(':', '.')}")
         case Unclear():
             return
         case problem:
@@ -58,18 +58,20 @@ def _primitive(implementation: Implementation, written: s.Text, reader: _Reader)
 def _class(implementation: Implementation, written: s.Text, found: ClassInfo) -> Iterator[Diagnostic]:
     tick = found.methods.get("tick")
     if found.complete and PRIMITIVE not in found.ancestors:
-        yield _no_primitive(written, "is not a primitive", f"let it inherit from {PRIMITIVE.replace(':', '.')}")
+        yield _not_a_primitive(written, "is not a primitive", f"let it inherit from {PRIMITIVE.replace(':', '.')}")
     elif found.complete and ("tick" not in found.methods or (tick is not None and tick.owner == PRIMITIVE)):
-        yield _no_primitive(written, "has no method `tick`", "define `tick`, which returns RUNNING or SUCCESS")
+        yield _not_a_primitive(written, "has no method `tick`", "define `tick`, which returns RUNNING or SUCCESS")
     for name, count in CALLED_WITH.items():
         method = found.methods.get(name)
         if method is not None and (misfit := _not_callable(method.function, count)):
-            yield _no_primitive(written, f"has a method `{name}` that {misfit}", f"define it as `{_head(name, count)}`")
+            yield _not_a_primitive(
+                written, f"has a method `{name}` that {misfit}", f"define it as `{_head(name, count)}`"
+            )
     given = [p.name for p in implementation.parameters if p.direction != "out"]
     wrong = _by_name(found.constructor, given) if found.constructor is not None else None
     if wrong:
-        label = Label(implementation.skill.name_span, f"the skill has {_listed(given)}")
-        yield _unlike(written, wrong, f"let its constructor take the cell and {_listed(given)}", label)
+        label = Label(implementation.skill.name_span, f"the skill has {_format_names(given)}")
+        yield _wrong_parameters(written, wrong, f"let its constructor take the cell and {_format_names(given)}", label)
 
 
 def _by_name(taken: PythonSignature, given: Sequence[str]) -> str | None:
@@ -97,7 +99,7 @@ def _not_callable(method: FunctionInfo, count: int) -> str | None:
         return None
     missing = set(taken.needed) - set(taken.by_position[:count])
     if missing or (len(taken.by_position) < count and not taken.args):
-        return f"takes {_listed((*taken.by_position, *taken.by_name))}"
+        return f"takes {_format_names((*taken.by_position, *taken.by_name))}"
     return None
 
 
@@ -120,8 +122,8 @@ def _function(declared: s.FunctionDeclaration, reader: _Reader) -> Iterator[Diag
             yield problem
             return
     if wrong:
-        label = Label(declared.name.span, f"the function has {_listed(given)}")
-        yield _unlike(declared.python, wrong, f"let it take the world and {_listed(given)}", label)
+        label = Label(declared.name.span, f"the function has {_format_names(given)}")
+        yield _wrong_parameters(declared.python, wrong, f"let it take the world and {_format_names(given)}", label)
 
 
 def _in_order(taken: PythonSignature, given: Sequence[str]) -> str | None:
@@ -131,11 +133,11 @@ def _in_order(taken: PythonSignature, given: Sequence[str]) -> str | None:
     left = taken.without_first(1)
     names = left.by_position
     if by_name := [name for name in left.needed if name in left.by_name]:
-        return f"takes {_listed(by_name)} by name only, and all values are passed in order"
+        return f"takes {_format_names(by_name)} by name only, and all values are passed in order"
     if len(given) < len(left.needed) or (len(given) > len(names) and not left.args):
-        return f"takes {_listed(names)} after the world, {len(names)} in number"
+        return f"takes {_format_names(names)} after the world, {len(names)} in number"
     if any(name != own and name in names for name, own in zip(given, names, strict=False)):
-        return f"takes {_listed(names)} after the world, in this order"
+        return f"takes {_format_names(names)} after the world, in this order"
     return None
 
 
@@ -169,11 +171,11 @@ def _missing(written: s.Text, message: str, help_: str) -> Diagnostic:
     return Diagnostic("missing-python", written.span, message, help_, severity="warning")
 
 
-def _no_primitive(written: s.Text, what: str, help_: str) -> Diagnostic:
+def _not_a_primitive(written: s.Text, what: str, help_: str) -> Diagnostic:
     return Diagnostic("not-a-primitive", written.span, f"`{_name(written)}` {what}", help_, "warning")
 
 
-def _unlike(written: s.Text, takes: str, help_: str, label: Label) -> Diagnostic:
+def _wrong_parameters(written: s.Text, takes: str, help_: str, label: Label) -> Diagnostic:
     message = f"`{_name(written)}` {takes}"
     return Diagnostic("wrong-python-parameters", written.span, message, help_, "warning", (label,))
 
@@ -182,5 +184,5 @@ def _name(written: s.Text) -> str:
     return written.value.partition(":")[2]
 
 
-def _listed(names: Sequence[str]) -> str:
+def _format_names(names: Sequence[str]) -> str:
     return ", ".join(f"`{name}`" for name in names) or "nothing else"

@@ -20,34 +20,37 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each default, argument and range."""
     for skill in program.skills.values():
         for parameter in skill.parameters:
-            yield from _empty(parameter)
-            yield from _outside(parameter, parameter.default)
+            yield from _check_empty(parameter)
+            yield from _check_outside(parameter, parameter.default)
     for implementation in program.implementations:
         refined = {new.of.name: new for new in implementation.refinements if new.of}
         for parameter in implementation.parameters:
             if parameter.name in refined:
                 new = refined[parameter.name]
-                yield from _empty(parameter)
-                yield from _outside(parameter, parameter.default, None if new.default else new.written.span)
+                yield from _check_empty(parameter)
+                yield from _check_outside(parameter, parameter.default, None if new.default else new.written.span)
     for call in all_calls(program):
         for argument in call.arguments:
             taken = call.skill.parameter(argument.name.text) if call.skill else None
             if taken:
-                yield from _outside(taken, argument.value)
+                yield from _check_outside(taken, argument.value)
 
 
-def _empty(parameter: Parameter) -> Iterator[Diagnostic]:
+def _check_empty(parameter: Parameter) -> Iterator[Diagnostic]:
     low, high = _bounds(parameter)
     if low is not None and high is not None and low > high and parameter.low and parameter.high:
         yield Diagnostic(
             "empty-range",
             parameter.low.span.to(parameter.high.span),
-            f"no value is in this range: {_shown(low, parameter.type)} is more than {_shown(high, parameter.type)}",
+            f"no value is in this range: {_format_si(low, parameter.type)} is more than "
+            f"{_format_si(high, parameter.type)}",
             help="write the lower bound first",
         )
 
 
-def _outside(parameter: Parameter, value: TypedExpression | None, place: Span | None = None) -> Iterator[Diagnostic]:
+def _check_outside(
+    parameter: Parameter, value: TypedExpression | None, place: Span | None = None
+) -> Iterator[Diagnostic]:
     """Report a constant outside the range, at `place` or else at the value."""
     low, high = _bounds(parameter)
     known = _number(value, parameter.type)
@@ -61,11 +64,11 @@ def _outside(parameter: Parameter, value: TypedExpression | None, place: Span | 
         or low <= known <= high
     ):
         return
-    bounds = f"{_shown(low, parameter.type)} .. {_shown(high, parameter.type)}"
+    bounds = f"{_format_si(low, parameter.type)} .. {_format_si(high, parameter.type)}"
     yield Diagnostic(
         "out-of-range",
         place or value.span,
-        f"`{parameter.name}` is {_shown(known, parameter.type)} here, outside its range {bounds}",
+        f"`{parameter.name}` is {_format_si(known, parameter.type)} here, outside its range {bounds}",
         help=f"choose a value in {bounds}" if place is None else f"give a default in {bounds}",
         labels=(Label(parameter.low.span, "the range"),) if parameter.low else (),
     )
@@ -77,14 +80,14 @@ def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
 
 def _number(value: TypedExpression | None, kind: Type) -> float | None:
     """Return a bound, None if there is none or if its type is wrong, which is reported elsewhere."""
-    return constant_number(value.meaning) if value and _same(value.type, kind) else None
+    return constant_number(value.meaning) if value and _is_same_type(value.type, kind) else None
 
 
-def _same(given: Type, wanted: Type) -> bool:
+def _is_same_type(given: Type, wanted: Type) -> bool:
     return given == wanted or (given == INT and wanted == Measure(NUMBER))
 
 
-def _shown(si: float, kind: Type) -> str:
+def _format_si(si: float, kind: Type) -> str:
     """Return a number with its SI unit."""
     fitting = [
         n for n, u in UNITS.items() if isinstance(kind, Measure) and u.dimension == kind.dimension and u.in_si == 1

@@ -18,7 +18,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
     finished: set[str] = set()
     reported: set[int] = set()
     for start in edges:
-        for chain, call in _circles(edges, start, (), finished):
+        for chain, call in _cycles(edges, start, (), finished):
             if id(call) not in reported:
                 reported.add(id(call))
                 yield _problem(chain, call)
@@ -29,19 +29,17 @@ def _edges(program: Program, implementation: Implementation) -> Iterator[tuple[s
         return
     for node in nodes_in(implementation.body):
         if node.call and node.call.skill:
-            for called in program.implementations_of[node.call.skill.name]:
-                if node.call.implementation in (None, called.name):
-                    yield called.key, node.call
+            yield from ((called.key, node.call) for called in program.candidates(node.call))
 
 
-def _circles(
+def _cycles(
     edges: Edges, here: str, chain: tuple[str, ...], finished: set[str]
 ) -> Iterator[tuple[tuple[str, ...], Call]]:
     for called, call in edges[here]:
         if called in (*chain, here):
             yield (*chain, here)[(*chain, here).index(called) :], call
         elif called not in finished:
-            yield from _circles(edges, called, (*chain, here), finished)
+            yield from _cycles(edges, called, (*chain, here), finished)
     finished.add(here)
 
 

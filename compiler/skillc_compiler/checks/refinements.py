@@ -20,7 +20,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 continue
             if not fits(program.vocabulary, new.type, new.of.type):
                 yield _problem(new, new.of, f"{describe_type(new.type)} is not always {describe_type(new.of.type)}")
-            elif new.type == new.of.type and _wider(new, new.of):
+            elif new.type == new.of.type and _is_wider(new, new.of):
                 yield _problem(new, new.of, "the range goes beyond that of the description")
 
 
@@ -34,7 +34,7 @@ def _problem(new: Refinement, of: Parameter, reason: str) -> Diagnostic:
     )
 
 
-def _wider(new: Refinement, of: Parameter) -> bool:
+def _is_wider(new: Refinement, of: Parameter) -> bool:
     low, high, old_low, old_high = (_number(v) for v in (new.low, new.high, of.low, of.high))
     below = low is not None and old_low is not None and low < old_low
     above = high is not None and old_high is not None and high > old_high

@@ -22,10 +22,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
             relation = program.vocabulary.relations[condition.meaning.relation]
             subject, object_ = condition.values
             if all(isinstance(side.type, Thing | UnknownType) for side in condition.values):
-                yield from _sides(program, relation, subject, object_)
+                yield from _check_sides(program, relation, subject, object_)
 
 
-def _sides(
+def _check_sides(
     program: Program, relation: RelationTerm, subject: TypedExpression, object_: TypedExpression
 ) -> Iterator[Diagnostic]:
     fitting = [x for x in relation.signatures if fits(program.vocabulary, subject.type, Thing(x.domain))]

@@ -27,10 +27,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
         order = rank_implementations(program.vocabulary, declared)
         for place, implementation in enumerate(order):
             called = (implementation.skill.name, implementation.name) in fixed
-            yield from _placed(conflicts, implementation, order[:place], called)
+            yield from _check_place(conflicts, implementation, order[:place], called)
 
 
-def _placed(
+def _check_place(
     conflicts: Conflicts, late: Implementation, before: Sequence[Implementation], called: bool
 ) -> Iterator[Diagnostic]:
     for early in before:
@@ -40,12 +40,12 @@ def _placed(
         if shadowed and not called and "fallback" not in late.skill.flags:
             yield _never(late, early)
             return
-        if not shadowed and _tied(conflicts, early, late):
+        if not shadowed and _is_tied(conflicts, early, late):
             yield _ambiguous(late, early)
             return
 
 
-def _tied(conflicts: Conflicts, early: Implementation, late: Implementation) -> bool:
+def _is_tied(conflicts: Conflicts, early: Implementation, late: Implementation) -> bool:
     specific = is_more_specific(conflicts.vocabulary, early, late) or is_more_specific(
         conflicts.vocabulary, late, early
     )

@@ -18,11 +18,11 @@ def check(program: Program) -> Iterator[Diagnostic]:
     own = [unit for unit in program.files if unit.library == program.name]
     if not any(isinstance(d, s.TaskDeclaration) for unit in own for d in unit.file.declarations):
         return
-    reached = _reached(program)
+    reached = _reached_skills(program)
     paths = {unit.file.path for unit in own}
     for skill in program.skills.values():
-        told = not program.implementations_of[skill.name] or _achieves_nothing(skill)
-        if skill.name not in reached and skill.name_span.path in paths and not told:
+        reported = not program.implementations_of[skill.name] or _achieves_nothing(skill)
+        if skill.name not in reached and skill.name_span.path in paths and not reported:
             yield Diagnostic(
                 "unreachable-skill",
                 skill.name_span,
@@ -32,14 +32,14 @@ def check(program: Program) -> Iterator[Diagnostic]:
             )
 
 
-def _reached(program: Program) -> set[str]:
-    start = [name for task in program.tasks if task.body for name in _called(task.body)]
+def _reached_skills(program: Program) -> set[str]:
+    start = [name for task in program.tasks if task.body for name in _called_skills(task.body)]
     if any(task.goal for task in program.tasks):
-        start += [skill.name for skill in program.skills.values() if _planned(skill)]
+        start += [skill.name for skill in program.skills.values() if _is_planned(skill)]
     return reachable(start, lambda name: (each for one in program.implementations_of[name] for each in _calls(one)))
 
 
-def _planned(skill: Skill) -> bool:
+def _is_planned(skill: Skill) -> bool:
     return "noplan" not in skill.flags and not _achieves_nothing(skill)
 
 
@@ -49,8 +49,8 @@ def _achieves_nothing(skill: Skill) -> bool:
 
 
 def _calls(implementation: Implementation) -> Iterator[str]:
-    return _called(implementation.body) if isinstance(implementation.body, TypedNode) else iter(())
+    return _called_skills(implementation.body) if isinstance(implementation.body, TypedNode) else iter(())
 
 
-def _called(body: TypedNode) -> Iterator[str]:
+def _called_skills(body: TypedNode) -> Iterator[str]:
     return (node.call.skill.name for node in nodes_in(body) if node.call and node.call.skill)

@@ -35,7 +35,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for unit in program.files:
         yield from _header(program, unit)
     for implementation in program.implementations:
-        read = _read_in(implementation)
+        read = _names_read_in(implementation)
         for let in implementation.lets:
             if let.name.text not in read:
                 yield _unused("unused-let", let.name.span, f"the value `{let.name.text}` is never used")
@@ -88,13 +88,13 @@ def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
     read = {device.parameter.text for device in skill.devices}
     read |= _names(skill_values(skill), (r.condition for r in skill.requirements))
     for implementation in implementations:
-        read |= _read_in(implementation)
+        read |= _names_read_in(implementation)
     for parameter in skill.parameters:
         if parameter.name not in read and parameter.direction != "out":
             yield _unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
 
 
-def _read_in(implementation: Implementation) -> set[str]:
+def _names_read_in(implementation: Implementation) -> set[str]:
     """Return the names that an implementation reads itself."""
     read = _names(implementation_values(implementation), (r.condition for r in implementation.requirements))
     if isinstance(implementation.body, TypedNode):

@@ -23,7 +23,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
     conflicts = Conflicts(program.vocabulary)
     for condition, parameters in _conditions(program):
         for part in conditions_in(condition):
-            yield from _judged(conflicts, part, parameters)
+            yield from _check_condition(conflicts, part, parameters)
 
 
 def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]]:
@@ -46,8 +46,8 @@ def _written_in(owner: Skill | Implementation) -> Iterator[TypedCondition]:
             yield from node.conditions
 
 
-def _judged(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> Iterator[Diagnostic]:
-    found = _truth(conflicts, condition, parameters)
+def _check_condition(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> Iterator[Diagnostic]:
+    found = _evaluate(conflicts, condition, parameters)
     if found is not None:
         answer, reason = found
         yield Diagnostic(
@@ -59,7 +59,7 @@ def _judged(conflicts: Conflicts, condition: TypedCondition, parameters: _Parame
         )
 
 
-def _truth(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> tuple[bool, str] | None:
+def _evaluate(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> tuple[bool, str] | None:
     """Return whether a condition is always true or always false, and why; None if it depends."""
     match condition.meaning:
         case Holds() as fact if conflicts.is_impossible(fact):
@@ -73,13 +73,13 @@ def _truth(conflicts: Conflicts, condition: TypedCondition, parameters: _Paramet
         case Given(parameter=name) if name in parameters and parameters[name].direction == "in":
             return True, f"`{name}` has to be passed"
         case Or():
-            return _any_way(conflicts, condition)
+            return _evaluate_or(conflicts, condition)
         case Compare() as comparison:
-            return _compared(comparison, parameters)
+            return _evaluate_comparison(comparison, parameters)
     return None
 
 
-def _any_way(conflicts: Conflicts, condition: TypedCondition) -> tuple[bool, str] | None:
+def _evaluate_or(conflicts: Conflicts, condition: TypedCondition) -> tuple[bool, str] | None:
     """Find two parts of an `or` of which one holds whenever the other does not."""
     denied = [(fact, part) for part in condition.parts for fact in facts_in(part, holds=False)]
     pairs = ((one, other) for i, (one, _) in enumerate(denied) for other, _ in denied[:i])
@@ -88,7 +88,7 @@ def _any_way(conflicts: Conflicts, condition: TypedCondition) -> tuple[bool, str
     return None
 
 
-def _compared(comparison: Compare, parameters: _Parameters) -> tuple[bool, str] | None:
+def _evaluate_comparison(comparison: Compare, parameters: _Parameters) -> tuple[bool, str] | None:
     match fold(comparison.left), comparison.operator, fold(comparison.right):
         case Literal(value=left), operator, Literal(value=right):
             return compare_constants(operator, left, right), "both sides are constants"

@@ -61,11 +61,11 @@ def _problem(vocabulary: Vocabulary, place: TypeConstraint) -> tuple[str, str]:
         case Direction(), Vector(), _:
             return "wrong-type", "a Direction is of length 1: use a property or a function that gives one"
         case Measure(dimension=dimension), _, Literal(value=str(text)) if given == TEXT:
-            return "wrong-type", _unquoted(text, dimension)
+            return "wrong-type", _suggest_unquoted(text, dimension)
         case Thing(), Thing(), _ if fits(vocabulary, wanted, given):
             return "wrong-type", f"not all of them are: declare or refine it as {describe_type(wanted)}"
         case _, Thing(), Variable() | Individual():
-            return "wrong-type", _by_property(vocabulary, place)
+            return "wrong-type", _suggest_property(vocabulary, place)
     return "wrong-type", ""
 
 
@@ -75,14 +75,14 @@ def units_of(dimension: Dimension) -> tuple[str, ...]:
     return tuple(name for _, name in sorted(fitting))
 
 
-def _unquoted(text: str, dimension: Dimension) -> str:
+def _suggest_unquoted(text: str, dimension: Dimension) -> str:
     found = _QUANTITY.match(text)
     if found is None:
         return f"write a number with its unit, {' or '.join(units_of(dimension))}"
     return f"write it without quotes: `{' '.join(part for part in found.groups() if part)}`"
 
 
-def _by_property(vocabulary: Vocabulary, place: TypeConstraint) -> str:
+def _suggest_property(vocabulary: Vocabulary, place: TypeConstraint) -> str:
     """Suggest a property of the individual that has the expected type, such as `grasp.pose`."""
     leading = sorted(
         local_name(term.iri)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from skillc_compiler.diagnostics.consequences import LOGIC, REASONED, TYPES
+from skillc_compiler.program.spans import is_within_lines
 from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
@@ -64,7 +65,7 @@ def without_followers(
     lines = {(problem.span.path, problem.span.line) for problem in syntax}
     broken = tuple(_broken(syntax, files))
     near_broken = (*broken, *_speaking_of(syntax, files))
-    orphans = [d for d in syntax if not any(_inside(d.span, known.span) for known in _declarations(files))]
+    orphans = [d for d in syntax if not any(is_within_lines(d.span, known.span) for known in _declarations(files))]
     orphaned = {problem.span.path for problem in orphans if problem.name == "syntax"}
     for problem in found:
         places = (problem.span, *(label.span for label in problem.labels))
@@ -104,7 +105,9 @@ def _speaking_of(syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> I
 
 
 def _with_errors(syntax: Sequence[Diagnostic], files: Sequence[ParsedFile]) -> list[s.Declaration]:
-    return [each for each in _declarations(files) if any(_inside(problem.span, each.span) for problem in syntax)]
+    return [
+        each for each in _declarations(files) if any(is_within_lines(problem.span, each.span) for problem in syntax)
+    ]
 
 
 def _declarations(files: Sequence[ParsedFile]) -> Iterator[s.Declaration]:
@@ -112,8 +115,4 @@ def _declarations(files: Sequence[ParsedFile]) -> Iterator[s.Declaration]:
 
 
 def _in_any(places: Sequence[Span], wholes: Sequence[Span]) -> bool:
-    return any(_inside(place, whole) for place in places for whole in wholes)
-
-
-def _inside(place: Span, whole: Span) -> bool:
-    return place.path == whole.path and whole.line <= place.line <= whole.end_line
+    return any(is_within_lines(place, whole) for place in places for whole in wholes)

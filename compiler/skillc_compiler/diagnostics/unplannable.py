@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from skillc_compiler.program.spans import is_within_lines
 from skillc_compiler.program.typed import Program, Skill
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.source import Span
 from skillc_model.pddl.domain import Excluded
 from skillc_model.pddl.planning import planning_domain
 from skillc_model.skills import SkillLibrary
@@ -24,10 +24,10 @@ def report_unplannable(library: SkillLibrary, program: Program, problems: Iterab
     problems = tuple(problems)
     if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
         return
-    told = [problem.span for problem in problems if problem.name in EXPLAINED_BY]
+    explained = [problem.span for problem in problems if problem.name in EXPLAINED_BY]
     for excluded in planning_domain(library).excluded:
         skill = program.skills[excluded.skill]
-        if not any(_inside(span, skill.span) for span in told):
+        if not any(is_within_lines(span, skill.span) for span in explained):
             yield _problem(skill, excluded)
 
 
@@ -52,7 +52,3 @@ def _suggest_planner(reason: str) -> str:
     if any(words in reason for words in COUNTING):
         return "numeric planners such as ENHSP support it; Fast Downward and the built-in search do not"
     return "no PDDL planner supports it"
-
-
-def _inside(place: Span, whole: Span) -> bool:
-    return place.path == whole.path and whole.line <= place.line <= whole.end_line

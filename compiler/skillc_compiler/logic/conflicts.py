@@ -37,7 +37,9 @@ class Conflicts:
             return one.holds != other.holds
         if not one.holds:
             one, other = other, one
-        return one.holds and (self._related(one, other) or self._valued(one, other) or self._classed(one, other))
+        return one.holds and (
+            self._relations_exclude(one, other) or self._values_exclude(one, other) or self._classes_exclude(one, other)
+        )
 
     def is_impossible(self, fact: Holds) -> bool:
         """Whether an axiom forbids the relation between its two terms."""
@@ -70,22 +72,24 @@ class Conflicts:
         term = self.vocabulary.relations[link.relation]
         return term.irreflexive or term.asymmetric
 
-    def _related(self, one: TypedFact, other: TypedFact) -> bool:
+    def _relations_exclude(self, one: TypedFact, other: TypedFact) -> bool:
         match one.meaning, other.meaning:
             case Holds() as mine, Holds() as theirs if other.holds:
                 named = self.two_values(mine, theirs)
-                return self.are_opposite(mine, theirs) or (named is not None and self._distinct(named, mine, theirs))
+                return self.are_opposite(mine, theirs) or (
+                    named is not None and self._are_distinct(named, mine, theirs)
+                )
             case Holds() as mine, Holds() as absent:
                 return any(covers(absent, link) for link in self.implied(mine))
         return False
 
-    def _distinct(self, relation: str, one: Holds, other: Holds) -> bool:
+    def _are_distinct(self, relation: str, one: Holds, other: Holds) -> bool:
         """Whether the sides in which two facts of a relation differ are certainly two individuals."""
         links = [next(link for link in self.implied(fact) if link.relation == relation) for fact in (one, other)]
         ends = [(getattr(links[0], end), getattr(links[1], end)) for end in ("subject", "object")]
         return any(isinstance(a, Individual) and isinstance(b, Individual) and a != b for a, b in ends)
 
-    def _valued(self, one: TypedFact, other: TypedFact) -> bool:
+    def _values_exclude(self, one: TypedFact, other: TypedFact) -> bool:
         mine, theirs = constant_bound(one.meaning), constant_bound(other.meaning)
         if mine is not None and theirs is not None and mine.of == theirs.of:
             return are_disjoint(mine, theirs if other.holds else theirs.opposite())
@@ -94,7 +98,7 @@ class Conflicts:
                 return not other.holds and (of, name) == (subject, absent)
         return False
 
-    def _classed(self, one: TypedFact, other: TypedFact) -> bool:
+    def _classes_exclude(self, one: TypedFact, other: TypedFact) -> bool:
         match one.meaning, other.meaning:
             case IsA(subject=mine, cls=cls), IsA(subject=theirs, cls=other_cls) if mine == theirs:
                 clash = self.vocabulary.disjoint if other.holds else self.vocabulary.is_a

@@ -38,12 +38,12 @@ def effects_of(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
         case And():
             return tuple(effect for part in post.parts for effect in effects_of(part))
         case Not():
-            return (_negative(post, post.parts[0]),)
+            return (_negative_effect(post, post.parts[0]),)
         case _:
-            return (_positive(post),)
+            return (_positive_effect(post),)
 
 
-def _positive(post: TypedCondition) -> Effect | NoEffect:
+def _positive_effect(post: TypedCondition) -> Effect | NoEffect:
     match post.meaning:
         case Holds(subject=Anything()) | Holds(object=Anything()):
             return NoEffect(post.span, "it does not say which individual is related")
@@ -61,7 +61,7 @@ def _positive(post: TypedCondition) -> Effect | NoEffect:
     return NoEffect(post.span, "only relations and `property == value` can be made true")
 
 
-def _negative(whole: TypedCondition, body: TypedCondition) -> Effect | NoEffect:
+def _negative_effect(whole: TypedCondition, body: TypedCondition) -> Effect | NoEffect:
     match body.meaning:
         case Holds(subject=subject, relation=relation, object=object_):
             return Retract(subject, relation, object_)

@@ -29,7 +29,7 @@ def types_overlap(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
 def can_both_fit(conflicts: Conflicts, one: Implementation, other: Implementation) -> bool:
     """Whether two implementations of a skill can fit the same arguments."""
     pairs = list(zip(one.parameters, other.parameters, strict=True))
-    if not all(types_overlap(conflicts.vocabulary, a.type, b.type) and _ranges_meet(a, b) for a, b in pairs):
+    if not all(types_overlap(conflicts.vocabulary, a.type, b.type) and _ranges_overlap(a, b) for a, b in pairs):
         return False
     return not any(conflicts.exclude(a, b) for a in _added_facts(one) for b in _added_facts(other))
 
@@ -51,7 +51,7 @@ def _added_facts(implementation: Implementation) -> list[TypedFact]:
     return [f for r in implementation.requirements if r.kind == "pre" for f in facts_in(r.condition)]
 
 
-def _ranges_meet(one: Parameter, other: Parameter) -> bool:
+def _ranges_overlap(one: Parameter, other: Parameter) -> bool:
     pairs = ((_low(one), _high(other)), (_low(other), _high(one)))
     return not any(low and high and are_disjoint(low, high) for low, high in pairs)
 

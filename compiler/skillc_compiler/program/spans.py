@@ -51,6 +51,11 @@ class SpanIndex:
         return index < len(lines) and lines[index] <= whole.end_line
 
 
+def is_within_lines(place: Span, whole: Span) -> bool:
+    """Whether a place begins on a line of `whole`."""
+    return place.path == whole.path and whole.line <= place.line <= whole.end_line
+
+
 def _by_path(spans: Iterable[Span]) -> dict[str, list[Span]]:
     found: dict[str, list[Span]] = defaultdict(list)
     for span in sorted(spans):

@@ -245,6 +245,11 @@ class Program:
             found[implementation.skill.name] += (implementation,)
         return found
 
+    def candidates(self, call: Call) -> tuple[Implementation, ...]:
+        """Return the implementations that may be selected for a call."""
+        known = self.implementations_of.get(call.skill.name, ()) if call.skill else ()
+        return tuple(one for one in known if call.implementation in (None, one.name))
+
 
 def start_position(span: Span) -> Position:
     """Return the position where a span begins."""

@@ -100,7 +100,7 @@ def _constructor(lineage: Sequence[Defined | Unclear]) -> PythonSignature | None
         match dict(_members(each.node)).get("__init__"):
             case ast.FunctionDef() as function:
                 own = inspect_method(each.module, function).signature
-                return own and _passed_on(own, function, lineage[index + 1 :])
+                return own and _merge_passed_on(own, function, lineage[index + 1 :])
             case None:
                 if is_dataclass(each):
                     return constructor_signature([one for one in lineage[index:] if isinstance(one, Defined)])
@@ -109,7 +109,9 @@ def _constructor(lineage: Sequence[Defined | Unclear]) -> PythonSignature | None
     return PythonSignature()
 
 
-def _passed_on(own: PythonSignature, function: ast.FunctionDef, above: Sequence[Defined | Unclear]) -> PythonSignature:
+def _merge_passed_on(
+    own: PythonSignature, function: ast.FunctionDef, above: Sequence[Defined | Unclear]
+) -> PythonSignature:
     """Return the parameters of a constructor; `**rest` that is only passed on becomes those of the next one."""
     rest = function.args.kwarg.arg if function.args.kwarg else ""
     uses = [node for node in ast.walk(function) if isinstance(node, ast.Name) and node.id == rest]

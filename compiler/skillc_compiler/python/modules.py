@@ -48,7 +48,7 @@ def find_definition(module: str, name: str, seen: frozenset[QualifiedName] = fro
         case ast.ClassDef() | ast.FunctionDef() | ast.AsyncFunctionDef() as node:
             return Defined(module, node)
         case ast.ImportFrom() as line:
-            found = find_definition(_source(module, line), _original(line, name), seen | {(module, name)})
+            found = find_definition(_imported_module(module, line), _original_name(line, name), seen | {(module, name)})
             return Other() if isinstance(found, NoName) and _module_at(module, ast.Name(name)) else found
         case ast.Import() | ast.Constant() | ast.JoinedStr() | ast.List() | ast.Dict() | ast.Tuple() | ast.Set():
             return Other()
@@ -85,7 +85,7 @@ def dotted_name(module: str, written: ast.expr) -> str:
             names = _names_in(module)
             line = names.bound.get(name) if isinstance(names, _Names) else None
             if isinstance(line, ast.ImportFrom):
-                return f"{_source(module, line)}.{_original(line, name)}"
+                return f"{_imported_module(module, line)}.{_original_name(line, name)}"
             return name
     return ""
 
@@ -96,7 +96,7 @@ def _find_starred(module: str, name: str, names: _Names, seen: frozenset[Qualifi
         return UNCLEAR
     if not name.startswith("_"):
         for line in reversed(names.stars):
-            found = find_definition(_source(module, line), name, seen)
+            found = find_definition(_imported_module(module, line), name, seen)
             if not isinstance(found, NoName):
                 return found if isinstance(found, Defined | Other) else UNCLEAR
     return NoName(tuple(sorted(n for n, node in names.bound.items() if isinstance(node, ast.ClassDef | Function))))
@@ -107,7 +107,7 @@ def _module_at(module: str, written: ast.expr) -> str:
     match written:
         case ast.Attribute(value=value, attr=name):
             of = _module_at(module, value)
-            return f"{of}.{name}" if of and isinstance(_file(f"{of}.{name}"), Path) else ""
+            return f"{of}.{name}" if of and isinstance(_find_file(f"{of}.{name}"), Path) else ""
         case ast.Name(id=name):
             names = _names_in(module)
             match names.bound.get(name) if isinstance(names, _Names) else None:
@@ -115,27 +115,27 @@ def _module_at(module: str, written: ast.expr) -> str:
                     alias = next(each for each in aliases if name in (each.asname, each.name.partition(".")[0]))
                     return alias.name if alias.asname else alias.name.partition(".")[0]
                 case ast.ImportFrom() as line:
-                    found = f"{_source(module, line)}.{_original(line, name)}"
-                    return found if isinstance(_file(found), Path) else ""
+                    found = f"{_imported_module(module, line)}.{_original_name(line, name)}"
+                    return found if isinstance(_find_file(found), Path) else ""
     return ""
 
 
-def _source(module: str, line: ast.ImportFrom) -> str:
+def _imported_module(module: str, line: ast.ImportFrom) -> str:
     """Return the module that an import line imports from, with relative imports resolved."""
     if line.level == 0:
         return line.module or ""
-    file = _file(module)
+    file = _find_file(module)
     is_package = isinstance(file, Path) and file.name == "__init__.py"
     parts = module.split(".") if is_package else module.split(".")[:-1]
     around = parts[: len(parts) - line.level + 1]
     return ".".join([*around, *([line.module] if line.module else [])])
 
 
-def _original(line: ast.ImportFrom, name: str) -> str:
+def _original_name(line: ast.ImportFrom, name: str) -> str:
     return next(alias.name for alias in line.names if name in (alias.asname, alias.name))
 
 
-def _file(module: str) -> Path | NoModule | Unclear:
+def _find_file(module: str) -> Path | NoModule | Unclear:
     """Return the file of a module; packages above it are not imported."""
     first, *rest = module.split(".")
     try:
@@ -157,17 +157,17 @@ def _submodule_spec(package: ModuleSpec, name: str) -> ModuleSpec | None:
 
 
 def _names_in(module: str) -> _Names | NoModule | BrokenModule | Unclear:
-    file = _file(module)
+    file = _find_file(module)
     if not isinstance(file, Path):
         return file
     try:
-        return _read(file, file.stat().st_mtime_ns)
+        return _parse_names(file, file.stat().st_mtime_ns)
     except OSError:
         return UNCLEAR
 
 
 @lru_cache(maxsize=256)
-def _read(file: Path, _changed_ns: int) -> _Names | BrokenModule | Unclear:
+def _parse_names(file: Path, _changed_ns: int) -> _Names | BrokenModule | Unclear:
     """Return what the text of a file defines at its top level."""
     try:
         body = ast.parse(file.read_bytes()).body
@@ -176,13 +176,15 @@ def _read(file: Path, _changed_ns: int) -> _Names | BrokenModule | Unclear:
     except (ValueError, RecursionError, MemoryError):
         return UNCLEAR
     bound: dict[str, ast.stmt | ast.expr | Unclear] = {}
-    for name, node, sure in _bound(body, sure=True):
+    for name, node, sure in _bindings(body, sure=True):
         bound[name] = node if sure or name not in bound else UNCLEAR
-    stars = tuple(node for name, node, _ in _bound(body, sure=True) if name == "*" and isinstance(node, ast.ImportFrom))
+    stars = tuple(
+        node for name, node, _ in _bindings(body, sure=True) if name == "*" and isinstance(node, ast.ImportFrom)
+    )
     return _Names({name: node for name, node in bound.items() if name != "*"}, stars)
 
 
-def _bound(body: Iterable[ast.stmt], sure: bool) -> Iterator[tuple[str, ast.stmt | ast.expr | Unclear, bool]]:
+def _bindings(body: Iterable[ast.stmt], sure: bool) -> Iterator[tuple[str, ast.stmt | ast.expr | Unclear, bool]]:
     """Yield each name that statements bind, with its value and whether the statement always runs."""
     for node in body:
         match node:
@@ -193,21 +195,21 @@ def _bound(body: Iterable[ast.stmt], sure: bool) -> Iterator[tuple[str, ast.stmt
             case ast.ImportFrom(names=aliases):
                 yield from ((alias.asname or alias.name, node, sure) for alias in aliases)
             case ast.Assign(targets=targets, value=value):
-                yield from (pair for target in targets for pair in _assigned(target, value, sure))
+                yield from (pair for target in targets for pair in _assigned_names(target, value, sure))
             case ast.AnnAssign(target=target, value=ast.expr() as value):
-                yield from _assigned(target, value, sure)
+                yield from _assigned_names(target, value, sure)
             case ast.With(body=inner):
-                yield from _bound(inner, sure)
+                yield from _bindings(inner, sure)
             case ast.If() | ast.For() | ast.While():
-                yield from _bound((*node.body, *node.orelse), sure=False)
+                yield from _bindings((*node.body, *node.orelse), sure=False)
             case ast.Try():
                 rescue = [line for each in node.handlers for line in each.body]
-                yield from _bound((*node.body, *rescue, *node.orelse, *node.finalbody), sure=False)
+                yield from _bindings((*node.body, *rescue, *node.orelse, *node.finalbody), sure=False)
             case _:
                 pass
 
 
-def _assigned(target: ast.expr, value: ast.expr, sure: bool) -> Iterator[tuple[str, ast.expr | Unclear, bool]]:
+def _assigned_names(target: ast.expr, value: ast.expr, sure: bool) -> Iterator[tuple[str, ast.expr | Unclear, bool]]:
     match target:
         case ast.Name(id=name):
             yield name, value, sure

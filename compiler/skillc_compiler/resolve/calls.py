@@ -17,8 +17,8 @@ def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tu
     name = context.names.look_up_skill(written.skill)
     skill = context.skills.get(name) if name else None
     arguments = tuple(_arguments(context, scope, written, skill))
-    understood = Call(skill, _implementation(context, written, skill), arguments, written.out, written)
-    return understood, _scope_after(context, scope, written, skill)
+    typed = Call(skill, _implementation(context, written, skill), arguments, written.out, written)
+    return typed, _scope_after(context, scope, written, skill)
 
 
 def _arguments(context: FileContext, scope: Scope, written: s.CallSkill, skill: Skill | None) -> Iterator[Argument]:

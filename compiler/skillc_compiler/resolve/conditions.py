@@ -38,18 +38,18 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
     """Return the typed condition; unresolved parts are reported."""
     match written:
         case s.Relation():
-            return _holds(context, scope, written)
+            return _resolve_relation(context, scope, written)
         case s.Compare():
-            return _compare(context, scope, written)
+            return _resolve_compare(context, scope, written)
         case s.Has(subject=subject, property=name, span=span):
             of = resolve_value(context, scope, subject)
             iri = resolve_property(context, of, name) or name.text
-            return TypedCondition(HasProperty(_term(context, of), iri), span, (of,))
+            return TypedCondition(HasProperty(_to_term(context, of), iri), span, (of,))
         case s.Is(subject=subject, cls=name, span=span):
             of = resolve_value(context, scope, subject, ExpectedType(Thing(None)))
-            return TypedCondition(IsA(_term(context, of), _class(context, name)), span, (of,))
+            return TypedCondition(IsA(_to_term(context, of), _look_up_class(context, name)), span, (of,))
         case s.Given(parameter=name, span=span):
-            return _given(context, scope, name, span)
+            return _resolve_given(context, scope, name, span)
         case s.Not(body=body, span=span):
             return _not(resolve_condition(context, scope, body), span)
         case s.And(parts=parts, span=span):
@@ -61,9 +61,9 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
             premise = resolve_condition(context, scope, if_)
             return _or([_not(premise, premise.span), resolve_condition(context, scope, then)], span)
         case s.Quantified():
-            return _quantified(context, scope, written)
+            return _resolve_quantified(context, scope, written)
         case s.Bare():
-            return _bare(context, scope, written)
+            return _resolve_bare(context, scope, written)
         case _:
             assert_never(written)
 
@@ -76,21 +76,21 @@ def _or(parts: Sequence[TypedCondition], span: Span) -> TypedCondition:
     return TypedCondition(Or(tuple(part.meaning for part in parts)), span, parts=tuple(parts))
 
 
-def _holds(context: FileContext, scope: Scope, written: s.Relation) -> TypedCondition:
-    subject = _side(context, scope, written.subject)
-    object_ = _side(context, scope, written.object)
-    iri = _relation(context, written.relation, subject.type, object_.type)
-    meaning = Holds(_term(context, subject), iri or written.relation.text, _term(context, object_))
+def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -> TypedCondition:
+    subject = _resolve_side(context, scope, written.subject)
+    object_ = _resolve_side(context, scope, written.object)
+    iri = _look_up_relation(context, written.relation, subject.type, object_.type)
+    meaning = Holds(_to_term(context, subject), iri or written.relation.text, _to_term(context, object_))
     return TypedCondition(meaning, written.span, (subject, object_))
 
 
-def _side(context: FileContext, scope: Scope, written: s.Value | s.Anything) -> TypedExpression:
+def _resolve_side(context: FileContext, scope: Scope, written: s.Value | s.Anything) -> TypedExpression:
     if isinstance(written, s.Anything):
         return TypedExpression(VariableTerm("_"), UNKNOWN, written.span)
     return resolve_value(context, scope, written, ExpectedType(Thing(None)))
 
 
-def _relation(context: FileContext, name: s.Name, subject: Type, object_: Type) -> str | None:
+def _look_up_relation(context: FileContext, name: s.Name, subject: Type, object_: Type) -> str | None:
     names, vocabulary = context.names, context.vocabulary
     if names.is_term("property", name.text) and not names.is_term("relation", name.text):
         context.report(
@@ -110,7 +110,7 @@ def _relation(context: FileContext, name: s.Name, subject: Type, object_: Type) 
     )
 
 
-def _term(context: FileContext, of: TypedExpression) -> Term:
+def _to_term(context: FileContext, of: TypedExpression) -> Term:
     """Return the individual that a value denotes; anything else is reported and replaced by `_`."""
     match of.meaning:
         case VariableTerm(name="_"):
@@ -127,15 +127,15 @@ def _term(context: FileContext, of: TypedExpression) -> Term:
     return Anything()
 
 
-def _class(context: FileContext, name: s.Name) -> str:
+def _look_up_class(context: FileContext, name: s.Name) -> str:
     return context.names.look_up_term("class", name) or name.text
 
 
-def _compare(context: FileContext, scope: Scope, written: s.Compare) -> TypedCondition:
-    left, right = _sides(context, scope, written)
+def _resolve_compare(context: FileContext, scope: Scope, written: s.Compare) -> TypedCondition:
+    left, right = _resolve_sides(context, scope, written)
     individuals = [kind for kind in (left.type, right.type) if isinstance(kind, Thing)]
     if individuals and written.operator in ("==", "!=") and _all_terms(left, right):
-        same = TypedCondition(Same(_term(context, left), _term(context, right)), written.span, (left, right))
+        same = TypedCondition(Same(_to_term(context, left), _to_term(context, right)), written.span, (left, right))
         return same if written.operator == "==" else _not(same, written.span)
     return TypedCondition(Compare(left.meaning, written.operator, right.meaning), written.span, (left, right))
 
@@ -144,16 +144,18 @@ def _all_terms(*sides: TypedExpression) -> bool:
     return all(isinstance(side.meaning, VariableTerm | Individual) for side in sides)
 
 
-def _sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
+def _resolve_sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
     """Resolve both sides; the side with the property first, as it determines the values that a bare name may be."""
     if isinstance(written.left, s.Reference) and isinstance(written.right, s.Member):
         right = resolve_value(context, scope, written.right)
-        return _other_side(context, scope, written.left, right), right
+        return _resolve_other_side(context, scope, written.left, right), right
     left = resolve_value(context, scope, written.left)
-    return left, _other_side(context, scope, written.right, left)
+    return left, _resolve_other_side(context, scope, written.right, left)
 
 
-def _other_side(context: FileContext, scope: Scope, written: s.Value, known: TypedExpression) -> TypedExpression:
+def _resolve_other_side(
+    context: FileContext, scope: Scope, written: s.Value, known: TypedExpression
+) -> TypedExpression:
     """Resolve the side that is compared with `known`; beside an unknown type, a bare name may be anything."""
     match written:
         case s.Reference(name=s.Name(text=text), span=span) if known.type == UNKNOWN and ":" not in text:
@@ -161,10 +163,10 @@ def _other_side(context: FileContext, scope: Scope, written: s.Value, known: Typ
                 return TypedExpression(VariableTerm(text), UNKNOWN, span)
         case _:
             pass
-    return resolve_value(context, scope, written, _wanted(context, known))
+    return resolve_value(context, scope, written, _expected_type(context, known))
 
 
-def _wanted(context: FileContext, other: TypedExpression) -> ExpectedType:
+def _expected_type(context: FileContext, other: TypedExpression) -> ExpectedType:
     match other.meaning:
         case PropertyOf(property=iri) if iri in context.vocabulary.properties:
             return ExpectedType(other.type, context.vocabulary.properties[iri].values)
@@ -173,7 +175,7 @@ def _wanted(context: FileContext, other: TypedExpression) -> ExpectedType:
     return ANYTHING if other.type == UNKNOWN else ExpectedType(other.type)
 
 
-def _given(context: FileContext, scope: Scope, name: s.Name, span: Span) -> TypedCondition:
+def _resolve_given(context: FileContext, scope: Scope, name: s.Name, span: Span) -> TypedCondition:
     known = scope.variables.get(name.text)
     if known is None or known.origin != "parameter":
         parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
@@ -182,7 +184,7 @@ def _given(context: FileContext, scope: Scope, name: s.Name, span: Span) -> Type
     return TypedCondition(Given(name.text), span)
 
 
-def _quantified(context: FileContext, scope: Scope, written: s.Quantified) -> TypedCondition:
+def _resolve_quantified(context: FileContext, scope: Scope, written: s.Quantified) -> TypedCondition:
     iri = context.names.look_up_term("class", written.cls)
     kind = (Thing(None) if iri == THING else Thing(iri)) if iri else UNKNOWN
     inner = context.bind(scope, written.variable, LocalName(kind, "variable", written.variable.span))
@@ -191,7 +193,7 @@ def _quantified(context: FileContext, scope: Scope, written: s.Quantified) -> Ty
     return TypedCondition(quantifier(written.variable.text, iri or THING, body.meaning), written.span, parts=(body,))
 
 
-def _bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedCondition:
+def _resolve_bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedCondition:
     """Resolve a value that stands as a condition: report it, with the comparison to write if it is a truth value."""
     of = resolve_value(context, scope, written.value)
     span = written.span

@@ -23,11 +23,11 @@ def resolve_implementation(
     context: FileContext, written: s.ImplementationDeclaration, skill: Skill, lines: Sequence[str]
 ) -> Implementation:
     """Return the resolved implementation; `lines` is the text of its file."""
-    refinements = tuple(_refinements(context, written, skill))
+    refinements = tuple(_resolve_refinements(context, written, skill))
     parameters = tuple(_merge_refinement(p, refinements) for p in skill.parameters)
     owner = f"the implementation `{written.name.text}` of `{skill.name}`"
     before, after = build_scopes(owner, parameters)
-    lets, inner = _lets(context, before, written)
+    lets, inner = _resolve_lets(context, before, written)
     labels = {r.label.text: r.label for r in skill.requirements if r.label}
     prefer = single_member(context, written.members, s.Prefer, "prefer")
     return Implementation(
@@ -40,14 +40,16 @@ def resolve_implementation(
         duration=resolve_duration(context, before, written.members),
         prefer=prefer.value.value if prefer else 0.0,
         lets=lets,
-        body=_body(context, inner, written),
-        verify=tuple(_verified(context, inner, written, lines)),
+        body=_resolve_body(context, inner, written),
+        verify=tuple(_resolve_verify_lines(context, inner, written, lines)),
         name_span=written.name.span,
         span=written.span,
     )
 
 
-def _refinements(context: FileContext, written: s.ImplementationDeclaration, skill: Skill) -> Iterator[Refinement]:
+def _resolve_refinements(
+    context: FileContext, written: s.ImplementationDeclaration, skill: Skill
+) -> Iterator[Refinement]:
     seen: dict[str, s.Refinement] = {}
     for member in written.members:
         if not isinstance(member, s.Refinement):
@@ -64,7 +66,7 @@ def _refinements(context: FileContext, written: s.ImplementationDeclaration, ski
             )
             continue
         yield Refinement(
-            of=_refined(context, member, skill),
+            of=_find_parameter(context, member, skill),
             declared=declared,
             type=kind,
             default=resolve_constant(context, member.default, kind),
@@ -74,7 +76,7 @@ def _refinements(context: FileContext, written: s.ImplementationDeclaration, ski
         )
 
 
-def _refined(context: FileContext, member: s.Refinement, skill: Skill) -> Parameter | None:
+def _find_parameter(context: FileContext, member: s.Refinement, skill: Skill) -> Parameter | None:
     parameter = skill.parameter(member.name.text)
     if parameter is None:
         context.report_unknown(
@@ -102,7 +104,9 @@ def _merge_refinement(parameter: Parameter, refinements: Sequence[Refinement]) -
     return parameter
 
 
-def _lets(context: FileContext, scope: Scope, written: s.ImplementationDeclaration) -> tuple[tuple[Let, ...], Scope]:
+def _resolve_lets(
+    context: FileContext, scope: Scope, written: s.ImplementationDeclaration
+) -> tuple[tuple[Let, ...], Scope]:
     lets = []
     for member in written.members:
         if isinstance(member, s.Let):
@@ -112,7 +116,7 @@ def _lets(context: FileContext, scope: Scope, written: s.ImplementationDeclarati
     return tuple(lets), scope
 
 
-def _body(context: FileContext, scope: Scope, written: s.ImplementationDeclaration) -> Body:
+def _resolve_body(context: FileContext, scope: Scope, written: s.ImplementationDeclaration) -> Body:
     bodies = [m for m in written.members if isinstance(m, s.Body | s.RunPython)]
     for extra in bodies[1:]:
         context.report(
@@ -124,23 +128,23 @@ def _body(context: FileContext, scope: Scope, written: s.ImplementationDeclarati
         )
     match bodies[:1]:
         case [s.Body(node=node)]:
-            understood, _ = resolve_node(context, assume_outputs_assigned(scope), node)
-            return understood
+            typed, _ = resolve_node(context, assume_outputs_assigned(scope), node)
+            return typed
         case [s.RunPython() as python]:
             return python
     return None
 
 
-def _verified(
+def _resolve_verify_lines(
     context: FileContext, scope: Scope, written: s.ImplementationDeclaration, lines: Sequence[str]
 ) -> Iterator[Property]:
     for member in written.members:
         if isinstance(member, s.Verify):
-            understood = resolve_verify(context, scope, member, _text(lines, member.span))
-            yield from (understood,) if understood is not None else ()
+            typed = resolve_verify(context, scope, member, _text_of(lines, member.span))
+            yield from (typed,) if typed is not None else ()
 
 
-def _text(lines: Sequence[str], span: Span) -> str:
+def _text_of(lines: Sequence[str], span: Span) -> str:
     """Return the text that a span covers, in one line."""
     covered = list(lines[span.line - 1 : span.end_line])
     covered[-1] = covered[-1][: span.end_column - 1]

@@ -45,12 +45,12 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
         case s.ApplyPosts():
             return TypedNode(written), scope
         case s.CallSkill():
-            understood, after = resolve_call(context, scope, written)
-            return TypedNode(written, call=understood), after
+            typed, after = resolve_call(context, scope, written)
+            return TypedNode(written, call=typed), after
         case s.With(call=opening, children=children):
-            understood, opened = resolve_call(context, scope, opening)
+            typed, opened = resolve_call(context, scope, opening)
             inner, after = _resolve_sequence(context, opened, children)
-            return TypedNode(written, call=understood, children=inner), after
+            return TypedNode(written, call=typed, children=inner), after
         case _:
             assert_never(written)
 
@@ -60,8 +60,8 @@ def _resolve_sequence(
 ) -> tuple[tuple[TypedNode, ...], Scope]:
     steps = []
     for node in nodes:
-        understood, scope = resolve_node(context, scope, node)
-        steps.append(understood)
+        typed, scope = resolve_node(context, scope, node)
+        steps.append(typed)
     return tuple(steps), scope
 
 
@@ -70,7 +70,7 @@ def _block(context: FileContext, scope: Scope, written: s.Block) -> tuple[TypedN
         inner, after = _resolve_sequence(context, scope, written.children)
         return TypedNode(written, children=inner), after
     apart = [resolve_node(context, scope, child) for child in written.children]
-    children = tuple(understood for understood, _ in apart)
+    children = tuple(typed for typed, _ in apart)
     return TypedNode(written, children=children), _merge_scopes(scope, *(after for _, after in apart))
 
 

@@ -30,17 +30,17 @@ def extend_vocabulary(
     properties, functions = dict(vocabulary.properties), dict(vocabulary.functions)
     for unit in files:
         here, look_up = declared[unit.file.path], names[unit.file.path]
-        look_up.problems += _added_to(unit, here, vocabulary)
+        look_up.problems += _report_extended(unit, here, vocabulary)
         for declaration in unit.file.declarations:
             match declaration:
                 case s.ClassDeclaration():
-                    iri = _declared("class", declaration.name, here, look_up)
+                    iri = _declared_iri("class", declaration.name, here, look_up)
                     classes[iri] = _class(declaration, iri, classes.get(iri), look_up)
                 case s.RelationDeclaration():
-                    iri = _declared("relation", declaration.name, here, look_up)
+                    iri = _declared_iri("relation", declaration.name, here, look_up)
                     relations[iri] = _relation(declaration, iri, relations.get(iri), look_up)
                 case s.PropertyDeclaration():
-                    iri = _declared("property", declaration.name, here, look_up)
+                    iri = _declared_iri("property", declaration.name, here, look_up)
                     properties[iri] = _property(declaration, iri, properties.get(iri), look_up)
                 case s.FunctionDeclaration():
                     functions.setdefault(declaration.name.text, _function(declaration, look_up))
@@ -56,28 +56,28 @@ def extend_vocabulary(
     )
 
 
-def _declared(kind: Kind, name: s.Name, here: Declarations, names: Names) -> str:
+def _declared_iri(kind: Kind, name: s.Name, here: Declarations, names: Names) -> str:
     """Return the IRI under which a term is declared; report an unknown prefix."""
     if ":" in name.text:
         names.look_up_individual(name)
     return here.terms[kind][name.text]
 
 
-def _added_to(unit: ParsedFile, here: Declarations, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def _report_extended(unit: ParsedFile, here: Declarations, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Report the first declaration of each bare name that adds to a term of a vocabulary instead of making a new one.
 
     A property of another type is reported elsewhere.
     """
-    told: set[str] = set()
+    reported: set[str] = set()
     for declaration in unit.file.declarations:
         if not isinstance(declaration, s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration):
             continue
         name, kind = declaration.name, term_kind(declaration)
         table = {"class": vocabulary.classes, "relation": vocabulary.relations, "property": vocabulary.properties}
         old: ClassTerm | RelationTerm | PropertyTerm | None = table[kind].get(here.terms[kind][name.text])  # type: ignore[attr-defined]
-        if old is None or ":" in name.text or old.iri in told or _differs(declaration, old):
+        if old is None or ":" in name.text or old.iri in reported or _differs(declaration, old):
             continue
-        told.add(old.iri)
+        reported.add(old.iri)
         short = vocabulary.short(old.iri)
         yield Diagnostic(
             "redeclared-term",

@@ -54,21 +54,23 @@ def resolve_value(
         case s.Boolean(value=truth, span=span):
             return TypedExpression(Literal(truth), BOOL, span)
         case s.Reference():
-            return _reference(context, scope, written, wanted)
+            return _resolve_reference(context, scope, written, wanted)
         case s.Member():
-            return _member(context, scope, written)
+            return _resolve_member(context, scope, written)
         case s.Apply():
-            return _apply(context, scope, written)
+            return _resolve_apply(context, scope, written)
         case s.Arithmetic():
-            return _arithmetic(context, scope, written)
+            return _resolve_arithmetic(context, scope, written)
         case _:
             assert_never(written)
 
 
-def _reference(context: FileContext, scope: Scope, written: s.Reference, wanted: ExpectedType) -> TypedExpression:
+def _resolve_reference(
+    context: FileContext, scope: Scope, written: s.Reference, wanted: ExpectedType
+) -> TypedExpression:
     text, span = written.name.text, written.span
     if ":" in text:
-        return _individual(context, written, wanted)
+        return _resolve_individual(context, written, wanted)
     known = scope.variables.get(text)
     if known is not None:
         if not known.is_assigned:
@@ -104,7 +106,7 @@ def _unknown_name(context: FileContext, scope: Scope, written: s.Reference, want
     )
 
 
-def _individual(context: FileContext, written: s.Reference, wanted: ExpectedType) -> TypedExpression:
+def _resolve_individual(context: FileContext, written: s.Reference, wanted: ExpectedType) -> TypedExpression:
     iri = context.names.look_up_individual(written.name)
     if iri is None:
         return TypedExpression(Individual(written.name.text), UNKNOWN, written.span)
@@ -133,7 +135,7 @@ def _class_of(context: FileContext, written: s.Reference, iri: str, wanted: Expe
     return UNKNOWN
 
 
-def _member(context: FileContext, scope: Scope, written: s.Member) -> TypedExpression:
+def _resolve_member(context: FileContext, scope: Scope, written: s.Member) -> TypedExpression:
     of = resolve_value(context, scope, written.of)
     iri = resolve_property(context, of, written.property)
     if iri is None:
@@ -160,7 +162,7 @@ def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) ->
     )
 
 
-def _apply(context: FileContext, scope: Scope, written: s.Apply) -> TypedExpression:
+def _resolve_apply(context: FileContext, scope: Scope, written: s.Apply) -> TypedExpression:
     function = context.names.look_up_function(written.function)
     wanted = [type_of(kind) for _, kind in function.parameters] if function else []
     wanted += [UNKNOWN] * (len(written.arguments) - len(wanted))
@@ -173,15 +175,15 @@ def _apply(context: FileContext, scope: Scope, written: s.Apply) -> TypedExpress
     return TypedExpression(meaning, result, written.span, arguments)
 
 
-def _arithmetic(context: FileContext, scope: Scope, written: s.Arithmetic) -> TypedExpression:
+def _resolve_arithmetic(context: FileContext, scope: Scope, written: s.Arithmetic) -> TypedExpression:
     left, right = resolve_value(context, scope, written.left), resolve_value(context, scope, written.right)
     meaning = Arithmetic(written.operator, left.meaning, right.meaning)
-    turned = _is_turned(written.operator, left, right)
+    turned = _is_signed_direction(written.operator, left, right)
     kind = Direction() if turned else arithmetic_type(written.operator, left.type, right.type)
     return TypedExpression(meaning, kind or UNKNOWN, written.span, (left, right))
 
 
-def _is_turned(operator: str, left: TypedExpression, right: TypedExpression) -> bool:
+def _is_signed_direction(operator: str, left: TypedExpression, right: TypedExpression) -> bool:
     """Whether this is a direction times or divided by 1 or -1, which is still a direction."""
     one, other = (right, left) if operator == "*" and isinstance(right.type, Direction) else (left, right)
     is_one = _as_number_type(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))
