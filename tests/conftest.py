@@ -4,6 +4,12 @@ import gc
 import os
 import signal
 
+from hypothesis import HealthCheck, settings
+
+# No test depends on how fast the machine is.
+settings.register_profile("skillc", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("skillc")
+
 
 def pytest_configure() -> None:
     """Let output have no edge, caches be where tests put them, and processes that tests start listen to Ctrl-C.

@@ -36,7 +36,7 @@ def least_distance(of: CollisionChecker, q: Array) -> float:
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(turn=st.lists(st.floats(-1.2, 1.2), min_size=6, max_size=6))
 def test_a_posture_is_free_where_every_pair_is_far_enough_apart(scene: str, turn: list[float]) -> None:
     of, q = of_scene(scene), home(scene)

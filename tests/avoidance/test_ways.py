@@ -60,7 +60,7 @@ def is_free(of: CollisionChecker, start: Array, found: tuple[Array, ...]) -> Non
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@settings(max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+@settings(max_examples=EXAMPLES, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
 @given(where=places, turn=st.floats(-1.6, 1.6))
 def test_whatever_way_is_found_is_free(scene: str, where: tuple[float, float, float], turn: float) -> None:
     radius, angle, height = where

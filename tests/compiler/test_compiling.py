@@ -163,7 +163,7 @@ def test_imports_in_a_circle_are_told_and_both_files_are_read() -> None:
     assert sorted(outcome.value.skills) == ["A", "B"]
 
 
-@settings(max_examples=int(os.environ.get("SKILLC_DAMAGES", "20")), deadline=None)
+@settings(max_examples=int(os.environ.get("SKILLC_DAMAGES", "20")))
 @given(st.data())
 def test_damaged_libraries_never_crash(data: st.DataObject) -> None:
     text = data.draw(st.sampled_from(library("wiping"))).text

@@ -23,7 +23,6 @@ SHIPPED = sorted((ROOT / "skills_src").rglob("*.skill"))
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 MANY = settings(
     max_examples=int(os.environ.get("SKILLC_EXAMPLES", "20")),
-    deadline=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
 )
 

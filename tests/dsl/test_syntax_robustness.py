@@ -33,7 +33,7 @@ def check(outcome: Outcome[s.File], text: str) -> None:
         assert diagnostic.message
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(st.tuples(st.sampled_from(sorted(EDITS)), st.sampled_from(WORDS), st.sampled_from(WORDS)), max_size=6))
 def test_random_edits(edits: list[tuple[str, tuple[int, int], tuple[int, int]]]) -> None:
     text = WHOLE
@@ -42,7 +42,7 @@ def test_random_edits(edits: list[tuple[str, tuple[int, int], tuple[int, int]]])
     check(parse(Source("", text)), text)
 
 
-@settings(max_examples=75, deadline=None)
+@settings(max_examples=75)
 @given(st.text(alphabet=st.sampled_from('skil{}()[]:.,=<>"#\n -+*/_aé5m°\t\r\0�')))
 def test_random_text(text: str) -> None:
     check(parse(Source("", text)), text)

@@ -144,9 +144,7 @@ def by_player(play: Play, stage: Scripted) -> list[str]:
 
 
 @given(plays())
-@settings(
-    max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
-)
+@settings(max_examples=EXAMPLES, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 def test_a_tree_does_what_the_language_means(drawn: Play) -> None:
     play = comparable(drawn)
     statuses, log, _ = by_reference(play)

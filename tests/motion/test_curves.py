@@ -34,7 +34,7 @@ def bent(via, end) -> bool:
     return np.linalg.norm(np.cross(via, end)) > 1e-2 * np.linalg.norm(via) * np.linalg.norm(end) > 1e-6
 
 
-@settings(max_examples=EXAMPLES, deadline=None)
+@settings(max_examples=EXAMPLES)
 @given(points, points, turns, st.sampled_from([LIMITS, JERKY]))
 def test_an_arc_goes_through_its_three_points_within_limits(via, end, rotation, limits):
     if not bent(via, end):
@@ -53,7 +53,7 @@ def test_an_arc_goes_through_its_three_points_within_limits(via, end, rotation, 
         assert np.linalg.norm(sample.acceleration[:3]) <= limits.acceleration * (1 + 1e-9)
 
 
-@settings(max_examples=EXAMPLES, deadline=None)
+@settings(max_examples=EXAMPLES)
 @given(points, points, turns, st.floats(0.0, 0.03), st.floats(0.02, 0.98), st.sampled_from([LIMITS, JERKY]))
 def test_lines_and_arcs_join_smoothly_and_cut_corners_by_the_blend_at_most(via, end, rotation, blend, share, limits):
     if not bent(via, end):
@@ -94,7 +94,7 @@ def test_points_on_a_line_are_refused(via):
         arc_through(START, np.array(via), Pose(np.array([0.2, 0.0, 0.0]), np.eye(3)), LIMITS)
 
 
-@settings(max_examples=4 * EXAMPLES, deadline=None)
+@settings(max_examples=4 * EXAMPLES)
 @given(st.floats(1e-3, 3.0), st.floats(0.05, 0.5), st.floats(0.1, 2.0), st.floats(1.0, 50.0), st.floats(0.01, 0.99))
 def test_a_smooth_profile_is_its_own_derivative_and_keeps_its_limits(length, speed, acceleration, jerk, share):
     profile = SmoothProfile(trapezoidal_profile(length, speed, acceleration), window_for(acceleration, jerk))

@@ -14,7 +14,7 @@ ways = st.lists(joints, min_size=2, max_size=6)
 
 
 @given(ways, st.floats(0.0, 1.0))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_limits_ends_and_steadiness(way, blend):
     motion = joint_path(way, SPEED, ACCELERATION, [blend] * (len(way) - 2))
     times = np.linspace(0.0, motion.duration, 300)
@@ -28,7 +28,7 @@ def test_limits_ends_and_steadiness(way, blend):
 
 
 @given(ways)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_without_blending_it_goes_through_every_posture_and_stops(way):
     motion = joint_path(way, SPEED, ACCELERATION, [0.0] * (len(way) - 2))
     for start, posture in zip(motion.starts, way, strict=False):

@@ -28,7 +28,7 @@ def close(a: Pose, b: Pose, tolerance: float = 1e-9) -> bool:
     return np.abs(a.position - b.position).max() < tolerance and np.abs(a.rotation - b.rotation).max() < tolerance
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(poses, st.floats(0.0, 0.05), st.floats(0.01, 0.99))
 def test_twist_is_the_derivative_of_the_pose(corners, blend, share):
     motion, h = path_through(corners, LIMITS, blend), 1e-6
@@ -39,7 +39,7 @@ def test_twist_is_the_derivative_of_the_pose(corners, blend, share):
     assert np.allclose(now.twist, [*linear, *angular], atol=2e-4)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(poses, st.floats(0.0, 0.05))
 def test_acceleration_is_the_derivative_of_the_twist_almost_everywhere(corners, blend):
     motion, h = path_through(corners, LIMITS, blend), 1e-5
@@ -52,7 +52,7 @@ def test_acceleration_is_the_derivative_of_the_twist_almost_everywhere(corners, 
     assert wrong <= 4 * (len(corners) + 1)  # only where a profile changes between accelerating and cruising
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(poses, st.floats(0.0, 0.05))
 def test_starts_at_the_first_and_ends_at_the_last_pose(corners, blend):
     motion = path_through(corners, LIMITS, blend)
@@ -61,7 +61,7 @@ def test_starts_at_the_first_and_ends_at_the_last_pose(corners, blend):
     assert not motion.at(motion.duration + 1.0).twist.any()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(poses, st.floats(0.001, 0.05))
 def test_corners_are_cut_by_the_blend_at_most_and_the_speed_stays_within_limits(corners, blend):
     motion = path_through(corners, LIMITS, blend)

@@ -43,7 +43,7 @@ def clear(places, half, gaps):
     return free
 
 
-@settings(max_examples=EXAMPLES, deadline=None)
+@settings(max_examples=EXAMPLES)
 @given(holes, directions)
 def test_no_hole_is_touched(gaps, direction):
     found = plan_strokes(SURFACE, TOOL, 0.2, gaps, direction)
@@ -53,7 +53,7 @@ def test_no_hole_is_touched(gaps, direction):
     assert passed or gaps
 
 
-@settings(max_examples=EXAMPLES, deadline=None)
+@settings(max_examples=EXAMPLES)
 @given(holes, directions, st.floats(0.0, 0.5))
 def test_whatever_the_tool_can_be_over_is_passed(gaps, direction, overlap):
     cells = np.stack(np.meshgrid(np.linspace(-0.2, 0.2, 41), np.linspace(-0.15, 0.15, 31)), axis=-1).reshape(-1, 2)

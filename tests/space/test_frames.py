@@ -60,14 +60,14 @@ def expected(name: str, placings: dict[str, tuple[str, Pose]]) -> Array:
     return matrix(own) if frame == "map" else expected(frame, placings) @ matrix(own)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(trees(), st.sampled_from(NAMES))
 def test_poses_are_composed_from_the_root(drawn: tuple[WorldState, dict[str, tuple[str, Pose]]], name: str) -> None:
     state, placings = drawn
     assert np.allclose(matrix(pose(state, lab(name))), expected(name, placings), atol=1e-9)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(trees(), st.sampled_from(NAMES), st.sampled_from(NAMES), st.sampled_from(NAMES))
 def test_what_is_seen_from_another_thing_composes_and_inverts(
     drawn: tuple[WorldState, object], one: str, two: str, three: str
@@ -79,7 +79,7 @@ def test_what_is_seen_from_another_thing_composes_and_inverts(
     assert same(relative_pose(state, a, a), at(0, 0, 0))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(trees(), st.sampled_from(NAMES[3:]), st.sampled_from(NAMES[:3]), poses)
 def test_a_thing_put_somewhere_is_there_and_all_else_keeps_its_own_pose(
     drawn: tuple[WorldState, dict[str, tuple[str, Pose]]], name: str, viewer: str, goal: Pose
@@ -91,7 +91,7 @@ def test_a_thing_put_somewhere_is_there_and_all_else_keeps_its_own_pose(
     assert same(pose(after, lab(viewer)), pose(state, lab(viewer)))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(trees(), st.sampled_from(NAMES[3:]), st.sampled_from(NAMES[:3]), poses)
 def test_what_is_carried_stays_where_it_is_and_then_moves_along(
     drawn: tuple[WorldState, object], name: str, carrier: str, goal: Pose

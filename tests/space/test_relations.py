@@ -90,7 +90,7 @@ def test_what_is_wrong_with_a_frame_is_no_answer() -> None:
 boxes = st.tuples(*3 * [st.floats(0.05, 2.0)])
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(poses, boxes, poses, boxes)
 def test_inside_means_that_every_point_is(
     one: Pose, small: tuple[float, ...], other: Pose, large: tuple[float, ...]
@@ -104,7 +104,7 @@ def test_inside_means_that_every_point_is(
     assert margin < 1e-9 or holds(state, INSIDE, "A", "B") == bool(local.max() <= TOUCH_M)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(vectors(1.0), boxes, poses, boxes)
 def test_above_means_that_what_is_straight_below_is_lower_than_all_of_it(
     offset: Array, small: tuple[float, ...], other: Pose, large: tuple[float, ...]
@@ -137,14 +137,14 @@ ALL = (INSIDE, ABOVE, RESTS_ON, REACHES, CAN_REACH)
 EXPECTED = [{relation: set(state.pairs(relation)) for relation in ALL} for state in SCENES]
 
 
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=4)
 @given(st.sampled_from((0, 1)), vectors(10.0), st.floats(-3, 3))
 def test_a_scene_that_is_moved_and_turned_as_a_whole_is_the_same_scene(which: int, by: Array, angle: float) -> None:
     moved = rigid(SCENES[which], Pose(by, exp(np.array([0.0, 0.0, angle]))))
     assert {relation: set(moved.pairs(relation)) for relation in ALL} == EXPECTED[which]
 
 
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=4)
 @given(st.sampled_from((0, 1)), poses)
 def test_being_inside_and_within_reach_do_not_depend_on_where_up_is(which: int, by: Pose) -> None:
     moved = rigid(SCENES[which], by)

@@ -21,9 +21,7 @@ EXAMPLES = int(os.environ.get("SKILLC_TREES", "50"))
 
 
 @given(plays())
-@settings(
-    max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
-)
+@settings(max_examples=EXAMPLES, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 def test_the_engine_agrees_with_the_reference(play: Play) -> None:
     statuses, log, failure = by_reference(play)
     stage = Stage(world(), play.scripts)

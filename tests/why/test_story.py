@@ -38,9 +38,7 @@ EXAMPLES = int(os.environ.get("SKILLC_STORIES", "30"))
 
 
 @given(plays())
-@settings(
-    max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
-)
+@settings(max_examples=EXAMPLES, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
     told: list[Event] = [BEGIN]
     stage = Stage(world(), play.scripts)

@@ -35,7 +35,7 @@ PREFIXES = {
 }
 
 
-@settings(max_examples=int(os.environ.get("BULK_EXAMPLES", "25")), deadline=None)
+@settings(max_examples=int(os.environ.get("BULK_EXAMPLES", "25")))
 @given(vocabularies(), st.lists(additions, max_size=12), st.randoms(use_true_random=False))
 def test_a_state_made_at_once_is_that_made_by_changes(
     vocabulary: Vocabulary, added: list[AddRelation], chance: Random

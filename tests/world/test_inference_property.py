@@ -90,7 +90,7 @@ requirements = st.lists(conditions, max_size=4).map(lambda each: tuple(map(requi
 
 
 @given(scenes, wanted, requirements)
-@settings(max_examples=EXAMPLES, deadline=None)
+@settings(max_examples=EXAMPLES)
 def test_the_answer_is_that_of_trying_everything(
     state: WorldState, looked_for: list[Parameter], asked: tuple[Requirement, ...]
 ) -> None:

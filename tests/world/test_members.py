@@ -10,7 +10,7 @@ from skillc_runtime.world.state.versioned import VersionedSet
 NAMES = st.sampled_from([f"x{number}" for number in range(40)])
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.frozensets(NAMES), st.lists(st.tuples(st.dictionaries(NAMES, st.booleans()), st.booleans()), max_size=12))
 def test_every_version_has_its_members(base: frozenset[str], writes: list[tuple[dict[str, bool], bool]]) -> None:
     versions, expected = [VersionedSet(base)], [base]

@@ -43,7 +43,7 @@ def test_no_fact_is_lost(seed: int) -> None:
     assert format_scene(found, EMPTY) == format_scene(last.after, EMPTY)
 
 
-@settings(max_examples=int(os.environ.get("SAVED_VALUES", "30")), deadline=None)
+@settings(max_examples=int(os.environ.get("SAVED_VALUES", "30")))
 @given(st.floats(allow_nan=False, allow_infinity=False), st.lists(st.text(st.characters(exclude_categories=["Cs"]))))
 def test_no_number_or_text_is_changed(number: float, texts: list[str]) -> None:
     labels = tuple(dict.fromkeys(texts)) or ("none",)

@@ -85,7 +85,7 @@ def applied(facts: set[Fact], change: Change, vocabulary: Vocabulary) -> set[Fac
             return facts
 
 
-@settings(max_examples=int(os.environ.get("WORLD_EXAMPLES", "50")), deadline=None)
+@settings(max_examples=int(os.environ.get("WORLD_EXAMPLES", "50")))
 @given(vocabularies(), st.lists(st.lists(changes, max_size=6), min_size=1, max_size=6))
 def test_every_version_holds_exactly_what_follows(vocabulary: Vocabulary, writes: list[list[Change]]) -> None:
     state, facts, types = WorldState.empty(vocabulary), set[Fact](), dict[str, set[str]]()
