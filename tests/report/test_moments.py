@@ -14,7 +14,7 @@ from skillc_runtime.world.state.labelled import LabelledIri
 
 HERE = Position(path="press.skill", line=1, column=1)
 CELL: Any = SimpleNamespace(
-    facts=SimpleNamespace(arms=(SimpleNamespace(individual="http://lab#Arm"),), names={"http://lab#Arm": "lab:Arm"})
+    scene=SimpleNamespace(arms=(SimpleNamespace(individual="http://lab#Arm"),), names={"http://lab#Arm": "lab:Arm"})
 )
 
 
