@@ -35,7 +35,7 @@ def weight(place: Path) -> object:
 
 def test_a_folder_of_other_things_is_no_store(tmp_path: Path) -> None:
     (tmp_path / "thesis.tex").touch()
-    with pytest.raises(StoreError, match=r"is no store: it holds thesis.tex; name a new or an empty folder"):
+    with pytest.raises(StoreError, match=r"is not a store: it holds thesis.tex; name a new or an empty folder"):
         DiskStore(tmp_path)
     assert sorted(each.name for each in tmp_path.iterdir()) == ["thesis.tex"]
 
@@ -101,7 +101,7 @@ def test_damaged_facts_are_told_and_can_be_filled_anew(tmp_path: Path) -> None:
     for file in (place / FACTS).glob("MANIFEST*"):
         file.write_bytes(b"nonsense" * 100)
     store = DiskStore(place)
-    with pytest.raises(StoreError, match=r"facts are damaged.*fill the store anew with --reset") as caught:
+    with pytest.raises(StoreError, match=r"facts are damaged.*fill the store again with --reset") as caught:
         model_of(store)
     assert "\n" not in str(caught.value)
     store.close()
@@ -151,7 +151,7 @@ def test_a_store_that_may_only_be_read_is_read(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("address", ["ftp://host/x", "http://", "http:///path", "urn://x"])
 def test_an_address_of_no_server_is_told(address: str) -> None:
-    with pytest.raises(StoreError, match=r"is no address of a SPARQL server"):
+    with pytest.raises(StoreError, match=r"is not an address of a SPARQL server"):
         open_store(address)
 
 
@@ -161,6 +161,6 @@ def test_a_store_that_takes_nothing_though_nobody_wrote_is_told(
     model = model_of(DiskStore(tmp_path / "store"))
     monkeypatch.setattr(DiskStore, "append", lambda store, event, sequence: False)
     before = model.snapshot()
-    with pytest.raises(StoreError, match=r"store refuses a write, although nobody else has written"):
+    with pytest.raises(StoreError, match=r"store rejects a write, although no other process has written"):
         model.commit([assign("box", "weight", 4.0)])
     assert model.snapshot() is before

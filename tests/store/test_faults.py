@@ -25,16 +25,16 @@ from world.lab import assign, iri
 
 TIMEOUT_S = 0.3
 WORDS: dict[Fault, str] = {
-    "lost request": "the connection broke",
-    "lost answer": "the connection broke",
-    "reset": "the connection broke",
-    "half an answer": "the connection broke|that is no HTTP",
+    "lost request": "the connection was lost",
+    "lost answer": "the connection was lost",
+    "reset": "the connection was lost",
+    "half an answer": "the connection was lost|it does not speak HTTP",
     "error 500": "answers 500 Internal Server Error: the disk is full",
     "error 503": "answers 503 Service Unavailable: the disk is full",
-    "garbage": "answers a query with something that is no answer",
+    "garbage": "answers a query with an invalid result",
     "page": "answers with text/html where application/sparql-results",
     "slow": "no answer within 0.3 s",
-    "other rows": "answers a query with something that is no answer",
+    "other rows": "answers a query with an invalid result",
     "echo": "answers 500 Internal Server Error: /",
 }
 
@@ -130,7 +130,7 @@ def test_a_write_waits_for_a_server_that_is_started_anew() -> None:
 def test_a_server_that_is_not_there_is_told() -> None:
     with oxigraph() as address:
         pass
-    with pytest.raises(StoreError, match=r"127\.0\.0\.1:\d+/? does not answer: nobody listens there"):
+    with pytest.raises(StoreError, match=r"127\.0\.0\.1:\d+/? does not answer: no server is listening there"):
         open_store(address)
 
 
@@ -140,7 +140,7 @@ def test_a_host_that_does_not_exist_is_told() -> None:
 
 
 def test_a_server_of_something_else_is_told(server: str, proxy: Proxy) -> None:
-    with pytest.raises(StoreError, match=r"no SPARQL 1\.1 server takes queries and updates at .*/wrong: .*404"):
+    with pytest.raises(StoreError, match=r"no SPARQL 1\.1 server accepts queries and updates at .*/wrong: .*404"):
         open_store(f"{server}/wrong")
     proxy.fail("page", 100)
     with pytest.raises(StoreError, match=r"no SPARQL 1\.1 server .* answers with text/html"):
@@ -165,13 +165,15 @@ def test_an_answer_that_never_ends_is_given_up(proxy: Proxy, fault: Fault) -> No
 
 def test_an_answer_that_is_too_large_is_not_read(proxy: Proxy, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(http, "MAX_ANSWER_BYTES", 10)
-    with pytest.raises(InvalidAnswer, match=r"answers with more than 0 MB, which is no world"):
+    with pytest.raises(InvalidAnswer, match=r"answers with more than 0 MB, which is too much for a world"):
         HttpEndpoint(proxy.address, "/query", "/update").query("ASK {}", "application/sparql-results+json")
 
 
 def test_a_server_that_sends_on_is_told_with_where_to(proxy: Proxy) -> None:
     proxy.fail("moved", 100)
-    with pytest.raises(StoreError, match=r"answers 307 .*: it sends on to http://elsewhere\.invalid/x; name that one"):
+    with pytest.raises(
+        StoreError, match=r"answers 307 .*: it redirects to http://elsewhere\.invalid/x; use that address"
+    ):
         open_store(proxy.address)
 
 

@@ -95,9 +95,9 @@ def test_whoever_knows_a_world_that_was_replaced_is_told(empty: str) -> None:
     new = model_of(open_store(empty, reset=True))
     assert new.snapshot().value(iri("box"), iri("weight")) == 3.0
     before = old.snapshot()
-    with pytest.raises(StoreError, match=r"was filled anew by somebody else; start again"):
+    with pytest.raises(StoreError, match=r"was reset by another process; start again"):
         old.follow()
-    with pytest.raises(StoreError, match=r"was filled anew by somebody else; start again"):
+    with pytest.raises(StoreError, match=r"was reset by another process; start again"):
         old.commit([assign("box", "weight", 9.0)])
     assert old.snapshot() is before
     new.commit([assign("box", "weight", 4.0)])

@@ -26,7 +26,7 @@ def nobody(_: Path) -> tuple[str, str]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"http://127.0.0.1:{free.getsockname()[1]}"
-    return address, f"{address} does not answer: nobody listens there"
+    return address, f"{address} does not answer: no server is listening there"
 
 
 def nothing(folder: Path) -> tuple[str, str]:
@@ -40,7 +40,7 @@ def a_file(folder: Path) -> tuple[str, str]:
 
 def other_things(folder: Path) -> tuple[str, str]:
     (folder / "thesis.tex").touch()
-    return str(folder), f"{folder} is no store: it holds thesis.tex; name a new or an empty folder"
+    return str(folder), f"{folder} is not a store: it holds thesis.tex; name a new or an empty folder"
 
 
 @pytest.mark.parametrize("place", [nobody, nothing, a_file, other_things])

@@ -105,7 +105,7 @@ def test_a_file_is_replaced_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 
 def test_what_no_scene_can_say_is_refused() -> None:
-    with pytest.raises(SaveError, match="it is no IRI"):
+    with pytest.raises(SaveError, match="it is not an IRI"):
         format_scene(SCENE.with_changes([AddIndividual("a b", (iri("Product"),))]), EMPTY)
     with pytest.raises(SaveError, match="nan is no number"):
         format_scene(SCENE.with_changes([assign("box", "weight", float("nan"))]), EMPTY)

@@ -1,4 +1,4 @@
-"""Addresses of SPARQL servers: what is sent to a server, and what of it may be shown."""
+"""Addresses of SPARQL servers: credentials are sent to the server but never shown."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _BEFORE_HOST = re.compile(r"(?s)^(.*?://).*@")
 
 
 def without_credentials(place: str) -> str:
-    """Return the place of a store without what may be a secret: what stands before an `@`, and a query."""
+    """Return the place of a store without parts that may be secret: everything before an `@`, and the query."""
     if "://" not in place:
         return place
     return _BEFORE_HOST.sub(r"\1", place).partition("?")[0].partition("#")[0]
@@ -22,9 +22,9 @@ def without_credentials(place: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Address:
-    """An `http://` or `https://` address; as text without its credentials, which is how messages call it.
+    """An `http://` or `https://` address; as text without credentials, for messages.
 
-    Credentials are `user:password@` before the host, and whatever the query says.
+    Credentials are `user:password@` before the host, and the query.
     """
 
     name: str
@@ -32,7 +32,7 @@ class Address:
 
     @staticmethod
     def parse(text: str) -> Address:
-        """Return the address that a text is; StoreError where it is none."""
+        """Return the address in a text; StoreError when it is not one."""
         name = without_credentials(text)
         try:
             parts = urlsplit(text)
@@ -40,7 +40,9 @@ class Address:
         except ValueError:
             usable = False
         if not usable or not text.isascii() or re.search(r"[\x00-\x20\x7f]", text):
-            raise StoreError(f"{name} is no address of a SPARQL server; it begins with http:// or https:// and a host")
+            raise StoreError(
+                f"{name} is not an address of a SPARQL server; it begins with http:// or https:// and a host"
+            )
         if "@" in parts.path + parts.query + parts.fragment or "#" in text:
             raise StoreError(
                 f"the address that ends with {name} is ambiguous: in a user name or a password "
@@ -52,12 +54,12 @@ class Address:
         return self.name
 
     def append_path(self, path: str) -> Address:
-        """Return the address with a path behind its own."""
+        """Return the address with a path appended."""
         return replace(self, name=self.name + path, _parts=self._parts._replace(path=self._parts.path + path))
 
     @property
     def is_encrypted(self) -> bool:
-        """Whether the server is spoken to over TLS."""
+        """Whether the connection uses TLS."""
         return self._parts.scheme == "https"
 
     @property
@@ -67,26 +69,26 @@ class Address:
 
     @property
     def port(self) -> int | None:
-        """The port, None for the usual one."""
+        """The port; None for the default."""
         return self._parts.port
 
     @property
     def target(self) -> str:
-        """What a request asks the server for: path and query."""
+        """The request target: path and query."""
         return (self._parts.path or "/") + (f"?{self._parts.query}" if self._parts.query else "")
 
     def authorization(self) -> dict[str, str]:
-        """Return the header that says who asks, empty without a user."""
+        """Return the header with the credentials; empty without a user."""
         if self._parts.username is None:
             return {}
         pair = f"{unquote(self._parts.username)}:{unquote(self._parts.password or '')}"
         return {"Authorization": f"Basic {base64.b64encode(pair.encode()).decode()}"}
 
     def without_secrets(self, text: str) -> str:
-        """Return a text of the server's, which may repeat what it was sent, without the credentials."""
-        written = [value for _, value in parse_qsl(self._parts.query)]
-        written += [self._parts.query, self._parts.password or "", self._parts.netloc.rpartition("@")[0]]
-        written += [header.removeprefix("Basic ") for header in self.authorization().values()]
-        for secret in sorted({each for one in written for each in (one, unquote(one)) if each}, key=len, reverse=True):
+        """Return a text from the server, which may repeat the request, without the credentials."""
+        secrets = [value for _, value in parse_qsl(self._parts.query)]
+        secrets += [self._parts.query, self._parts.password or "", self._parts.netloc.rpartition("@")[0]]
+        secrets += [header.removeprefix("Basic ") for header in self.authorization().values()]
+        for secret in sorted({each for one in secrets for each in (one, unquote(one)) if each}, key=len, reverse=True):
             text = text.replace(secret, HIDDEN)
         return text

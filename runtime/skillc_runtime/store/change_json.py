@@ -1,4 +1,4 @@
-"""Changes as text for a journal or a log, and back."""
+"""Encodes changes as JSON for a journal or a log, and decodes them."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ KINDS: dict[str, Callable[..., Change]] = {kind.__name__: kind for kind in get_a
 
 
 def encode_changes(changes: tuple[Change, ...]) -> str:
-    """Return changes as one line of JSON: a list for each, of its kind and its fields in order."""
-    told = [[type(each).__name__, *_fields(each)] for each in changes]
-    return msgspec.json.encode(told, enc_hook=_vector_text).decode()
+    """Return changes as one line of JSON: for each change a list of its class name and its fields."""
+    listed = [[type(each).__name__, *_fields(each)] for each in changes]
+    return msgspec.json.encode(listed, enc_hook=_vector_text).decode()
 
 
 def decode_changes(text: str) -> tuple[Change, ...]:
-    """Return the changes that a line of JSON tells of; ValueError when it tells of none."""
+    """Return the changes in a line of JSON; ValueError when it is invalid."""
     try:
         return tuple(_change(*each) for each in msgspec.json.decode(text, type=list[list[object]]))
     except (msgspec.DecodeError, KeyError, TypeError) as error:
-        raise ValueError(f"these are no changes of a world: {error}") from error
+        raise ValueError(f"these are not changes of a world: {error}") from error
 
 
 def _fields(change: Change) -> list[object]:
@@ -37,10 +37,10 @@ def _change(kind: object, *values: object) -> Change:
 
 
 def _vector_text(value: object) -> dict[str, str]:
-    """Return a vector as JSON has it; TypeError for what no change has."""
+    """Return a vector for JSON; TypeError for values that no change has."""
     if is_vector(value):
         return {"vector": format_vector(value)}
-    raise TypeError(f"{type(value).__name__} has no form in a journal")
+    raise TypeError(f"{type(value).__name__} cannot be written to a journal")
 
 
 def _value(written: object) -> object:

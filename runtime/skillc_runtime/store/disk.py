@@ -1,7 +1,7 @@
-"""A store in a folder: facts in pyoxigraph and, until they are moved there, the latest transactions in a journal.
+"""A store in a folder: facts in pyoxigraph, and the latest transactions in a journal until they are moved there.
 
-A write costs one line and one flush of the journal, whatever the size of the world. Whoever is alone with the store,
-when opening or closing it, moves the journal into the facts.
+A write costs one line and one flush of the journal, for a world of any size. A process that opens or closes the store
+as its only user moves the journal into the facts.
 """
 
 from __future__ import annotations
@@ -26,21 +26,21 @@ MARK, LOCK, JOURNAL, FACTS = "skillc-store", "lock", "journal", "facts"
 
 
 class DiskStore:
-    """A world kept in a folder that any number of processes use at the same time."""
+    """A world in a folder that any number of processes can use at the same time."""
 
     def __init__(self, folder: Path, reset: bool = False) -> None:
-        """Open or create a store and, with `reset`, forget what it holds.
+        """Open or create a store; with `reset`, delete its contents.
 
-        StoreError when the folder is something else, damaged or out of reach, and when others use what is to be reset.
+        StoreError when the folder is not a store, is damaged or not accessible, or is to be reset while others use it.
         """
         self._folder, self._facts = folder, folder / FACTS
         try:
             _prepare(folder)
-            self._users, self._journal = StoreLock(folder / LOCK), TransactionJournal(folder / JOURNAL)
+            self._lock, self._journal = StoreLock(folder / LOCK), TransactionJournal(folder / JOURNAL)
         except OSError as error:
             raise StoreError(f"the store {folder} cannot be opened: {error.strerror}") from error
         try:
-            self._enter(reset)
+            self._join(reset)
         except StoreError:
             self._leave()
             raise
@@ -49,28 +49,28 @@ class DiskStore:
         return str(self._folder)
 
     def close(self) -> None:
-        """Leave the store, tidied up if nobody else uses it."""
-        if self._users.try_exclusive():
-            self._tidy_up()
+        """Close the store; the last user moves the journal into the facts."""
+        if self._lock.try_exclusive():
+            self._compact()
         self._leave()
 
     def read(self) -> StoredWorld:
-        """Return the facts as they are now."""
-        kept = base.read(self._facts)
-        self._journal.start_after(kept.sequence)
-        entries = self._journal.since(kept.sequence)
+        """Return the current facts."""
+        stored = base.read(self._facts)
+        self._journal.start_after(stored.sequence)
+        entries = self._journal.since(stored.sequence)
         if not entries:
-            return kept
-        triples = dict.fromkeys(kept.triples)
-        for triple, present in _net(entries).items():
+            return stored
+        triples = dict.fromkeys(stored.triples)
+        for triple, present in _net_changes(entries).items():
             if present:
                 triples[triple] = None
             else:
                 triples.pop(triple, None)
-        return StoredWorld(entries[-1].sequence, kept.beginning, tuple(triples))
+        return StoredWorld(entries[-1].sequence, stored.beginning, tuple(triples))
 
     def append(self, event: ChangeEvent, after: int) -> bool:
-        """Write an event as the transaction that follows `after`, or return False when there is another already."""
+        """Write an event as the transaction after number `after`; return False when another one has that place."""
         change = triple_difference(event)
         if after == 0:
             return self._fill(event.origin, change.added)
@@ -80,21 +80,21 @@ class DiskStore:
         )
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
-        """Return the transactions after the one of that number, in order."""
+        """Return the transactions after number `sequence`, in order."""
         entries = self._journal.since(sequence)
         return tuple(Transaction(each.sequence, each.origin, decode_changes(each.changes)) for each in entries)
 
-    def _enter(self, reset: bool) -> None:
-        alone = self._users.try_exclusive()
+    def _join(self, reset: bool) -> None:
+        alone = self._lock.try_exclusive()
         if reset:
             self._reset(alone)
         elif alone:
-            self._tidy_up()
-        self._users.acquire_shared()
+            self._compact()
+        self._lock.acquire_shared()
 
     def _leave(self) -> None:
         self._journal.close()
-        self._users.release()
+        self._lock.release()
 
     def _fill(self, origin: str, triples: Iterable[ox.Triple]) -> bool:
         with self._journal.locked():
@@ -106,7 +106,7 @@ class DiskStore:
 
     def _reset(self, alone: bool) -> None:
         if not alone:
-            raise StoreError(f"{self._folder} cannot be reset while {self._users.describe_others()} uses it")
+            raise StoreError(f"{self._folder} cannot be reset while {self._lock.describe_others()} uses it")
         try:
             self._journal.clear()
             if self._facts.exists():
@@ -114,8 +114,8 @@ class DiskStore:
         except OSError as error:
             raise StoreError(f"{self._folder} cannot be reset: {error.strerror}") from error
 
-    def _tidy_up(self) -> None:
-        """Move the journal into the facts, where possible: what is damaged or full is told by whoever needs it."""
+    def _compact(self) -> None:
+        """Move the journal into the facts if possible; errors are left to later reads and writes, which report them."""
         if not (self._journal.writable and self._facts.exists()):
             return
         with contextlib.suppress(StoreError, OSError):
@@ -123,14 +123,14 @@ class DiskStore:
             self._journal.start_after(before)
             entries = self._journal.since(before)
             if entries:
-                net = _net(entries)
+                net = _net_changes(entries)
                 removed, added = ([t for t, present in net.items() if present is wanted] for wanted in (False, True))
                 base.advance(self._facts, removed, added, before, entries[-1].sequence)
             self._journal.clear()
 
 
 def _prepare(folder: Path) -> None:
-    """Make a folder a store, unless it is one; StoreError when it is something else, OSError when out of reach."""
+    """Make a folder a store unless it is one; StoreError when it is something else, OSError when not accessible."""
     if folder.exists() and not folder.is_dir():
         raise StoreError(f"{folder} is a file; a store is a folder, or the address of a SPARQL server")
     folder.mkdir(parents=True, exist_ok=True)
@@ -142,15 +142,15 @@ def _prepare(folder: Path) -> None:
         return
     others = sorted(each.name for each in folder.iterdir() if each.name not in (LOCK, f"{MARK}.half"))
     if others:
-        raise StoreError(f"{folder} is no store: it holds {', '.join(others[:3])}; name a new or an empty folder")
+        raise StoreError(f"{folder} is not a store: it holds {', '.join(others[:3])}; name a new or an empty folder")
     (folder / LOCK).touch()
     half = folder / f"{MARK}.half"
     half.write_text(FORMAT, encoding="utf-8")
     half.replace(mark)
 
 
-def _net(entries: Iterable[JournalEntry]) -> dict[ox.Triple, bool]:
-    """Return the triples that entries write, in the end there or not."""
+def _net_changes(entries: Iterable[JournalEntry]) -> dict[ox.Triple, bool]:
+    """Return the triples that entries write, each with whether it is there in the end."""
     net: dict[ox.Triple, bool] = {}
     for entry in entries:
         net.update(dict.fromkeys(_triples(entry.removed), False))

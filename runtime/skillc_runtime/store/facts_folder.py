@@ -1,4 +1,4 @@
-"""The bulk of a store on disk: a folder of pyoxigraph, which any tool built on Oxigraph can query."""
+"""The facts of a store on disk: a pyoxigraph folder, which any tool built on Oxigraph can query."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ STORE = ox.NamedNode("https://w3id.org/skillc/store#this")
 SEQUENCE = ox.NamedNode("https://w3id.org/skillc/store#sequence")
 BEGINNING = ox.NamedNode("https://w3id.org/skillc/store#beginning")
 LOG = ox.NamedNode("https://w3id.org/skillc/store#log")
-"""The graph of what a store says about itself; facts are in the default graph."""
+"""The graph with the metadata of a store; facts are in the default graph."""
 
 
 def create(folder: Path, triples: Iterable[ox.Triple], sequence: int, beginning: str) -> None:
-    """Write a new folder, which is there whole or not at all; StoreError when it cannot be written."""
+    """Write a new folder, completely or not at all; StoreError when it cannot be written."""
     half = folder.with_name(f"{folder.name}.half")
     try:
         shutil.rmtree(half, ignore_errors=True)
         store = ox.Store(str(half))
         store.bulk_extend(ox.Quad(each.subject, each.predicate, each.object) for each in triples)
-        store.extend(_about(sequence, beginning))
+        store.extend(_metadata(sequence, beginning))
         store.flush()
         del store
         half.rename(folder)
@@ -34,7 +34,7 @@ def create(folder: Path, triples: Iterable[ox.Triple], sequence: int, beginning:
 
 
 def read(folder: Path) -> StoredWorld:
-    """Return what a folder holds, nothing where there is none; StoreError when it is damaged."""
+    """Return the contents of a folder, empty if it does not exist; StoreError when it is damaged."""
     if not folder.exists():
         return StoredWorld(0, "", ())
     try:
@@ -55,7 +55,7 @@ def sequence(folder: Path) -> int:
 
 
 def advance(folder: Path, removed: Iterable[ox.Triple], added: Iterable[ox.Triple], before: int, after: int) -> None:
-    """Bring a folder from one transaction to a later one, in one step; StoreError when it cannot be written."""
+    """Update a folder from one transaction to a later one, atomically; StoreError when it cannot be written."""
     old, new = f"{STORE} {SEQUENCE} {before}", f"{STORE} {SEQUENCE} {after}"
     update = (
         f"DELETE DATA {{ {_text(removed)} GRAPH {LOG} {{ {old} }} }};\n"
@@ -69,24 +69,24 @@ def advance(folder: Path, removed: Iterable[ox.Triple], added: Iterable[ox.Tripl
         raise StoreError(f"the facts cannot be written to {folder}: {_first_line(error)}") from error
 
 
-def _about(sequence: int, beginning: str) -> list[ox.Quad]:
+def _metadata(sequence: int, beginning: str) -> list[ox.Quad]:
     return [
         ox.Quad(STORE, SEQUENCE, ox.Literal(sequence), LOG),
         ox.Quad(STORE, BEGINNING, ox.Literal(beginning), LOG),
     ]
 
 
-def _read_text(store: ox.Store, what: ox.NamedNode) -> str:
-    for quad in store.quads_for_pattern(STORE, what, None, LOG):
+def _read_text(store: ox.Store, property_: ox.NamedNode) -> str:
+    for quad in store.quads_for_pattern(STORE, property_, None, LOG):
         if isinstance(quad.object, ox.Literal):
             return quad.object.value
-    raise ValueError(f"{what} is missing")
+    raise ValueError(f"{property_} is missing")
 
 
 def _damaged(folder: Path, error: Exception) -> StoreError:
     return StoreError(
         f"the facts in {folder} are damaged ({_first_line(error)}); restore the folder from a copy, "
-        "or fill the store anew with --reset"
+        "or fill the store again with --reset"
     )
 
 

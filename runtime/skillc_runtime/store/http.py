@@ -1,4 +1,4 @@
-"""The SPARQL 1.1 protocol over HTTP: one query or one update at a time, on a connection that is kept."""
+"""The SPARQL 1.1 protocol over HTTP: one query or update at a time, on a connection that stays open."""
 
 from __future__ import annotations
 
@@ -12,26 +12,30 @@ from skillc_runtime.store.deadline import Deadline, TimedSocket
 from skillc_runtime.world.state.transactions import StoreError
 
 TIMEOUT_S = 10.0
-"""How long a server is waited for to take a connection, and then to send something."""
+"""The timeout for the connection and for each part of an answer."""
 TOTAL_TIMEOUTS = 6
-"""So many times that long a whole answer may take."""
+"""The time for a whole answer, as a multiple of the timeout."""
 MAX_ANSWER_BYTES = 2**30
-"""The greatest number of bytes of an answer: a world of some million facts."""
+"""The limit for an answer; enough for a world of some million facts."""
+FORMS = (("", ""), ("/query", "/update"), ("", "/statements"), ("/sparql", "/update"))
+"""Paths for queries and updates below the address of a server: Fuseki and Virtuoso, Oxigraph, RDF4J, others."""
+EMPTY_QUERY, EMPTY_UPDATE = "ASK {}", "INSERT DATA {}"
+ROWS = "application/sparql-results+json"
 QUERY, UPDATE = "application/sparql-query", "application/sparql-update"
 LONGEST_REASON = 200
-"""How many characters of a server's own message are shown."""
+"""The maximum number of characters of the server's message that are shown."""
 
 
 class ServerUnreachable(StoreError):
-    """A server that did not answer, or not as one does; whether it did what it was asked for is not known."""
+    """A server did not answer properly; whether it executed the request is not known."""
 
 
 class InvalidAnswer(ServerUnreachable):
-    """A server that answered with something that is no answer."""
+    """A server answered with something that is not a valid answer."""
 
 
 class RequestRefused(StoreError):
-    """A server that answered that it does not do what it was asked for; `status` is the HTTP status."""
+    """A server rejected a request; `status` is the HTTP status."""
 
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message)
@@ -39,16 +43,16 @@ class RequestRefused(StoreError):
 
 
 class Endpoint(Protocol):
-    """Answers SPARQL queries and makes updates, each of them whole or not at all."""
+    """Answers SPARQL queries and executes updates, each completely or not at all."""
 
     def query(self, text: str, accept: str) -> bytes:
-        """Return an answer in the media type `accept`; Unreachable, Refused."""
+        """Return an answer in the media type `accept`; ServerUnreachable, RequestRefused."""
 
     def update(self, text: str) -> None:
-        """Make an update; Unreachable, Refused."""
+        """Execute an update; ServerUnreachable, RequestRefused."""
 
     def close(self) -> None:
-        """End what is kept open."""
+        """Close the connection."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +61,11 @@ class _Answer:
     reason: str
     kind: str
     body: bytes
-    elsewhere: str
+    location: str
 
 
 class _TooLarge(Exception):
-    """An answer of more bytes than a world has."""
+    """An answer with more than MAX_ANSWER_BYTES."""
 
 
 class HttpEndpoint:
@@ -71,9 +75,9 @@ class HttpEndpoint:
     """
 
     def __init__(self, address: str, query: str, update: str, timeout_s: float = TIMEOUT_S) -> None:
-        """Use the server at an address; `query` and `update` are what follows it for each.
+        """Use the server at an address; `query` and `update` are the paths below it.
 
-        A server is waited for `timeout_s` to say something, and TOTAL times that long for a whole answer.
+        `timeout_s` is the longest wait for a part of an answer in s; a whole answer may take TOTAL_TIMEOUTS times that.
         """
         self._address, self._timeout_s = Address.parse(address), timeout_s
         self._query, self._update = self._address.append_path(query), self._address.append_path(update)
@@ -83,35 +87,35 @@ class HttpEndpoint:
         return str(self._address)
 
     def query(self, text: str, accept: str) -> bytes:
-        """Return an answer in the media type `accept`; Unreachable, Refused."""
+        """Return an answer in the media type `accept`; ServerUnreachable, RequestRefused."""
         answer = self._post(self._query, QUERY, text, accept)
         if not answer.kind.startswith(accept):
-            raise InvalidAnswer(f"{self} answers with {answer.kind or 'something'} where {accept} was asked for")
+            raise InvalidAnswer(f"{self} answers with {answer.kind or 'something'} where {accept} was requested")
         return answer.body
 
     def update(self, text: str) -> None:
-        """Make an update; Unreachable, Refused."""
+        """Execute an update; ServerUnreachable, RequestRefused."""
         self._post(self._update, UPDATE, text, "*/*")
 
     def close(self) -> None:
-        """End the connection."""
+        """Close the connection."""
         if self._connection is not None:
             self._connection.close()
             self._connection = None
 
     def _post(self, url: Address, kind: str, text: str, accept: str) -> _Answer:
-        """Send a text; a connection that was kept and that the server closed in the meantime is opened again."""
-        kept = self._connection is not None
+        """Send a text; a connection that the server closed in the meantime is opened again."""
+        reused = self._connection is not None
         try:
             answer = self._exchange(url, kind, text, accept)
         except _TooLarge:
             self.close()
             raise InvalidAnswer(
-                f"{url} answers with more than {MAX_ANSWER_BYTES >> 20} MB, which is no world"
+                f"{url} answers with more than {MAX_ANSWER_BYTES >> 20} MB, which is too much for a world"
             ) from None
         except (OSError, http.client.HTTPException) as error:
             self.close()
-            if kept and isinstance(error, ConnectionError):
+            if reused and isinstance(error, ConnectionError):
                 return self._post(url, kind, text, accept)
             raise ServerUnreachable(
                 f"{url} does not answer: {url.without_secrets(_describe_failure(error, self._timeout_s))}"
@@ -132,8 +136,28 @@ class HttpEndpoint:
         connection.request("POST", url.target, text.encode(), headers)
         response = connection.getresponse()
         content = response.headers.get_content_type() if "Content-Type" in response.headers else ""
-        elsewhere = without_credentials(response.headers.get("Location", ""))
-        return _Answer(response.status, response.reason, content, _body(response), elsewhere)
+        location = without_credentials(response.headers.get("Location", ""))
+        return _Answer(response.status, response.reason, content, _body(response), location)
+
+
+def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
+    """Return the endpoint at an address that answers queries and updates; StoreError when there is none.
+
+    The SPARQL standard does not fix the paths, so the common ones are tried.
+    """
+    name = Address.parse(address)
+    refusals: list[StoreError] = []
+    for query, update in FORMS:
+        endpoint = HttpEndpoint(address, query, update, timeout_s)
+        try:
+            endpoint.query(EMPTY_QUERY, ROWS)
+            endpoint.update(EMPTY_UPDATE)
+        except (RequestRefused, InvalidAnswer) as error:
+            refusals.append(error)
+        else:
+            return endpoint
+        endpoint.close()
+    raise StoreError(f"no SPARQL 1.1 server accepts queries and updates at {name}: {refusals[-1]}")
 
 
 def _body(response: http.client.HTTPResponse) -> bytes:
@@ -149,15 +173,15 @@ def _body(response: http.client.HTTPResponse) -> bytes:
 
 
 def _refusal(url: Address, answer: _Answer) -> StoreError:
-    """Return what it means that a server does not do what it was asked for, with its own words."""
-    told = " ".join(answer.body.decode("utf-8", "replace").split())
-    told = url.without_secrets("".join(each for each in told if each.isprintable()))[:LONGEST_REASON]
+    """Return the error for an answer with an error status, with the server's message."""
+    text = " ".join(answer.body.decode("utf-8", "replace").split())
+    text = url.without_secrets("".join(each for each in text if each.isprintable()))[:LONGEST_REASON]
     reason = url.without_secrets(answer.reason)
-    message = f"{url} answers {answer.status} {reason}" + (f": {told}" if told else "")
+    message = f"{url} answers {answer.status} {reason}" + (f": {text}" if text else "")
     if answer.status < 400:
-        where = url.without_secrets(answer.elsewhere) or "another address"
+        where = url.without_secrets(answer.location) or "another address"
         return RequestRefused(
-            f"{url} answers {answer.status} {reason}: it sends on to {where}; name that one", answer.status
+            f"{url} answers {answer.status} {reason}: it redirects to {where}; use that address", answer.status
         )
     return (
         ServerUnreachable(message)
@@ -176,35 +200,12 @@ def _connection(url: Address, timeout_s: float) -> http.client.HTTPConnection:
 def _describe_failure(error: Exception, timeout_s: float) -> str:
     match error:
         case TimeoutError():
-            return f"no answer within {timeout_s:g} s, or not a whole one within {TOTAL_TIMEOUTS * timeout_s:g} s"
+            return f"no answer within {timeout_s:g} s, or not a complete one within {TOTAL_TIMEOUTS * timeout_s:g} s"
         case ConnectionRefusedError():
-            return "nobody listens there"
+            return "no server is listening there"
         case ConnectionError() | http.client.RemoteDisconnected():
-            return "the connection broke"
+            return "the connection was lost"
         case http.client.HTTPException():
-            return "that is no HTTP"
+            return "it does not speak HTTP"
         case _:
             return getattr(error, "strerror", None) or str(error)
-
-
-FORMS = (("", ""), ("/query", "/update"), ("", "/statements"), ("/sparql", "/update"))
-"""What servers put behind their address for queries and for updates: Fuseki and Virtuoso, Oxigraph, RDF4J, others."""
-NOTHING_ASKED, NOTHING_DONE = "ASK {}", "INSERT DATA {}"
-ROWS = "application/sparql-results+json"
-
-
-def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
-    """Return a server that answers queries and makes updates; StoreError when there is none at the address."""
-    name = Address.parse(address)
-    refusals: list[StoreError] = []
-    for query, update in FORMS:
-        endpoint = HttpEndpoint(address, query, update, timeout_s)
-        try:
-            endpoint.query(NOTHING_ASKED, ROWS)
-            endpoint.update(NOTHING_DONE)
-        except (RequestRefused, InvalidAnswer) as error:
-            refusals.append(error)
-        else:
-            return endpoint
-        endpoint.close()
-    raise StoreError(f"no SPARQL 1.1 server takes queries and updates at {name}: {refusals[-1]}")

@@ -1,4 +1,4 @@
-"""An append-only file of transactions that several processes write to, each line whole or not there."""
+"""An append-only file of transactions that several processes write; a line counts only if it is complete."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from skillc_runtime.world.state.transactions import StoreError
 
 
 class JournalEntry(msgspec.Struct, frozen=True, array_like=True):
-    """A transaction as it is written: its changes, and the triples it takes away and adds, in N-Triples."""
+    """A stored transaction: its changes as JSON, and the triples it removes and adds, as N-Triples."""
 
     sequence: int
     origin: str
@@ -26,70 +26,70 @@ class JournalEntry(msgspec.Struct, frozen=True, array_like=True):
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
-    """A place between two lines: the number of the transaction before it and the bytes up to it."""
+class _Position:
+    """A position between two lines: the number of the transaction before it and the offset in bytes."""
 
     sequence: int
     offset: int
 
 
 class TransactionJournal:
-    """The transactions that follow those which are kept elsewhere.
+    """The transactions after those in the facts folder.
 
-    A line is a checksum, an entry as JSON and the end of the line. It counts once it is complete: what a writer that
-    died left behind is cut off by the next one. A complete line with a wrong checksum is damage, which is told.
+    A line is a checksum, an entry as JSON and the end of line. An incomplete last line, which a crashed writer left, is
+    ignored, and the next writer removes it. A complete line with a wrong checksum is reported as damage.
     """
 
     def __init__(self, path: Path) -> None:
-        """Open the file, create it if there is none; OSError when that is impossible."""
+        """Open or create the file; OSError when that is not possible."""
         self._path = path
         self.writable = os.access(path if path.exists() else path.parent, os.W_OK)
         flags = os.O_RDWR | os.O_CREAT if self.writable else os.O_RDONLY
         self._file = os.open(path, flags | os.O_CLOEXEC, 0o666)
-        self._start = self._seen = _Place(0, 0)
+        self._start = self._seen = _Position(0, 0)
 
     def start_after(self, sequence: int) -> None:
-        """Read from the first line on; what goes up to the transaction of that number is kept elsewhere."""
-        self._start = self._seen = _Place(sequence, 0)
+        """Read from the first line, ignoring transactions up to number `sequence`, which are stored elsewhere."""
+        self._start = self._seen = _Position(sequence, 0)
 
     def close(self) -> None:
         """Close the file."""
         os.close(self._file)
 
     def append(self, entry: JournalEntry) -> bool:
-        """Write an entry to the disk, or return False when another has its number; StoreError when it cannot be kept.
+        """Write an entry to the disk; return False when another one has its number. StoreError when writing fails.
 
-        An entry that could not be written in full is taken back.
+        An entry that cannot be written completely is removed.
         """
         if not self.writable:
             raise StoreError(f"{self._path} is read-only here, so nothing can be written to the store")
         with self.locked():
-            place = self._end()
-            if place.sequence + 1 != entry.sequence:
+            position = self._end()
+            if position.sequence + 1 != entry.sequence:
                 return False
             try:
-                os.ftruncate(self._file, place.offset)
-                self._seen = _Place(entry.sequence, place.offset + self._write(_line(entry), place.offset))
+                os.ftruncate(self._file, position.offset)
+                self._seen = _Position(entry.sequence, position.offset + self._write(_line(entry), position.offset))
             except OSError as error:
-                self._take_back(place)
+                self._truncate(position)
                 raise StoreError(f"nothing can be written to {self._path}: {error.strerror}") from error
         return True
 
     def since(self, sequence: int) -> tuple[JournalEntry, ...]:
-        """Return the entries after the one of that number; StoreError when the file is damaged."""
+        """Return the entries after number `sequence`; StoreError when the file is damaged."""
         if sequence == self._seen.sequence and os.fstat(self._file).st_size <= self._seen.offset:
             return ()
         with self.locked(fcntl.LOCK_SH):
             return self._after(sequence)
 
     def clear(self) -> None:
-        """Forget all entries; only while nobody else uses the file."""
+        """Remove all entries; only while no other process uses the file."""
         os.ftruncate(self._file, 0)
         os.fsync(self._file)
 
     @contextmanager
     def locked(self, how: int = fcntl.LOCK_EX) -> Iterator[None]:
-        """Keep others from writing, or with LOCK_SH only see to it that nobody is writing."""
+        """Lock the file: exclusively, or with LOCK_SH shared, so that no process writes."""
         fcntl.flock(self._file, how)
         try:
             yield
@@ -97,9 +97,9 @@ class TransactionJournal:
             fcntl.flock(self._file, fcntl.LOCK_UN)
 
     def _after(self, sequence: int) -> tuple[JournalEntry, ...]:
-        place = self._seen if self._seen.sequence <= sequence else self._start
+        position = self._seen if self._seen.sequence <= sequence else self._start
         found: list[JournalEntry] = []
-        for entry, end in self._lines(place):
+        for entry, end in self._lines(position):
             self._seen = end
             if entry.sequence > sequence:
                 found.append(entry)
@@ -112,20 +112,20 @@ class TransactionJournal:
         os.fsync(self._file)
         return done
 
-    def _take_back(self, place: _Place) -> None:
-        """Cut off a line that was begun; where even that fails it stays incomplete and does not count."""
+    def _truncate(self, position: _Position) -> None:
+        """Remove an incomplete line; if that fails, it stays and is ignored."""
         try:
-            os.ftruncate(self._file, place.offset)
+            os.ftruncate(self._file, position.offset)
         except OSError:
             return
 
-    def _end(self) -> _Place:
-        places = [place for _, place in self._lines(self._seen)]
-        return places[-1] if places else self._seen
+    def _end(self) -> _Position:
+        positions = [position for _, position in self._lines(self._seen)]
+        return positions[-1] if positions else self._seen
 
-    def _lines(self, place: _Place) -> Iterator[tuple[JournalEntry, _Place]]:
-        """Yield the complete entries from a place on, each with the place after it."""
-        offset, sequence = place.offset, place.sequence
+    def _lines(self, position: _Position) -> Iterator[tuple[JournalEntry, _Position]]:
+        """Yield the complete entries after a position, each with the position after it."""
+        offset, sequence = position.offset, position.sequence
         size = os.fstat(self._file).st_size
         if size <= offset:
             return
@@ -135,10 +135,10 @@ class TransactionJournal:
             if entry is None or not (entry.sequence == sequence + 1 or entry.sequence <= self._start.sequence):
                 raise StoreError(
                     f"{self._path} is damaged from byte {offset} on, after transaction {sequence}; "
-                    f"to go on with what is before it, shorten the file to {offset} bytes"
+                    f"to continue with what is before it, shorten the file to {offset} bytes"
                 )
             offset, sequence = offset + len(line) + 1, max(entry.sequence, self._start.sequence)
-            yield entry, _Place(sequence, offset)
+            yield entry, _Position(sequence, offset)
 
 
 def _line(entry: JournalEntry) -> bytes:

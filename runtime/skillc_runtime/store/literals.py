@@ -1,4 +1,4 @@
-"""Turtle literals as values of a property's type."""
+"""Reads Turtle literals as values of a property's type."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ NUMBERS = INTEGERS | {XSD + "decimal", XSD + "double", XSD + "float"}
 TEXTS = frozenset({XSD + "string", "http://www.w3.org/1999/02/22-rdf-syntax-ns#langString", XSD + "anyURI"})
 VECTORS = frozenset({XSD + "string", SKILLC + "Vector", SKILLC + "Direction"})
 TOO_LARGE, SMALLER = "this number is too large", "write a smaller number"
-MOST = 2**63
-"""Integers are smaller than this, and so are their opposites."""
+MAX_INTEGER = 2**63
+"""The absolute value of integers is smaller than this."""
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
 class LiteralError(ValueError):
-    """A literal that is no value of the property: what the property takes, `help`, and what to write if it is known."""
+    """A literal that is not a value of the property; `help` is a hint, `instead` the correct text if it is known."""
 
     def __init__(self, message: str, help_: str = "", instead: str | None = None) -> None:
         super().__init__(message)
@@ -42,7 +42,7 @@ class LiteralError(ValueError):
 
 
 def read_literal(literal: ox.Literal, term: PropertyTerm) -> Value:
-    """Return the value of a literal: any numeric datatype for a number, compared by value afterwards."""
+    """Return the value of a literal; any numeric datatype is accepted for a number. LiteralError when it is invalid."""
     kind, text = literal.datatype.value, literal.value
     match term.type:
         case NumberType() if kind in NUMBERS:
@@ -73,9 +73,9 @@ def _number(text: str) -> float:
 
 
 def _integer(text: str) -> int:
-    """Return the exact value of a text that is an integer."""
+    """Return the exact value of an integer in a text."""
     number = Decimal(text.strip())
-    if abs(number) >= MOST:
+    if abs(number) >= MAX_INTEGER:
         raise LiteralError(TOO_LARGE, SMALLER)
     return int(number)
 
@@ -121,7 +121,7 @@ def _expected(term: PropertyTerm) -> str:
 
 
 def _cure(literal: ox.Literal, term: PropertyTerm) -> tuple[str, str | None]:
-    """Return help for a literal of the wrong type, and what to write if that is plain."""
+    """Return a hint for a literal of the wrong type, and the correct text if it is obvious."""
     text = literal.value
     match term.type:
         case NumberType(dimension):

@@ -1,4 +1,4 @@
-"""Opening the store that an option names: a folder, or the address of a SPARQL server."""
+"""Opens the store that an option names: a folder, or the address of a SPARQL server."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from skillc_runtime.world.state.transactions import StoreError
 
 
 class OpenStore(Store, Protocol):
-    """A store that is open until it is closed, or the process ends; as text it is its folder or address."""
+    """An open store; as text it is its folder or address."""
 
     def close(self) -> None:
-        """Leave the store."""
+        """Close the store."""
 
 
 def open_store(place: str, reset: bool = False) -> OpenStore:
-    """Open the store at a folder or at an `http://` or `https://` address; with `reset` forget what it holds.
+    """Open the store in a folder or at an `http://` or `https://` address; with `reset`, delete its contents.
 
-    StoreError says why that is impossible.
+    StoreError when that is not possible, with the reason.
     """
     if "://" in place:
-        return _on_server(place, reset)
+        return _open_on_server(place, reset)
     try:
         from skillc_runtime.store.disk import DiskStore
     except ImportError as error:
@@ -30,7 +30,7 @@ def open_store(place: str, reset: bool = False) -> OpenStore:
     return DiskStore(Path(place), reset)
 
 
-def _on_server(address: str, reset: bool) -> OpenStore:
+def _open_on_server(address: str, reset: bool) -> OpenStore:
     from skillc_runtime.store.http import find_endpoint
     from skillc_runtime.store.sparql import SparqlStore
 

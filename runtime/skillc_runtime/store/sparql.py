@@ -1,7 +1,7 @@
 """A store on a SPARQL 1.1 server: facts in one graph, and in another the number of the last transaction and a log.
 
-A write is one update that does nothing unless the number is still the one that the writer knows. So it is safe to send
-it again when no answer came, and the log tells whether it was made.
+A write is one update that has no effect unless the number is still the one that the writer knows. So it can safely be
+sent again when no answer arrives, and the log shows whether it was executed.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ import pyoxigraph as ox
 
 from skillc_runtime.store import sparql_texts as texts
 from skillc_runtime.store.change_json import decode_changes, encode_changes
-from skillc_runtime.store.http import Endpoint, ServerUnreachable
+from skillc_runtime.store.http import ROWS, Endpoint, ServerUnreachable
 from skillc_runtime.store.store import StoredWorld
 from skillc_runtime.store.triples import triple_difference
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 
-ROWS, TRIPLES = "application/sparql-results+json", "application/n-triples"
+TRIPLES = "application/n-triples"
 PATIENCE_S = 10.0
-"""How long a server that does not answer is asked again."""
+"""How long requests to a server that does not answer are repeated."""
 FIRST_PAUSE_S = 0.1
 
 T = TypeVar("T")
@@ -43,87 +43,87 @@ class _Answer(msgspec.Struct):
 
 
 class SparqlStore:
-    """A world kept on a server that any number of processes use at the same time."""
+    """A world on a server that any number of processes can use at the same time."""
 
     def __init__(self, endpoint: Endpoint, reset: bool = False, patience_s: float = PATIENCE_S) -> None:
-        """Use a server and, with `reset`, forget what it holds of a world; StoreError when it cannot be used."""
-        self._endpoint, self._patience_s, self._empty, self._behind = endpoint, patience_s, False, False
-        self._patiently(lambda: endpoint.update(texts.CREATE))
+        """Use a server; with `reset`, delete its world. StoreError when it cannot be used."""
+        self._endpoint, self._patience_s, self._empty, self._was_preceded = endpoint, patience_s, False, False
+        self._retry(lambda: endpoint.update(texts.CREATE))
         if reset:
-            self._patiently(lambda: endpoint.update(texts.RESET))
+            self._retry(lambda: endpoint.update(texts.RESET))
 
     def __str__(self) -> str:
         return str(self._endpoint)
 
     def close(self) -> None:
-        """Leave the store."""
+        """Close the connection."""
         self._endpoint.close()
 
     def read(self) -> StoredWorld:
-        """Return the facts as they are now, read again when somebody wrote meanwhile."""
-        kept = self._patiently(self._read)
-        self._empty = not kept.triples
-        return kept
+        """Return the current facts; they are read again when another process writes in the meantime."""
+        stored = self._retry(self._read)
+        self._empty = not stored.triples
+        return stored
 
     def append(self, event: ChangeEvent, after: int) -> bool:
-        """Write an event as the transaction that follows `after`, or return False when there is another already."""
+        """Write an event as the transaction after number `after`; return False when another one has that place."""
         change, mark = triple_difference(event), secrets.token_hex(8)
         about = {texts.MARK: mark, texts.ORIGIN: event.origin}
         about |= {} if self._empty else {texts.CHANGES: encode_changes(event.changes)}
         update = texts.write_update(change, after, about, event.origin if self._empty else None)
         self._empty = False
-        made = self._patiently(lambda: self._sent(update, after, mark))
-        self._behind = not made
-        return made
+        executed = self._retry(lambda: self._send(update, after, mark))
+        self._was_preceded = not executed
+        return executed
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
-        """Return the transactions after the one of that number, in order.
+        """Return the transactions after number `sequence`, in order.
 
-        Asks once, so that nobody who only looks is held up, but patiently for a write that has to follow others.
+        The request is sent once, so that readers do not wait, but repeated after a write that another one preceded.
         """
-        behind, self._behind = self._behind, False
-        return self._patiently(lambda: self._logged(sequence)) if behind else self._logged(sequence)
+        preceded, self._was_preceded = self._was_preceded, False
+        return self._retry(lambda: self._read_log(sequence)) if preceded else self._read_log(sequence)
 
-    def _logged(self, sequence: int) -> tuple[Transaction, ...]:
-        rows = sorted(self._rows(texts.log_query(sequence), "origin"), key=lambda row: int(row["n"]))
+    def _read_log(self, sequence: int) -> tuple[Transaction, ...]:
+        rows = sorted(self._query_rows(texts.log_query(sequence), "origin"), key=lambda row: int(row["n"]))
         if any(int(row["n"]) != n or "changes" not in row for n, row in enumerate(rows, sequence + 1)):
-            raise StoreError(f"{self} was filled anew by somebody else; start again to go on with what it holds now")
+            raise StoreError(f"{self} was reset by another process; start again to continue with its current world")
         try:
             return tuple(Transaction(int(row["n"]), row["origin"], decode_changes(row["changes"])) for row in rows)
         except ValueError as error:
-            raise StoreError(f"the log of {self} is damaged: {error}; fill the store anew with --reset") from error
+            raise StoreError(f"the log of {self} is damaged: {error}; fill the store again with --reset") from error
 
-    def _sent(self, update: str, after: int, mark: str) -> bool:
-        """Send an update, which does nothing where it was made already, and return whether it was made."""
+    def _send(self, update: str, after: int, mark: str) -> bool:
+        """Send an update, which has no effect if it was executed before; return whether it was executed."""
         self._endpoint.update(update)
-        found = self._one(texts.head_query(after + 1))
+        found = self._first_row(texts.head_query(after + 1))
         if int(found["n"]) == after:
-            raise ServerUnreachable(f"{self} took an update and did not make it")
+            raise ServerUnreachable(f"{self} accepted an update and did not execute it")
         return found.get("mark") == mark
 
     def _read(self) -> StoredWorld:
         while True:
-            head = self._one(texts.beginning_query(), "beginning")
+            head = self._first_row(texts.beginning_query(), "beginning")
             triples = self._triples()
-            if self._one(texts.beginning_query(), "beginning") == head:
+            if self._first_row(texts.beginning_query(), "beginning") == head:
                 return StoredWorld(int(head["n"]), head["beginning"], triples)
 
-    def _one(self, query: str, *names: str) -> Row:
-        rows = self._rows(query, *names)
+    def _first_row(self, query: str, *names: str) -> Row:
+        rows = self._query_rows(query, *names)
         if not rows:
-            raise StoreError(f"{self} holds no world any more: somebody removed it")
+            raise StoreError(f"{self} holds no world any more: it was removed")
         return rows[0]
 
-    def _rows(self, query: str, *names: str) -> list[Row]:
-        """Return the rows of an answer, each with a number `n` and with these names."""
+    def _query_rows(self, query: str, *names: str) -> list[Row]:
+        """Return the rows of an answer, each with a number `n` and values of these names."""
         answer = self._endpoint.query(query, ROWS)
         try:
             bindings = msgspec.json.decode(answer, type=_Answer).results.bindings
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
-            raise ServerUnreachable(f"{self} answers a query with something that is no answer") from error
+            raise ServerUnreachable(f"{self} answers a query with an invalid result") from error
         rows = [{name: term.value for name, term in row.items()} for row in bindings]
         if not all(row.get("n", "").isdecimal() and row.keys() >= {*names} for row in rows):
-            raise ServerUnreachable(f"{self} answers a query with something that is no answer")
+            raise ServerUnreachable(f"{self} answers a query with an invalid result")
         return rows
 
     def _triples(self) -> tuple[ox.Triple, ...]:
@@ -131,10 +131,10 @@ class SparqlStore:
         try:
             return tuple(quad.triple for quad in ox.parse(answer, format=ox.RdfFormat.N_TRIPLES))
         except (SyntaxError, ValueError) as error:
-            raise ServerUnreachable(f"{self} answers a query with something that is no answer") from error
+            raise ServerUnreachable(f"{self} answers a query with an invalid result") from error
 
-    def _patiently(self, ask: Callable[[], T]) -> T:
-        """Ask again, with growing pauses, until there is an answer or patience ends; Unreachable then."""
+    def _retry(self, ask: Callable[[], T]) -> T:
+        """Repeat a request, with growing pauses, until there is an answer; ServerUnreachable after the patience."""
         ends, pause_s = time.monotonic() + self._patience_s, FIRST_PAUSE_S
         while True:
             try:

@@ -1,7 +1,7 @@
-"""What a store on a SPARQL server asks and tells it.
+"""The SPARQL queries and updates of a store on a server.
 
 Facts are in the graph `store#world`. The graph `store#log` has `store#this` with the number of the last transaction and
-which scene all began with, and every transaction with its number, its origin, its changes and its writer's mark.
+the scene with which the store was filled, and each transaction with its number, origin, changes and writer's mark.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ FACTS = f"CONSTRUCT {{ ?s ?p ?o }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }}"
 
 CREATE = f"""INSERT {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} 0 ; {BEGINNING} "" }} }}
 WHERE {{ FILTER NOT EXISTS {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n }} }} }}"""
-"""Makes a server a store, unless it is one."""
+"""Makes a server a store unless it is one."""
 
 RESET = f"""DELETE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} ;
 DELETE {{ GRAPH {LOG} {{ ?entry ?p ?o }} }} WHERE {{ GRAPH {LOG} {{ ?entry {NUMBER} ?n ; ?p ?o }} }} ;
@@ -29,37 +29,37 @@ DELETE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?b }} }}
 INSERT {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?next ; {BEGINNING} "" . ?entry {NUMBER} ?next ; {ORIGIN} "reset" }} }}
 WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?b }}
   BIND (?n + 1 AS ?next) BIND (IRI(CONCAT("{NS}transaction/", STR(?n + 1))) AS ?entry) }}"""
-"""Empties a store. The number goes on, so that whoever knows the former world notices."""
+"""Empties a store. The number is incremented, so that users of the former world notice."""
 
 
 def head_query(number: int) -> str:
-    """Ask for the number of the last transaction, `n`, and the `mark` of a transaction; of none for 0."""
+    """Return the query for the number of the last transaction, `n`, and the `mark` of transaction `number`."""
     return f"""SELECT ?n ?mark WHERE {{ GRAPH {LOG} {{
   {STORE} {SEQUENCE} ?n . OPTIONAL {{ {_entry(number)} {MARK} ?mark }} }} }}"""
 
 
 def beginning_query() -> str:
-    """Ask for the number of the last transaction, `n`, and how all began, `beginning`."""
+    """Return the query for the number of the last transaction, `n`, and the first scene, `beginning`."""
     return f"SELECT ?n ?beginning WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} ?n ; {BEGINNING} ?beginning }} }}"
 
 
 def log_query(sequence: int) -> str:
-    """Ask for the transactions after the one of that number: `n`, `origin` and, where they were kept, `changes`."""
+    """Return the query for the transactions after a number: `n`, `origin` and, if they were stored, `changes`."""
     return f"""SELECT ?n ?origin ?changes WHERE {{ GRAPH {LOG} {{
   ?entry {NUMBER} ?n ; {ORIGIN} ?origin . OPTIONAL {{ ?entry {CHANGES} ?changes }}
   FILTER (?n > {sequence}) }} }}"""
 
 
 def write_update(change: TripleDifference, after: int, about: Mapping[str, str], beginning: str | None) -> str:
-    """Make a change if the last transaction is `after`; `about` is what the log says of it, by predicate."""
-    told = "".join(f" ; {predicate} {ox.Literal(text)}" for predicate, text in about.items())
+    """Return the update that makes a change if the last transaction is `after`; `about` is logged, by predicate."""
+    logged = "".join(f" ; {predicate} {ox.Literal(text)}" for predicate, text in about.items())
     old, new = f"{STORE} {SEQUENCE} {after} .", f"{STORE} {SEQUENCE} {after + 1} ."
     if beginning is not None:
         old += f' {STORE} {BEGINNING} "" .'
         new += f" {STORE} {BEGINNING} {ox.Literal(beginning)} ."
     return f"""DELETE {{ GRAPH {WORLD} {{ {_text(change.removed)} }} GRAPH {LOG} {{ {old} }} }}
 INSERT {{ GRAPH {WORLD} {{ {_text(change.added)} }}
-  GRAPH {LOG} {{ {new} {_entry(after + 1)} {NUMBER} {after + 1}{told} }} }}
+  GRAPH {LOG} {{ {new} {_entry(after + 1)} {NUMBER} {after + 1}{logged} }} }}
 WHERE {{ GRAPH {LOG} {{ {STORE} {SEQUENCE} {after} }} }}"""
 
 

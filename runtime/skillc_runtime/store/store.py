@@ -1,4 +1,4 @@
-"""What a persistent store of a world offers beside the log of its transactions."""
+"""The protocol of persistent stores of a world."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from skillc_runtime.world.state.transactions import TransactionLog
 
 @dataclass(frozen=True, slots=True)
 class StoredWorld:
-    """What a store holds after the transaction `sequence`: all facts as triples, and which scene they began with.
+    """The contents of a store after the transaction number `sequence`: all facts as triples.
 
-    Triples about classes and prefixes are those that the scene declared beside the vocabulary of its library.
+    `beginning` is the scene with which the store was filled. Triples about classes and prefixes are those that the
+    scene declares in addition to the vocabulary of its library.
     """
 
     sequence: int
@@ -23,7 +24,7 @@ class StoredWorld:
 
 
 class Store(TransactionLog, Protocol):
-    """Keeps the facts of a world and its transactions; every method may raise StoreError."""
+    """Stores the facts of a world and its transactions; every method may raise StoreError."""
 
     def read(self) -> StoredWorld:
-        """Return the facts as they are now; no triples in a store that was never written to."""
+        """Return the current facts; no triples if the store is empty."""

@@ -1,4 +1,4 @@
-"""Facts of a world as triples: all of them, and what a transaction adds and takes away."""
+"""Facts of a world as triples: all facts, and the triples that a transaction adds and removes."""
 
 from __future__ import annotations
 
@@ -22,27 +22,27 @@ PREFIX = ox.NamedNode("http://purl.org/vocab/vann/preferredNamespacePrefix")
 
 @dataclass(frozen=True, slots=True)
 class TripleDifference:
-    """The triples that lead from one version of a world to the next; sorted, so that equal ones look alike."""
+    """The triples that differ between two versions of a world, sorted."""
 
     removed: tuple[ox.Triple, ...]
     added: tuple[ox.Triple, ...]
 
 
 def triple_difference(event: ChangeEvent) -> TripleDifference:
-    """Return what a write adds and takes away; StoreError for a fact that no triple can state.
+    """Return the triples that a write adds and removes; StoreError for a fact that a triple cannot state.
 
-    Whatever a change retracts beside what it says, it retracts about an individual that it names.
+    All facts that a change affects are about individuals that it names, so only these are compared.
     """
     if not event.before.individuals:
         declared = declarations(event.before.vocabulary, event.after.vocabulary)
         return TripleDifference((), tuple(sorted({*declared, *all_triples(event.after)}, key=str)))
-    touched = frozenset(individual for change in event.changes for individual in named_individuals(change))
-    before, after = set(_facts_about(touched, event.before)), set(_facts_about(touched, event.after))
+    changed = frozenset(individual for change in event.changes for individual in named_individuals(change))
+    before, after = set(_facts_about(changed, event.before)), set(_facts_about(changed, event.after))
     return TripleDifference(tuple(sorted(before - after, key=str)), tuple(sorted(after - before, key=str)))
 
 
 def all_triples(state: WorldState) -> Iterator[ox.Triple]:
-    """Yield what was written of all individuals, in no particular order."""
+    """Yield the asserted facts about all individuals, in no particular order."""
     for individual in state.individuals:
         yield from _types(individual, state)
     for relation, links in state.asserted.items():
@@ -53,7 +53,7 @@ def all_triples(state: WorldState) -> Iterator[ox.Triple]:
 
 
 def declarations(library: Vocabulary, own: Vocabulary) -> Iterator[ox.Triple]:
-    """Yield the classes and prefixes that a vocabulary has beside those of a library."""
+    """Yield the classes and prefixes that a vocabulary has in addition to those of a library."""
     for iri in own.classes.keys() - library.classes.keys():
         yield ox.Triple(_node(iri), TYPE, CLASS)
         yield from (ox.Triple(_node(iri), SUBCLASS, _node(parent)) for parent in own.classes[iri].parents)
@@ -80,7 +80,7 @@ def _related(subject: str, relation: str, object_: str) -> ox.Triple:
 
 
 def _valued(individual: str, term: PropertyTerm, value: Value | None) -> Iterator[ox.Triple]:
-    """Yield the values of a property; numbers are doubles, whatever they were written as."""
+    """Yield the values of a property; numbers are written as doubles."""
     for one in value if isinstance(value, tuple) else (value,):
         if isinstance(one, int) and isinstance(term.type, NumberType):
             yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(float(one)))
@@ -89,11 +89,13 @@ def _valued(individual: str, term: PropertyTerm, value: Value | None) -> Iterato
         elif is_vector(one):
             yield ox.Triple(_node(individual), _node(term.iri), ox.Literal(format_vector(one)))
         elif one is not None:
-            raise StoreError(f"no store can keep <{term.iri}> of <{individual}>: it is no number, text or truth value")
+            raise StoreError(
+                f"a store cannot keep <{term.iri}> of <{individual}>: it is not a number, text or truth value"
+            )
 
 
 def _node(iri: str) -> ox.NamedNode:
     try:
         return ox.NamedNode(iri)
     except ValueError as error:
-        raise StoreError(f"no store can keep `{iri}`: it is no IRI") from error
+        raise StoreError(f"a store cannot keep `{iri}`: it is not an IRI") from error

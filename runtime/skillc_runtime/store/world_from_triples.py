@@ -1,4 +1,4 @@
-"""The world that the triples of a store speak of."""
+"""Builds the world from the triples of a store."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_REPORTED = 5
-"""How many of the things that are wrong with a store are told."""
+"""The maximum number of problems in a message."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Contents:
-    """What triples say: types, relations and properties of individuals, classes with their parents, prefixes."""
+    """Triples by kind: types, relations and properties of individuals, classes with their parents, prefixes."""
 
     types: dict[str, list[str]]
     related: list[tuple[str, str, str]]
@@ -33,7 +33,7 @@ class _Contents:
 
 
 def build_world(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -> WorldState:
-    """Return the world that triples speak of; StoreError, which names the store, where the vocabulary forbids it."""
+    """Return the world of triples; StoreError, which names the store, when they do not fit the library's vocabulary."""
     contents = _sort_triples(triples)
     own = {iri: ClassTerm(iri=iri, parents=tuple(sorted(parents))) for iri, parents in contents.classes.items()}
     prefixes, classes = {**contents.prefixes, **library.prefixes}, {**own, **library.classes}
@@ -41,13 +41,13 @@ def build_world(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -
     problems: list[str] = []
     changes = tuple(_changes(contents, vocabulary, problems))
     state = WorldState.empty(vocabulary).with_changes(changes)
-    problems += [breach.message for change in changes for breach in axiom_violations(state, change)]
+    problems += [violation.message for change in changes for violation in axiom_violations(state, change)]
     if problems:
         distinct = list(dict.fromkeys(problems))
         more = f"; and {len(distinct) - MAX_REPORTED} more" if len(distinct) > MAX_REPORTED else ""
         raise StoreError(
             f"{store} does not go with these skills: {'; '.join(distinct[:MAX_REPORTED])}{more}. "
-            "Use the library it was filled with, or fill it anew with --reset"
+            "Use the library it was filled with, or fill it again with --reset"
         )
     return state
 
@@ -73,12 +73,12 @@ def _sort_triples(triples: Iterable[ox.Triple]) -> _Contents:
 
 
 def _iri(node: ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple) -> str:
-    """Return an IRI; something without a name keeps its mark, which no vocabulary knows."""
+    """Return the IRI of a node; a blank node as its label, which no vocabulary has."""
     return node.value if isinstance(node, ox.NamedNode) else str(node)
 
 
 def _changes(contents: _Contents, vocabulary: Vocabulary, problems: list[str]) -> Iterator[Change]:
-    """Yield the facts as changes of an empty world; what of them the vocabulary does not know is a problem."""
+    """Yield the facts as changes of an empty world; unknown terms and invalid literals are added to the problems."""
     short = vocabulary.short
     for individual, types in sorted(contents.types.items()):
         yield AddIndividual(individual, tuple(sorted(types)))

@@ -134,7 +134,7 @@ class WorldModel:
             before = self._sequence
             self.follow()
             if self._sequence == before:
-                raise StoreError(f"{self._store} refuses a write, although nobody else has written")
+                raise StoreError(f"{self._store} rejects a write, although no other process has written")
             event = self._check(changes, origin, evidence)
         self._advance(event)
         self._past.append(event)
