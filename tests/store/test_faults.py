@@ -159,7 +159,7 @@ def test_an_update_that_is_refused_is_not_tried_again(server: str, proxy: Proxy)
 def test_an_answer_that_never_ends_is_given_up(proxy: Proxy, fault: Fault) -> None:
     proxy.fail(fault, 1)
     endpoint = HttpEndpoint(proxy.address, "/query", "/update", 0.05)
-    with pytest.raises(ServerUnreachable, match=r"no answer within 0.05 s, or not a whole one within 0.3 s"):
+    with pytest.raises(ServerUnreachable, match=r"no answer within 0.05 s, or not a complete one within 0.3 s"):
         endpoint.query("ASK {}", "text/csv")
 
 
