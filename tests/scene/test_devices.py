@@ -57,8 +57,8 @@ def test_the_sheet_of_another_device_is_told_at_its_line(
     [
         (f"{SIX} 0.0", SIX, "joint-numbers", "lab:own-home.skillc:jointValues has 6 numbers, and"),
         (f"{SIX} 0.0", f"{SIX} nought", "joint-numbers", "is not numbers separated by spaces"),
-        ("1.4 1.4 1.7", "1.4 0 1.7", "joint-numbers", "is to be above 0 for each joint"),
-        ("1.4 1.4 1.7 1.3 2.2 2.3 2.3", "", "joint-numbers", "is to be above 0 for each joint"),
+        ("1.4 1.4 1.7", "1.4 0 1.7", "joint-numbers", "must be above 0 for each joint"),
+        ("1.4 1.4 1.7 1.3 2.2 2.3 2.3", "", "joint-numbers", "must be above 0 for each joint"),
         (
             "skillc:armature",
             'skillc:jointAccelerations "9 9" ; skillc:armature',

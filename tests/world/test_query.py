@@ -41,7 +41,7 @@ def test_terms_of_rdf_and_owl_are_short_and_need_no_declaration() -> None:
 
 
 REFUSED = [
-    ("SELECT ?x { ?x t:weight", "not SPARQL: the query breaks off", (1, 24)),
+    ("SELECT ?x { ?x t:weight", "not SPARQL: the query is incomplete", (1, 24)),
     ("SELEC ?s", "a query begins with SELECT, ASK, CONSTRUCT or DESCRIBE", (1, 1)),
     ("", "a query begins with SELECT", (1, 1)),
     ("SELECT ?a ?a {}", "duplicated variable name in SELECT", (1, 16)),

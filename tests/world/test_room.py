@@ -48,7 +48,7 @@ def test_mistakes_that_take_too_much_memory_to_find_are_said_to_be_there(
     path.write_text(path.read_text("utf-8") + ":box-1 t:wieght 3 .\n", "utf-8")
     monkeypatch.setattr(room, "available_bytes", lambda: 50 * MEGABYTE)
     for reading in (load_scene, read_scene):
-        with pytest.raises(SceneError, match="something may be wrong with it, and to find what"):
+        with pytest.raises(SceneError, match="it may contain errors, but there is too little memory"):
             reading(path, VOCABULARY)
 
 

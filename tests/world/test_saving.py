@@ -107,7 +107,7 @@ def test_a_file_is_replaced_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 def test_what_no_scene_can_say_is_refused() -> None:
     with pytest.raises(SaveError, match="it is not an IRI"):
         format_scene(SCENE.with_changes([AddIndividual("a b", (iri("Product"),))]), EMPTY)
-    with pytest.raises(SaveError, match="nan is no number"):
+    with pytest.raises(SaveError, match="nan is not a number"):
         format_scene(SCENE.with_changes([assign("box", "weight", float("nan"))]), EMPTY)
-    with pytest.raises(SaveError, match="cannot take back what data sheets say"):
+    with pytest.raises(SaveError, match="cannot retract facts of data sheets"):
         format_scene(SCENE.with_changes([assign("box", "weight", 1.0)]), SCENE)

@@ -63,7 +63,7 @@ def test_an_individual_is_not_made_twice_and_axioms_hold() -> None:
 
 
 BAD = [
-    ("lab:T a skiros:Template ; t:weight 3 .", "lab:T is of no class"),
+    ("lab:T a skiros:Template ; t:weight 3 .", "lab:T has no class"),
     ("lab:T a skiros:Template, t:Product ; t:wieght 3 .", "there is no property t:wieght"),
     ('lab:T a skiros:Template, t:Product ; t:weight "3 kg" .', "t:weight: it takes a number"),
     ("lab:T a skiros:Template, t:Spaceship .", "there is no class t:Spaceship"),

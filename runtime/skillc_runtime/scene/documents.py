@@ -1,4 +1,4 @@
-"""Turtle files as statements with their places, and the error that a scene with mistakes is."""
+"""Reads Turtle files as statements with their positions; SceneError is the error for a scene with mistakes."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ WELL_KNOWN = (
     ("rdfs", RDFS),
     ("xsd", XSD),
 )
-REMEMBERED = 32
-"""How many files are kept as they were read."""
+CACHED = 32
+"""The number of parsed files in the cache."""
 
 
 class SceneError(ValueError):
-    """A scene that cannot be loaded, with everything that is wrong with it."""
+    """A scene that cannot be loaded, with all problems."""
 
     def __init__(self, problems: Iterable[Diagnostic]) -> None:
         self.problems = tuple(sorted(problems, key=lambda each: (each.span, each.name, each.message)))
@@ -38,14 +38,14 @@ class SceneError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A Turtle file: what messages call it, and its text."""
+    """A Turtle file: its path or name in messages, and its text."""
 
     path: str
     text: str
 
     @staticmethod
     def read(path: Path) -> Document:
-        """Read a file; SceneError when it cannot be read, is not UTF-8, or is too large for the memory there is."""
+        """Read a file; SceneError when it cannot be read, is not UTF-8, or is too large for the available memory."""
         try:
             check_available(BULK_BYTES * path.stat().st_size)
             if not path.is_file():
@@ -64,7 +64,7 @@ class Document:
 
 
 def parse(document: Document, prefixes: Mapping[str, str] | None = None) -> Parsed:
-    """Read a document with all that is wrong with it; `prefixes` are those of the vocabularies."""
+    """Parse a document, with all syntax problems; `prefixes` are those of the vocabularies."""
     return _parsed(document, (*WELL_KNOWN, *sorted((prefixes or {}).items())))
 
 
@@ -77,7 +77,7 @@ def statements_of(document: Document) -> tuple[Statement, ...]:
 
 
 def with_canonical_terms(statement: Statement, aliases: Mapping[str, str]) -> Statement:
-    """Return the statement with terms called by their own names."""
+    """Return the statement with aliases of terms replaced by the terms."""
     changed = statement._replace(predicate=aliases.get(statement.predicate, statement.predicate))
     if isinstance(statement.object, ox.NamedNode) and statement.object.value in aliases:
         return changed._replace(object=ox.NamedNode(aliases[statement.object.value]))
@@ -85,14 +85,14 @@ def with_canonical_terms(statement: Statement, aliases: Mapping[str, str]) -> St
 
 
 def unreadable_problem(path: str, reason: str, line: int = 1, column: int = 1) -> Diagnostic:
-    """Return the problem of a file that there is no reading."""
+    """Return the problem of a file that cannot be read."""
     place = Span(path, line, column, line, column + 1)
     return Diagnostic(
         "unreadable-scene", place, f"cannot read {path}: {reason}", "save it as UTF-8" * ("UTF" in reason)
     )
 
 
-@lru_cache(maxsize=REMEMBERED)
+@lru_cache(maxsize=CACHED)
 def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed:
     return parse_turtle(document.path, document.text, BASE, dict(prefixes))
 

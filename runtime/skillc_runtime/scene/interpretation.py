@@ -1,4 +1,4 @@
-"""What a table of statements means: the facts about individuals, and each row that the vocabulary does not allow."""
+"""Interprets a table of statements: facts about individuals, and the rows that the vocabulary does not allow."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ MistakeKind: TypeAlias = Literal[
     "second value",
     "no effect",
 ]
-"""`no class`: what is meant to be one is none; `unknown subject`: no class of it is said; `no effect`: see `checks`."""
+"""`no class`: the object is not a class; `unknown subject`: it has no class; `no effect`: see `checks.ineffective`."""
 
 
 class Mistake(NamedTuple):
-    """A row that is not allowed: its predicate, and its number among those with a literal or among the others."""
+    """A row that is not allowed: its predicate, and its number among the rows with or without literals."""
 
     kind: MistakeKind
     predicate: str
@@ -42,14 +42,14 @@ class Mistake(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Interpretation:
-    """The facts that can be true together with the vocabulary, and all rows that cannot."""
+    """The facts that the vocabulary allows, and all rows that it does not."""
 
     facts: FactTables
     mistakes: list[Mistake]
 
 
 def interpret_table(table: StatementTable, vocabulary: Vocabulary) -> Interpretation:
-    """Return what a table says of individuals."""
+    """Return the facts about individuals in a table, and the mistakes."""
     interpreter = _Interpreter(table, vocabulary)
     return Interpretation(interpreter.facts(), interpreter.mistakes)
 
@@ -74,17 +74,17 @@ class _Interpreter:
             literals = [row for row in self._table.literal.get(predicate, ()) if row[0] not in terms]
             if predicate in self._vocabulary.properties:
                 valued[predicate] = self._values(predicate, literals)
-                self._refuse("thing of a property", predicate, False, named)
+                self._reject("thing of a property", predicate, False, named)
             elif predicate in self._vocabulary.relations:
                 related[predicate] = self._pairs(predicate, named)
-                self._refuse("literal of a relation", predicate, True, literals)
+                self._reject("literal of a relation", predicate, True, literals)
             else:
-                self._refuse("unknown predicate", predicate, False, named)
-                self._refuse("unknown predicate", predicate, True, literals)
+                self._reject("unknown predicate", predicate, False, named)
+                self._reject("unknown predicate", predicate, True, literals)
         return FactTables(self._classes, related, valued)
 
     def _read_classes(self) -> None:
-        """Sort out of which classes individuals are; of those of which none is said nothing is known."""
+        """Read the classes of individuals, and note which individuals have no known class."""
         known, terms, found, lost = self._vocabulary.ancestors, self._filter.terms, self._classes, set[str]()
         for number, (subject, cls) in enumerate(self._table.named[RDF_TYPE]):
             if subject in terms or cls == NAMED_INDIVIDUAL:
@@ -107,13 +107,13 @@ class _Interpreter:
         unknown = [number for number, (subject, _) in enumerate(rows) if subject not in self._declared]
         self._note("unknown subject", predicate, is_literal, unknown)
 
-    def _refuse(self, kind: MistakeKind, predicate: str, is_literal: bool, rows: Named | Literals) -> None:
-        """Note that none of the rows means anything."""
+    def _reject(self, kind: MistakeKind, predicate: str, is_literal: bool, rows: Named | Literals) -> None:
+        """Note that none of the rows is allowed."""
         self._note(kind, predicate, is_literal, range(len(rows)))
         self._note_unknown_subjects(predicate, is_literal, rows)
 
     def _pairs(self, predicate: str, rows: Named) -> Named:
-        """Return the pairs of a relation between individuals whose classes are known."""
+        """Return the pairs of a relation between individuals with known classes."""
         ends = {end for pair in rows for end in pair}
         if ends <= self._classes.keys():
             return rows

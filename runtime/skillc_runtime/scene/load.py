@@ -1,4 +1,4 @@
-"""Loads a scene: the individuals of Turtle files, checked against the vocabulary, as the first version of a world."""
+"""Loads a scene: reads the individuals of Turtle files, checks them, and builds the first version of a world."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """What was understood of Turtle files, all that is wrong with them, and what they say of individuals.
+    """The world of Turtle files, all problems, and the statements about individuals.
 
-    `doubtful` are individuals of which more may be said than was understood.
+    `doubtful` are individuals about which not all statements could be read.
     """
 
     state: WorldState
@@ -64,10 +64,10 @@ class Scene:
 def load_scene(
     path: Path, vocabulary: Vocabulary, warn: Callable[[Sequence[Diagnostic]], None] = lambda problems: None
 ) -> WorldState:
-    """Return the world of a scene file and of the packaged data sheets; SceneError with all that is wrong.
+    """Return the world of a scene file and the packaged data sheets; SceneError with all errors.
 
-    It is read in bulk, and again with places only where something is, or may be, wrong. What is doubtful and no error
-    goes to `warn`.
+    The files are read in bulk, and again with source positions only if something is or may be wrong. Warnings are
+    passed to `warn`.
     """
     own = Document.read(path)
     try:
@@ -84,9 +84,9 @@ def load_scene(
 
 
 def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
-    """Return the world of Turtle documents, the first one a scene; None where something is, or may be, wrong.
+    """Return the world of Turtle documents, the first one a scene; None if something is or may be wrong.
 
-    TooLittleMemory when the machine has not enough for them.
+    TooLittleMemory when there is not enough memory.
     """
     with gc_disabled():
         try:
@@ -109,12 +109,12 @@ def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> World
 
 
 def load_documents(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState:
-    """Return the world of Turtle documents; SceneError with all that is wrong."""
+    """Return the world of Turtle documents; SceneError with all errors."""
     return _valid_state(read_documents(documents, vocabulary))
 
 
 def read_scene(path: Path, vocabulary: Vocabulary) -> Scene:
-    """Read a scene file beside the packaged data sheets; SceneError when there is no text to read."""
+    """Read a scene file and the packaged data sheets; SceneError when the file cannot be read."""
     return read_with_sheets(Document.read(path), vocabulary)
 
 
@@ -124,15 +124,15 @@ def load_sheets(vocabulary: Vocabulary) -> WorldState:
 
 
 def sheet_documents() -> list[Document]:
-    """Return the packaged vocabularies and data sheets, and the data sheets in folders of the user's."""
+    """Return the packaged vocabularies and data sheets, and the data sheets in the user's folders."""
     return [Document(name, text) for name, text in sheet_files()]
 
 
 def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
-    """Read Turtle documents.
+    """Read Turtle documents, with all problems.
 
-    Any numeric literal is a number. Prefixes and classes that a document declares join the vocabulary of the world;
-    templates and annotations are passed over.
+    Any numeric literal is a number. Prefixes and classes that a document declares are added to the vocabulary of the
+    world; templates and annotations are ignored.
     """
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
@@ -154,11 +154,11 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
 
 
 def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:
-    """Read a scene's text beside the packaged data sheets; SceneError when there is no room for it."""
+    """Read a scene and the packaged data sheets; SceneError when there is not enough memory."""
     try:
         check_available(PLACED_BYTES * len(own.text))
     except TooLittleMemory as error:
-        reason = f"something may be wrong with it, and to find what takes a smaller file: {error}"
+        reason = f"it may contain errors, but there is too little memory to check it: {error}"
         raise SceneError([unreadable_problem(own.path, reason)]) from error
     scene = read_documents([own, *sheet_documents()], vocabulary)
     if scene.problems or any(each.lines.path == own.path for each in scene.said):
@@ -171,20 +171,20 @@ def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:
 def _build_scene(
     said: tuple[Statement, ...], vocabulary: Vocabulary, problems: list[Diagnostic], doubtful: frozenset[str]
 ) -> Scene:
-    placed = LocatedFacts(said, vocabulary)
-    written = placed.changes()
+    located = LocatedFacts(said, vocabulary)
+    written = located.changes()
     state = WorldState.empty(vocabulary).with_changes(change for change, _ in written)
-    wrong = [*problems, *placed.problems(doubtful), *report_axiom_violations(state, written)]
+    wrong = [*problems, *located.problems(doubtful), *report_axiom_violations(state, written)]
     wrong += report_scene_violations(state, said, wrong, doubtful)
     return Scene(state, _sort_problems(wrong), said, doubtful)
 
 
 def _with_scene_warnings(scene: Scene, written: Sequence[Statement], own: frozenset[str]) -> Scene:
-    """Return the scene with what is wrong with those of its statements that are no facts, and which have no effect."""
+    """Return the scene with the problems of statements that are not facts: identity, missing classes, no effect."""
     vocabulary = scene.state.vocabulary
-    claims = IdentityChecker(written, scene.state)
-    found = [*claims.check(), *check_missing_classes(written, vocabulary), *check_language_tags(written, vocabulary)]
-    found += check_ineffective(written, select_facts(written, vocabulary), vocabulary, own, claims.used)
+    identity = IdentityChecker(written, scene.state)
+    found = [*identity.check(), *check_missing_classes(written, vocabulary), *check_language_tags(written, vocabulary)]
+    found += check_ineffective(written, select_facts(written, vocabulary), vocabulary, own, identity.used)
     return replace(scene, problems=_sort_problems([*scene.problems, *found]))
 
 

@@ -1,4 +1,4 @@
-"""Whether there is memory for what is about to be read: a machine that swaps answers nobody."""
+"""Checks the available memory before files are read, so that the machine does not swap."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 BULK_BYTES, PLACED_BYTES = 20, 120
-"""Bytes of memory that a byte of Turtle takes when it is read in bulk, and with the places of all that is wrong."""
+"""Bytes of memory for a byte of Turtle, read in bulk and read with source positions."""
 
 _MEMORY = Path("/proc/meminfo")
 _LIMIT, _USED = Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.current")
@@ -15,33 +15,33 @@ _OWN = Path("/proc/self/statm")
 
 
 class TooLittleMemory(Exception):
-    """There is too little memory; the message says how much is needed and how much is free."""
+    """There is too little memory; the message says how much is needed and free."""
 
 
 def available_bytes() -> int | None:
-    """Return how many bytes this process may still take of the machine, its container and its limits; None if unknown.
+    """Return how many bytes this process can still use; None if unknown.
 
-    What is known of the first two is what Linux tells.
+    Considers the machine and the container, on Linux, and the limits of the process.
     """
     known = [left for left in (_of_machine(), _of_container(), _of_limit()) if left is not None]
     return max(min(known), 0) if known else None
 
 
 def check_available(needed: int) -> None:
-    """TooLittleMemory when so many bytes are not available."""
+    """Raise TooLittleMemory if fewer bytes are available than needed."""
     left = available_bytes()
     if left is not None and needed > left:
         raise TooLittleMemory(f"it takes about {_gigabytes(needed)} of memory, and {_gigabytes(left)} are free")
 
 
 class MemoryGuard:
-    """Compares the memory that a piece of work takes with what is left."""
+    """Compares the memory that an operation uses with the memory that is left."""
 
     def __init__(self) -> None:
         self._first = available_bytes()
 
     def check(self) -> None:
-        """TooLittleMemory when less is left than was taken since the guard was made: the work may not be half done."""
+        """Raise TooLittleMemory if less is left than was used since the guard was created."""
         left = available_bytes()
         if left is not None and self._first is not None and left < self._first - left:
             taken = _gigabytes(self._first - left)

@@ -1,4 +1,4 @@
-"""The problem of each statement that the vocabulary does not allow, and what the others change in a world."""
+"""Turns statements with positions into changes of the world, and mistakes into diagnostics."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Chang
 from skillc_runtime.world.state.values import show
 
 LocatedChange: TypeAlias = tuple[Change, Statement]
-"""A change and the statement that says so."""
+"""A change with the statement that states it."""
 
 
 class LocatedFacts:
-    """Statements about individuals with what they mean, and with the places of those that make no sense."""
+    """The interpretation of statements about individuals, with the position of each fact and mistake."""
 
     def __init__(self, said: Sequence[Statement], vocabulary: Vocabulary) -> None:
         self._said, self._vocabulary = said, vocabulary
@@ -40,7 +40,7 @@ class LocatedFacts:
         self._unreadable = set(map(self._position, wrong))
 
     def changes(self) -> list[LocatedChange]:
-        """Return what the statements write, individuals first, then relations in order."""
+        """Return the changes of the statements: individuals first, then relations in order, then values."""
         facts = self._meaning.facts
         pairs = {relation: set(found) for relation, found in facts.related.items()}
         individuals, relations, values = (
@@ -61,7 +61,7 @@ class LocatedFacts:
         return [*individuals, *relations, *values.values()]
 
     def problems(self, doubtful: Collection[str]) -> Iterator[Diagnostic]:
-        """Yield the problem of each statement that makes no sense; nothing is missing about `doubtful` individuals."""
+        """Yield the problem of each mistake; a missing class of a `doubtful` individual is not reported."""
         subjects, objects = dict[str, Statement](), defaultdict[str, list[Statement]](list)
         for mistake in sorted(self._meaning.mistakes, key=self._position):
             each = self._said[self._position(mistake)]
@@ -76,12 +76,12 @@ class LocatedFacts:
             yield from (self._unknown_individual(iri, uses) for iri, uses in objects.items() if iri not in doubtful)
 
     def _problems_of(self, mistake: Mistake, each: Statement) -> Iterator[Diagnostic]:
-        """Yield the problem of a statement that makes no sense by itself."""
+        """Yield the problem of a single statement."""
         match mistake.kind:
             case "unknown class":
                 yield self._unknown("class", iri_of(each.object), each.object_place, self._vocabulary.classes)
             case "no class":
-                yield _problem("unknown-class", each, f"{_text(each.object)} is no class", "name a class")
+                yield _problem("unknown-class", each, f"{_text(each.object)} is not a class", "name a class")
             case "unknown predicate":
                 yield self._unknown_predicate(each, iri_of(each.subject))
             case "literal of a relation":
@@ -114,7 +114,7 @@ class LocatedFacts:
         return _problem("wrong-data-type", each, f"{self._short(each.predicate)}: {error}", error.help, edit)
 
     def _second_value(self, second: Statement, subject: str) -> Iterator[Diagnostic]:
-        """Yield the problem of another value of a functional property, if it is known what the individual is."""
+        """Yield the problem of a second value of a functional property, if the class of the individual is known."""
         if subject not in self._classes:
             return
         term, rows = self._vocabulary.properties[second.predicate], self._rows[second.predicate, True]
@@ -132,7 +132,7 @@ class LocatedFacts:
         place = each.subject_place
         near = suggest(subject, place, self._vocabulary, self._declared)
         help_ = near.help if near.fix else "say what it is: `a CLASS ;`"
-        return Diagnostic("unknown-individual", place, f"{self._short(subject)} is of no class", help_, fix=near.fix)
+        return Diagnostic("unknown-individual", place, f"{self._short(subject)} has no class", help_, fix=near.fix)
 
     def _unknown_predicate(self, each: Statement, subject: str) -> Diagnostic:
         literal = isinstance(each.object, ox.Literal)
@@ -143,7 +143,7 @@ class LocatedFacts:
         )
 
     def _may_have(self, subject: str, predicate: str) -> bool:
-        """Whether an individual's class is in the domain of a relation or a property."""
+        """Whether a class of an individual is in the domain of a relation or property."""
         relation = self._vocabulary.relations.get(predicate)
         if relation is not None:
             domains = tuple(each.domain for each in relation.signatures)
@@ -153,7 +153,7 @@ class LocatedFacts:
         return any(self._vocabulary.is_a(cls, domain) for cls in classes for domain in domains)
 
     def _unknown_individual(self, iri: str, uses: list[Statement]) -> Diagnostic:
-        """Report an individual that is not in the scene at its first use; the others are noted."""
+        """Return the problem of an undeclared individual at its first use; labels mark the others."""
         first = uses[0]
         ranges = {each.range for use in uses for each in self._vocabulary.relations[use.predicate].signatures}
         fitting = [
@@ -165,7 +165,7 @@ class LocatedFacts:
         notes = [Label(use.object_place, "and here") for use in uses[1:]]
         if near.fix is not None:
             meant = next((s for one, s in self._declared.items() if self._short(one) == near.fix.text), None)
-            notes += [Label(meant.subject_place, "this one is there")] if meant is not None else []
+            notes += [Label(meant.subject_place, "this one exists")] if meant is not None else []
         message = f"there is no individual {self._short(iri)}"
         edit = near.fix if len(uses) == 1 else None
         return Diagnostic("unknown-individual", first.object_place, message, near.help, labels=tuple(notes), fix=edit)
@@ -192,7 +192,7 @@ def _text(node: object) -> str:
 
 
 def _decimal(first: Statement, second: Statement) -> Fix | None:
-    """Return the edit that makes one number of two whole ones with but a comma between them."""
+    """Return the fix that makes a decimal of two whole numbers with a comma between them."""
     whole, digits = (each.object.value if isinstance(each.object, ox.Literal) else "" for each in (first, second))
     if first.object_at.end + 1 != second.object_at.start or not (whole.lstrip("+-").isdigit() and digits.isdigit()):
         return None

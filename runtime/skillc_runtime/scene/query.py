@@ -1,4 +1,4 @@
-"""SPARQL over a scene, the packaged vocabularies and data sheets."""
+"""Runs SPARQL queries over a scene, the packaged vocabularies and data sheets."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ from skillc_runtime.scene.query_errors import federation_error, syntax_error_mes
 from skillc_runtime.store.literals import INTEGERS, NUMBERS
 
 QueryValue: TypeAlias = bool | int | float | str | None
-"""A value in an answer; individuals are texts, None is a variable without a value."""
+"""A value in a result; individuals are texts, None is an unbound variable."""
 
 WELL_KNOWN = {"rdf": RDF, "rdfs": RDFS, "owl": OWL, "xsd": XSD}
 
 
 class QueryError(ValueError):
-    """A query that has no answer; the message says why, with the place where it stops making sense."""
+    """A query that cannot be answered; the message gives the reason and the position."""
 
 
 @dataclass(frozen=True, slots=True)
 class QueryResult:
-    """The answer of a query: names of the columns and rows of values, individuals shortened by the prefixes."""
+    """The result of a query: column names and rows of values; individuals are shortened by prefixes."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[QueryValue, ...], ...]
 
 
 def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> QueryResult:
-    """Return the answer of a query over documents; the vocabulary's prefixes need no declaration.
+    """Return the result of a query over documents; the vocabulary's prefixes need no declaration.
 
-    QueryError for a text that is not SPARQL, an update, a question to another server, a failure of the evaluation;
-    SceneError for a document that is not Turtle.
+    QueryError for a syntax error, an update, a query to another server or a failed evaluation; SceneError for a
+    document that is not Turtle.
     """
     vocabulary = msgspec.structs.replace(vocabulary, prefixes={**WELL_KNOWN, **vocabulary.prefixes})
     refusal = federation_error(sparql)
@@ -65,7 +65,7 @@ def _store(documents: Iterable[Document]) -> ox.Store:
 
 
 def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> QueryResult:
-    """Return the answer in full: solutions are found while they are read."""
+    """Return the complete result; solutions are computed while they are read."""
     if isinstance(result, ox.QueryBoolean):
         return QueryResult(("answer",), ((bool(result),),))
     if isinstance(result, ox.QueryTriples):
@@ -84,7 +84,7 @@ def _cell(node: object, vocabulary: Vocabulary) -> QueryValue:
 
 
 def _value(literal: ox.Literal) -> QueryValue:
-    """Return a literal as a value of its datatype; NaN, infinity and what is not of its datatype stay text."""
+    """Return the value of a literal; NaN, infinity and invalid literals stay text."""
     kind, text = literal.datatype.value, literal.value
     if kind == XSD + "boolean" and text in ("true", "false", "1", "0"):
         return text in ("true", "1")

@@ -1,4 +1,4 @@
-"""What is wrong with the text of a query, in words, with the place."""
+"""Messages for errors in the text of a query, with the position."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class _Token:
 
 
 def federation_error(query: str) -> str | None:
-    """Return the complaint about a query that asks another server, None for one that does not."""
+    """Return the message for a query that asks another server; None for other queries."""
     asking = (token for token in _tokens(query) if token.kind == "word" and token.text.upper().startswith("SERVICE"))
     first = next(asking, None)
     if first is None:
@@ -42,7 +42,7 @@ def federation_error(query: str) -> str | None:
 
 
 def syntax_error_message(query: str, parser: str, prefixes: Iterable[str]) -> str:
-    """Return what to say of a text that is not SPARQL; `parser` is the parser's message, `prefixes` are known."""
+    """Return the message for a text that is not SPARQL; `parser` is the parser's message, `prefixes` are known."""
     tokens = list(_tokens(query))
     body = list(_without_prologue(tokens))
     if not body or body[0].text.upper() not in FORMS:
@@ -64,14 +64,14 @@ def _no_query(query: str, first: _Token | None) -> str:
 
 
 def _reason(query: str, parser: str) -> str:
-    """Return the parser's own sentence where it has one, else whether the text ends or goes wrong at the place."""
+    """Return the parser's own sentence if there is one, else whether the text ends or is invalid at the position."""
     sentences = filter(_SENTENCE.fullmatch, _PLACE.sub("", parser).split(", "))
     sentence = next(sentences, None)
     if sentence:
         return sentence if sentence[:2].isupper() else sentence[0].lower() + sentence[1:]
     if not query[_offset(query, parser) :].strip():
-        return "the query breaks off, or its last part makes no sense"
-    return "it makes no sense from here on"
+        return "the query is incomplete, or its last part is invalid"
+    return "it is invalid from here on"
 
 
 def _offset(query: str, parser: str) -> int:

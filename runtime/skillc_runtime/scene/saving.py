@@ -1,4 +1,4 @@
-"""Writes a version of the world as a scene: Turtle from which the same facts are loaded again."""
+"""Writes a version of the world as a scene: Turtle from which the same facts can be loaded."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from skillc_runtime.world.state.world_state import WorldState
 
 _LOCAL = re.compile(r"[A-Za-z_](?:[\w-]*\w)?", re.ASCII)
 LISTED = 3
-"""How many facts a message names."""
+"""The maximum number of facts in a message."""
 
 
 class SaveError(ValueError):
-    """A world that no scene file can state; the message says which facts are in the way."""
+    """A world that a scene file cannot state; the message names the facts."""
 
 
 def save_scene(state: WorldState, path: Path, without: WorldState, source: Document | None = None) -> None:
-    """Write a scene file, whole or not at all; see `turtle`. OSError when the file cannot be written."""
+    """Write a scene file, completely or not at all; see `format_scene`. OSError when it cannot be written."""
     text = format_scene(state, without, source)
     new = path.with_name(f".{path.name}.{os.getpid()}.new")
     try:
@@ -44,12 +44,11 @@ def save_scene(state: WorldState, path: Path, without: WorldState, source: Docum
 
 
 def format_scene(state: WorldState, without: WorldState, source: Document | None = None) -> str:
-    """Return a scene in which is said what was written of the world, and not what `without` says, the data sheets.
+    """Return a scene with the asserted facts of the world, except those of `without`, the data sheets.
 
-    Of `source`, the scene that the world was loaded from, labels and other remarks, templates and declarations are
-    kept, except about individuals that are gone; comments are not. The same facts give the same text. SaveError
-    when facts of `without` are true no more, or Turtle has no words for a fact; SceneError for a source that is no
-    Turtle.
+    From `source`, the scene that the world was loaded from, annotations, templates and declarations are kept, except
+    about individuals that were removed; comments are not kept. The same facts give the same text. SaveError when facts
+    of `without` no longer hold or Turtle cannot state a fact; SceneError when the source is not Turtle.
     """
     _check_nothing_lost(state, without)
     written = _TurtleWriter(state.vocabulary)
@@ -68,7 +67,7 @@ def format_scene(state: WorldState, without: WorldState, source: Document | None
 
 
 def _links(state: WorldState) -> Iterator[tuple[str, str, str]]:
-    """Yield the classes and relations that were written."""
+    """Yield the asserted classes and relations."""
     yield from ((each, RDF_TYPE, cls) for each, classes in state.direct.items() for cls in classes)
     for relation, links in state.asserted.items():
         yield from ((subject, relation, object_) for subject, object_ in links.pairs())
@@ -83,7 +82,7 @@ def _values(state: WorldState) -> Iterator[tuple[str, str, Value]]:
 
 
 def _is_asserted(state: WorldState, subject: str, predicate: str, object_: str) -> bool:
-    """Whether a class or relation was written."""
+    """Whether a class or relation is asserted."""
     if predicate == RDF_TYPE:
         return object_ in state.types(subject)
     return object_ in state.asserted[predicate].forward.get(subject)
@@ -96,12 +95,12 @@ def _check_nothing_lost(state: WorldState, without: WorldState) -> None:
         if not has_value(state.value(individual, property_), value):
             lost.append(f"{short(individual)}.{short(property_)} = {show(value)}")
     if lost:
-        said = "; ".join(sorted(lost)[:LISTED])
-        raise SaveError(f"a scene cannot take back what data sheets say, and this is true no more: {said}")
+        listed = "; ".join(sorted(lost)[:LISTED])
+        raise SaveError(f"a scene cannot retract facts of data sheets, but these no longer hold: {listed}")
 
 
 def _classes(state: WorldState, library: Vocabulary) -> Iterator[ox.Triple]:
-    """Yield what declares the classes that the scene has beside the library."""
+    """Yield the declarations of classes that the scene has in addition to the library."""
     for iri in state.vocabulary.classes.keys() - library.classes.keys():
         yield ox.Triple(ox.NamedNode(iri), TYPE, CLASS)
         for parent in state.vocabulary.classes[iri].parents:
@@ -109,18 +108,18 @@ def _classes(state: WorldState, library: Vocabulary) -> Iterator[ox.Triple]:
 
 
 def _other_statements(source: Document, state: WorldState) -> Iterator[ox.Triple]:
-    """Yield what a scene says beside its facts."""
+    """Yield the statements of a scene that are not facts."""
     said = [with_canonical_terms(each, state.vocabulary.aliases) for each in statements_of(source)]
     about = select_facts(said, with_own_classes(state.vocabulary, said))
     gone = {iri_of(each.subject) for each in about} - state.individuals
-    told = {(each.subject_at, each.predicate_at, each.object_at) for each in about}
+    stated = {(each.subject_at, each.predicate_at, each.object_at) for each in about}
     for each in said:
-        if iri_of(each.subject) not in gone and (each.subject_at, each.predicate_at, each.object_at) not in told:
+        if iri_of(each.subject) not in gone and (each.subject_at, each.predicate_at, each.object_at) not in stated:
             yield ox.Triple(each.subject, ox.NamedNode(each.predicate), each.object)  # type: ignore[arg-type]
 
 
 class _TurtleWriter:
-    """Turtle in the making: what is said, by subject and predicate, in the words of Turtle."""
+    """Collects statements by subject and predicate and writes them as Turtle."""
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
@@ -131,16 +130,16 @@ class _TurtleWriter:
         self._said: dict[str, dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
 
     def add_link(self, subject: str, predicate: str, object_: str) -> None:
-        """Say that a relation holds, or what something is."""
+        """Add a relation or a class."""
         self._said[self._name(subject)][predicate].append(self._name(object_))
 
     def add_value(self, individual: str, property_: str, value: Value) -> None:
-        """Say a value; numbers are doubles, whatever they were written as."""
-        counted = isinstance(self._vocabulary.properties[property_].type, NumberType)
+        """Add a value; numbers are written as doubles."""
+        is_number = isinstance(self._vocabulary.properties[property_].type, NumberType)
         match value:
             case bool():
                 text = "true" if value else "false"
-            case int() if not counted:
+            case int() if not is_number:
                 text = str(value)
             case int() | float() if isfinite(value):
                 text = _double(float(value))
@@ -149,17 +148,16 @@ class _TurtleWriter:
             case _ if is_vector(value):
                 text = f'"{format_vector(value)}"'
             case _:
-                raise SaveError(
-                    f"no scene can say <{property_}> of <{individual}>: {show(value)} is no number, text or truth value"
-                )
+                reason = f"{show(value)} is not a number, text or truth value"
+                raise SaveError(f"a scene cannot state <{property_}> of <{individual}>: {reason}")
         self._said[self._name(individual)][property_].append(text)
 
     def add_triple(self, triple: ox.Triple) -> None:
-        """Say what a triple says."""
+        """Add a triple."""
         self._said[self._term(triple.subject)][triple.predicate.value].append(self._term(triple.object))
 
     def text(self) -> str:
-        """Return all, ordered: subjects by name, what they are first."""
+        """Return the text, sorted by subject, with classes first."""
         blocks = [
             self._block(subject, about) for subject, about in sorted(self._said.items(), key=lambda each: each[0])
         ]
@@ -190,9 +188,9 @@ class _TurtleWriter:
         try:
             return str(ox.NamedNode(iri))
         except ValueError as error:
-            raise SaveError(f"no scene can speak of `{iri}`: it is no IRI") from error
+            raise SaveError(f"a scene cannot mention `{iri}`: it is not an IRI") from error
 
 
 def _double(number: float) -> str:
-    """Return a number as Turtle abbreviates doubles: with an exponent."""
+    """Return a number as a Turtle double, which has an exponent."""
     return repr(number) if "e" in repr(number) else f"{number!r}e0"

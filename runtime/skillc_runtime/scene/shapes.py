@@ -1,8 +1,8 @@
-"""A vocabulary as SHACL shapes, so that other tools check scenes as skillc does.
+"""Exports a vocabulary as SHACL shapes, so that other tools can check scenes like skillc.
 
-They say what individuals must state, datatypes, sets of values and bounds, domains and ranges, how many values there
-may be, and which classes are disjoint. What SHACL Core has no word for stays with skillc: asymmetric, irreflexive and
-transitive relations, misspelt terms, frames, poses, and the length of directions.
+The shapes cover required properties, datatypes, enumerations and bounds, domains and ranges, numbers of values, and
+disjoint classes. SHACL Core cannot express the other checks: asymmetric, irreflexive and transitive relations, misspelt
+terms, frames, poses, and the length of directions.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ NUMBERS = ("double", "float", "decimal", "integer", "int", "nonNegativeInteger")
 PLAIN = {"Text": ("string",), "Bool": ("boolean",), "Int": ("integer", "int", "nonNegativeInteger")}
 NUMBER = r"[+-]?(\\d+\\.?\\d*|\\.\\d+)([eE][+-]?\\d+)?"
 VECTOR = rf"^\\s*{NUMBER}\\s+{NUMBER}\\s+{NUMBER}\\s*$"
-"""What a vector is like as a text, with the backslashes doubled as Turtle wants them."""
+"""The pattern of a vector, with doubled backslashes for Turtle."""
 
 
 def format_shapes(vocabulary: Vocabulary) -> str:
-    """Return the shapes in Turtle; the same vocabulary gives the same text."""
+    """Return the shapes as Turtle; the same vocabulary gives the same text."""
     return "\n".join((*_head(vocabulary.prefixes), *_Shapes(vocabulary).all())) + "\n"
 
 
@@ -103,7 +103,7 @@ class _Shapes:
         return f"[ {subject}sh:property [ sh:path {path} ; sh:nodeKind sh:IRI{of_class} ] ]"
 
     def _path(self, iri: str) -> str:
-        """Return what leads to all values of a predicate, by sub-relations and inverses too."""
+        """Return the property path to all values of a predicate, including sub-relations and inverses."""
         steps = [
             f"[ sh:inversePath {self._name(source)} ]" if turned else self._name(source)
             for source, turned in self._sources.get(iri, ((iri, False),))

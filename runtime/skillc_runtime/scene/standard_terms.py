@@ -1,4 +1,4 @@
-"""The terms that RDF, RDFS and OWL have, so that a misspelt one is noticed."""
+"""The terms of RDF, RDFS and OWL, for finding misspelt ones."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _NAMES = {
     ),
 }
 TERMS = frozenset(base + name for base, names in _NAMES.items() for name in names.split())
-"""`owl:class` is how SkiROS2's scenes write `owl:Class`."""
+"""`owl:class` is included because scenes of SkiROS2 write it instead of `owl:Class`."""
 
 
 def standard_terms(iri: str) -> frozenset[str]:
@@ -36,5 +36,5 @@ def standard_terms(iri: str) -> frozenset[str]:
 
 
 def is_misspelt(iri: str) -> bool:
-    """Whether an IRI belongs to one of these vocabularies, which has no such term."""
+    """Whether an IRI is in the namespace of one of these vocabularies but is not one of its terms."""
     return iri.startswith(tuple(_NAMES)) and iri not in TERMS and not iri.startswith(f"{RDF}_")

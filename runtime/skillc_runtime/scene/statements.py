@@ -1,4 +1,4 @@
-"""Which statements of Turtle documents are facts about individuals, and the classes a scene declares itself."""
+"""Selects the statements that are facts about individuals; classes and labels that documents declare."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ANNOTATIONS = (
     "http://www.w3.org/ns/prov#",
     "http://www.w3.org/ns/shacl#",
 )
-"""What is said in these vocabularies is for people and other tools."""
+"""Statements with these vocabularies are for people and other tools."""
 REMARKS = frozenset(
     {f"{RDFS}{name}" for name in ("label", "comment", "seeAlso", "isDefinedBy")}
     | {f"{OWL}{name}" for name in ("versionInfo", "versionIRI", "priorVersion", "deprecated")}
@@ -35,25 +35,25 @@ NAMED_INDIVIDUAL, ANNOTATION = f"{OWL}NamedIndividual", f"{OWL}AnnotationPropert
 
 
 class FactFilter:
-    """Which statements are facts about individuals: not those about terms or templates, no annotations.
+    """Decides which statements are facts about individuals: not about terms or templates, and not annotations.
 
-    `terms` are what is no individual; something without a name, which is empty, is none either.
+    `terms` are subjects that are not individuals, including the empty IRI of blank nodes.
     """
 
     def __init__(self, vocabulary: Vocabulary, types: Collection[tuple[str, str]]) -> None:
-        """Know what a text says that things are, as pairs of subject and class."""
+        """Use the types that a text states, as pairs of subject and class."""
         kinds = {cls for cls in {cls for _, cls in types} if is_term_kind(cls)}
         self.terms = terms_of(vocabulary) | {subject for subject, cls in types if cls in kinds} | {""}
         notes = {subject for subject, cls in types if cls == ANNOTATION} - vocabulary.properties.keys()
         self._passed = notes | {TEMPLATE, HAS_TEMPLATE}
 
     def may_state_facts(self, predicate: str) -> bool:
-        """Whether what is said of an individual with the predicate is a fact."""
+        """Whether a statement about an individual with this predicate is a fact."""
         return predicate not in self._passed and not is_remark(predicate)
 
 
 def select_facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Statement, ...]:
-    """Return what is said of individuals: not of terms, not of templates, no annotations."""
+    """Return the statements that are facts about individuals: not about terms or templates, and not annotations."""
     kept = FactFilter(vocabulary, pairs(said, RDF_TYPE))
     return tuple(
         each
@@ -65,7 +65,7 @@ def select_facts(said: Sequence[Statement], vocabulary: Vocabulary) -> tuple[Sta
 
 
 def with_prefixes(vocabulary: Vocabulary, parsed: Sequence[Parsed]) -> Vocabulary:
-    """Return the vocabulary with the prefixes that documents declare beside it; the first document's win."""
+    """Return the vocabulary with the additional prefixes of documents; those of the first document have priority."""
     prefixes = {name: base for document in reversed(parsed) for name, base in document.prefixes.items() if name}
     return msgspec.structs.replace(vocabulary, prefixes={**prefixes, **vocabulary.prefixes})
 
@@ -73,9 +73,9 @@ def with_prefixes(vocabulary: Vocabulary, parsed: Sequence[Parsed]) -> Vocabular
 def with_classes(
     vocabulary: Vocabulary, types: Iterable[tuple[str, str]], subclasses: Iterable[tuple[str, str]]
 ) -> Vocabulary:
-    """Return the vocabulary with the classes that a text declares beside it; a relation is no class.
+    """Return the vocabulary with the additional classes that a text declares.
 
-    Given are what the text says that things are, as pairs of subject and class, and which class is below which.
+    `types` are pairs of subject and class, `subclasses` are pairs of class and superclass.
     """
     missing = {subject for subject, cls in types if cls in CLASS_DECLARATIONS} - terms_of(vocabulary) - {""}
     if not missing:
@@ -89,37 +89,37 @@ def with_classes(
 
 
 def with_own_classes(vocabulary: Vocabulary, said: Sequence[Statement]) -> Vocabulary:
-    """Return the vocabulary with the classes that statements declare beside it."""
+    """Return the vocabulary with the additional classes that statements declare."""
     return with_classes(vocabulary, pairs(said, RDF_TYPE), pairs(said, SUBCLASS))
 
 
 def terms_of(vocabulary: Vocabulary) -> set[str]:
-    """Return all that a vocabulary has names for; statements about these are no facts."""
+    """Return all terms of a vocabulary; statements about them are not facts."""
     return {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.aliases}
 
 
 def is_term_kind(cls: str) -> bool:
-    """Whether what is of this class is a term, or a template, and no individual."""
+    """Whether instances of a class are terms or templates instead of individuals."""
     return cls == TEMPLATE or (cls.startswith((OWL, RDFS, RDF)) and cls not in (THING, NAMED_INDIVIDUAL))
 
 
 def is_remark(predicate: str) -> bool:
-    """Whether what is said with a predicate is for people and other tools."""
+    """Whether statements with a predicate are for people and other tools."""
     return predicate != RDF_TYPE and predicate.startswith((*ABOUT_TERMS, *ANNOTATIONS))
 
 
 def is_annotation(predicate: str) -> bool:
-    """Whether a predicate says something for people and other tools, and nothing that a world could know."""
+    """Whether a predicate is an annotation, which has no meaning for the world."""
     return predicate in REMARKS or predicate.startswith((*ANNOTATIONS, ABOUT_TERMS[-1]))
 
 
 def iri_of(node: Node) -> str:
-    """Return the IRI of a node, nothing for a blank node or a literal."""
+    """Return the IRI of a node; empty for a blank node or a literal."""
     return node.value if isinstance(node, ox.NamedNode) else ""
 
 
 def pairs(said: Iterable[Statement], predicate: str) -> list[tuple[str, str]]:
-    """Return subjects and objects of the statements with a predicate; what has no IRI is empty."""
+    """Return subjects and objects of the statements with a predicate; empty for nodes without IRI."""
     return [(iri_of(each.subject), iri_of(each.object)) for each in said if each.predicate == predicate]
 
 
@@ -127,18 +127,18 @@ LABEL = f"{RDFS}label"
 
 
 @dataclass(frozen=True, slots=True)
-class Contents:
-    """The IRIs that files make statements about, and the first rdfs:label of those that have one."""
+class SubjectsAndLabels:
+    """The subjects of the statements in files, and the first rdfs:label of those that have one, by IRI."""
 
     subjects: frozenset[str]
     labels: dict[str, str]
 
 
-def read_contents(documents: Iterable[Document]) -> Contents:
-    """Return what the documents speak of; SceneError for one that is not Turtle."""
+def read_contents(documents: Iterable[Document]) -> SubjectsAndLabels:
+    """Return the subjects and labels in documents; SceneError for a document that is not Turtle."""
     said = [each for document in documents for each in statements_of(document)]
     labels: dict[str, str] = {}
     for each in said:
         if each.predicate == LABEL and isinstance(each.object, ox.Literal):
             labels.setdefault(iri_of(each.subject), each.object.value)
-    return Contents(frozenset(iri_of(each.subject) for each in said) - {""}, labels)
+    return SubjectsAndLabels(frozenset(iri_of(each.subject) for each in said) - {""}, labels)

@@ -1,4 +1,4 @@
-"""What a name in a scene may have been meant to be."""
+"""Suggestions for misspelt names in a scene."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 LISTED = 12
-"""How many names help lists at most."""
+"""The maximum number of names in a hint."""
 
 
 @dataclass(frozen=True, slots=True)
 class Suggestion:
-    """A line of help, and the fix that puts the only near name in the place of the wrong one."""
+    """A hint, and the fix that replaces the wrong name if only one name is similar."""
 
     help: str
     fix: Fix | None = None
@@ -25,7 +25,7 @@ class Suggestion:
 def suggest(
     wrong: str, place: Span, vocabulary: Vocabulary, known: Iterable[str], fitting: Sequence[str] = ()
 ) -> Suggestion:
-    """Return what is like a wrong IRI, first among the fitting ones; else the fitting ones that there are."""
+    """Return names similar to a wrong IRI, preferably fitting ones; if there are none, list the fitting ones."""
     near = _near(wrong, fitting) or _near(wrong, known)
     if near:
         names = [vocabulary.short(iri) for iri in near]
@@ -36,7 +36,7 @@ def suggest(
 
 
 def _near(wrong: str, known: Iterable[str]) -> list[str]:
-    """Return up to three IRIs whose local name is alike; those of the same local name alone if there are any."""
+    """Return IRIs with the same local name or, if there are none, with up to three similar local names."""
     by_name: dict[str, list[str]] = {}
     for iri in sorted(known):
         by_name.setdefault(local_name(iri), []).append(iri)

@@ -1,4 +1,4 @@
-"""What Turtle texts say, by predicate: read in bulk, without places, or made of statements that know theirs."""
+"""Tables of statements by predicate, read in bulk without positions, or made from statements with positions."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from skillc_runtime.scene.standard_terms import is_misspelt
 from skillc_runtime.scene.statements import NAMED_INDIVIDUAL, is_term_kind, terms_of
 
 AT_ONCE = 100_000
-"""So many triples are sorted before the memory that is left is looked at."""
+"""The number of triples between two checks of the available memory."""
 
 Named: TypeAlias = list[tuple[str, str]]
-"""Subjects and objects, of which something without a name is empty."""
+"""Subjects and objects; empty for blank nodes."""
 Literals: TypeAlias = list[tuple[str, ox.Literal]]
 
 
 @dataclass(slots=True)
 class StatementTable:
-    """The rows of each predicate, in the order of the texts: those that lead to something, and those with a literal.
+    """The rows of each predicate, in the order of the texts: those with a node and those with a literal as object.
 
-    `unusual` says that something in them is understood by more than the rows: it may be misspelt, or have no effect.
-    `nameless` are the predicates by which something without a name is related.
+    `is_unusual` is set if the rows are not enough to interpret the texts: something may be misspelt or have no effect.
+    `nameless` are the predicates of statements with blank nodes.
     """
 
     named: dict[str, Named] = field(default_factory=lambda: defaultdict(list))
@@ -43,7 +43,7 @@ class StatementTable:
 
 
 def tabulate(statements: Iterable[Statement]) -> StatementTable:
-    """Return the table of statements; `Rows` knows the statement of each row."""
+    """Return the table of statements."""
     table = StatementTable()
     for each in statements:
         subject = each.subject.value if isinstance(each.subject, ox.NamedNode) else ""
@@ -56,7 +56,7 @@ def tabulate(statements: Iterable[Statement]) -> StatementTable:
 
 
 def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> StatementTable:
-    """Return what documents say, the first one a scene; SyntaxError, UnicodeEncodeError, TooLittleMemory."""
+    """Return the table of documents, the first one a scene; SyntaxError, UnicodeEncodeError, TooLittleMemory."""
     table, names, guard = StatementTable(), dict[str, str](), MemoryGuard()
     for document in documents:
         parser = ox.parse(document.text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
@@ -71,12 +71,12 @@ def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> Stateme
                 table.prefixes.setdefault(prefix, base)
         if table.is_unusual:
             return table
-    table.is_unusual = _has_odd_terms(table, vocabulary)
+    table.is_unusual = _has_suspicious_terms(table, vocabulary)
     return table
 
 
 def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, str], table: StatementTable) -> bool:
-    """Add triples, return whether there were any; each IRI is one string, however often it is written."""
+    """Add triples and return whether there were any; equal IRIs become the same string object."""
     named, literal, known, each = table.named, table.literal, names.setdefault, None
     for each in triples:
         subject, object_, predicate = each.subject, each.object, each.predicate.value
@@ -97,7 +97,7 @@ def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, s
 
 
 def _is_plain(table: StatementTable, vocabulary: Vocabulary) -> bool:
-    """Whether a scene has things, each with a name, and says nothing but facts about them and what people read."""
+    """Whether a scene has individuals, no blank nodes, and only facts about individuals and annotations."""
     types = table.named[RDF_TYPE]
     subjects = {subject for rows in table.named.values() for subject, _ in rows}
     subjects |= {subject for rows in table.literal.values() for subject, _ in rows}
@@ -111,8 +111,8 @@ def _is_plain(table: StatementTable, vocabulary: Vocabulary) -> bool:
     )
 
 
-def _has_odd_terms(table: StatementTable, vocabulary: Vocabulary) -> bool:
-    """Whether a term of OWL or RDFS may be misspelt, or something in the world has no name."""
+def _has_suspicious_terms(table: StatementTable, vocabulary: Vocabulary) -> bool:
+    """Whether a term of OWL or RDFS may be misspelt, or an individual is a blank node."""
     predicates, types = table.named.keys() | table.literal.keys(), table.named[RDF_TYPE]
     return (
         any(map(is_misspelt, predicates | {cls for _, cls in types}))

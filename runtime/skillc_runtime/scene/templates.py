@@ -1,4 +1,4 @@
-"""Templates of a scene: what is said of a `skiros:Template` is a fact about each individual that is made of it."""
+"""Reads templates of a scene: statements about a `skiros:Template` are facts about its instances."""
 
 from __future__ import annotations
 
@@ -25,32 +25,32 @@ from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
 
 
 def load_templates(path: Path, vocabulary: Vocabulary) -> Templates:
-    """Return the templates of a scene file, which may speak of the packaged data sheets; SceneError for mistakes."""
+    """Return the templates of a scene file, which may refer to the packaged data sheets; SceneError for mistakes."""
     return read_templates([Document.read(path), *sheet_documents()], vocabulary)
 
 
 def read_templates(documents: Iterable[Document], vocabulary: Vocabulary) -> Templates:
-    """Return the templates of Turtle documents; SceneError with what is wrong with them or the documents."""
+    """Return the templates of Turtle documents; SceneError with the problems of templates and documents."""
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
     vocabulary = with_own_classes(with_prefixes(vocabulary, parsed), said)
     templates = {
         iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == TEMPLATE
     }
-    placed = LocatedFacts([*select_facts(said, vocabulary), *_patterns(said, templates)], vocabulary)
+    located = LocatedFacts([*select_facts(said, vocabulary), *_patterns(said, templates)], vocabulary)
     patterns: dict[str, list[Change]] = {each: [] for each in sorted(templates)}
-    for change, statement in placed.changes():
+    for change, statement in located.changes():
         patterns.get(iri_of(statement.subject), []).append(change)
-    problems = [problem for document in parsed for problem in document.problems] + list(placed.problems(()))
+    problems = [problem for document in parsed for problem in document.problems] + list(located.problems(()))
     if problems:
         raise SceneError(problems)
     return Templates(vocabulary, {each: tuple(changes) for each, changes in patterns.items()})
 
 
 def _patterns(said: Iterable[Statement], templates: set[str]) -> Iterator[Statement]:
-    """Yield what is said of templates and is to be true of individuals."""
-    passed = {TEMPLATE, NAMED_INDIVIDUAL}
+    """Yield the statements about templates that are facts about their instances."""
+    ignored = {TEMPLATE, NAMED_INDIVIDUAL}
     for each in said:
-        told = iri_of(each.subject) in templates and iri_of(each.object) not in passed
-        if told and each.predicate != HAS_TEMPLATE and not is_remark(each.predicate):
+        is_pattern = iri_of(each.subject) in templates and iri_of(each.object) not in ignored
+        if is_pattern and each.predicate != HAS_TEMPLATE and not is_remark(each.predicate):
             yield each

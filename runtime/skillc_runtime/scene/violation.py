@@ -1,4 +1,4 @@
-"""What is wrong with a world as a whole, and how rules about it read what the world says."""
+"""Violations of scene checks, and a helper to read stored values."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class SceneViolation:
-    """What is wrong with an individual: the predicate of the statement that shows it, None where one is missing."""
+    """A violation of an individual, by name; `predicate` is that of the wrong statement, None if one is missing."""
 
     individual: str
     predicate: str | None
@@ -19,7 +19,7 @@ class SceneViolation:
 
 
 def stored_values(state: WorldState, property_: str) -> list[tuple[str, object]]:
-    """Return the individuals that have the property with their values, sorted by IRI."""
+    """Return the individuals with a property and their values, sorted by IRI."""
     table = state.stored.get(property_)
     found = [(individual, value) for individual, value in table.items() if value is not None] if table else []
     return sorted(found, key=lambda pair: pair[0])

@@ -1,4 +1,4 @@
-"""Places in the files what violates the axioms of the vocabulary, and what is wrong with the world as a whole."""
+"""Reports violations of axioms and of scene checks at their statements."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.world_state import WorldState
 
 MUTUAL_AXIOMS = frozenset({"functional-relation", "asymmetric-relation", "disjoint-classes"})
-"""Axioms that two statements violate together, neither more than the other."""
+"""Axioms that two statements violate together, both equally."""
 
 
 def report_axiom_violations(state: WorldState, written: Sequence[LocatedChange]) -> Iterator[Diagnostic]:
-    """Yield a problem for each violation of an axiom once; `state` is the world after all that is written.
+    """Yield each violation of an axiom once; `state` is the world after all changes.
 
-    Of statements that cannot be true together, one that is wrong by itself is reported for that alone.
+    If a statement violates an axiom by itself, its conflicts with other statements are not reported.
     """
     places = {fact: statement for change, statement in reversed(written) if (fact := _fact(change)) is not None}
     reported: set[tuple[str, frozenset[IriTriple]]] = set()
@@ -51,7 +51,7 @@ def report_axiom_violations(state: WorldState, written: Sequence[LocatedChange])
 
 
 def _violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
-    """Yield what is wrong with a change: where a rival took its place, rather what is wrong with it by itself."""
+    """Yield the violations of a change; for a functional relation, preferably one that the change violates alone."""
     for violation in axiom_violations(state, change):
         match change:
             case AddRelation(subject, relation, object_) if violation.axiom == "functional-relation":
@@ -61,7 +61,7 @@ def _violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
 
 
 def _violates_alone(state: WorldState, fact: IriTriple) -> bool:
-    """Whether a fact is wrong by itself."""
+    """Whether a fact violates an axiom by itself."""
     return fact[1] in state.vocabulary.relations and standalone_violation(state, fact) is not None
 
 
@@ -76,14 +76,14 @@ def _axiom_problem(
     state: WorldState,
     violation: AxiomViolation,
     own: Statement,
-    together: Sequence[Statement],
+    conflicting: Sequence[Statement],
     places: Mapping[IriTriple, Statement],
 ) -> Diagnostic:
-    if violation.axiom in MUTUAL_AXIOMS and together:
-        first, *others = sorted((each.object_place for each in together), reverse=True)
+    if violation.axiom in MUTUAL_AXIOMS and conflicting:
+        first, *others = sorted((each.object_place for each in conflicting), reverse=True)
     else:
         first, others = _violating_term(violation, own), []
-    notes = [Label(place, "said here too") for place in others]
+    notes = [Label(place, "also stated here") for place in others]
     notes += (Label(places[fact].object_place, "its class") for fact in violation.causes if fact in places)
     return Diagnostic(
         violation.axiom, first, violation.message, _help(violation), labels=(*notes, *_declared(state, violation, own))
@@ -91,7 +91,7 @@ def _axiom_problem(
 
 
 def _violating_term(violation: AxiomViolation, own: Statement) -> Span:
-    """Return the term that is wrong: the predicate where it does not fit what it is said of, else the object."""
+    """Return the position of the wrong term: the predicate if the subject does not fit it, else the object."""
     subject_is_wrong = violation.mistyped is not None and violation.mistyped == iri_of(own.subject)
     return own.predicate_place if subject_is_wrong and violation.mistyped != iri_of(own.object) else own.object_place
 
@@ -101,7 +101,7 @@ def _help(violation: AxiomViolation) -> str:
 
 
 def _declared(state: WorldState, violation: AxiomViolation, own: Statement) -> Iterator[Label]:
-    """Yield where the vocabulary says what a relation or property is about."""
+    """Yield where the vocabulary declares a relation or property."""
     terms = state.vocabulary.relations.get(own.predicate) or state.vocabulary.properties.get(own.predicate)
     source: Position | None = terms.source if terms is not None and violation.causes else None
     if source is not None:
@@ -122,13 +122,13 @@ def _fact(change: Change) -> IriTriple | None:
 
 
 def check_individuals(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield what is wrong with things, wherever they are."""
+    """Yield the violations of checks that need no poses."""
     for check in (check_containment, check_required, check_plausible, check_data_sheets):
         yield from check(state)
 
 
 def check_placement(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield what is wrong with where things are; how areas lie is looked at once all things are somewhere."""
+    """Yield the violations of frames and poses; regions of surfaces are checked if there are none."""
     misplaced = list(check_frames(state))
     yield from misplaced or check_surface_regions(state)
 
@@ -136,20 +136,20 @@ def check_placement(state: WorldState) -> Iterator[SceneViolation]:
 def report_scene_violations(
     state: WorldState, said: Sequence[Statement], problems: Collection[Diagnostic], doubtful: Collection[str]
 ) -> Iterator[Diagnostic]:
-    """Yield what is wrong with individuals of which every statement made sense.
+    """Yield the violations of individuals all of whose statements are valid.
 
-    Where things are is looked at only when there is no other problem: a frame may be missing because of it.
+    Frames and poses are checked only when there is no other problem, which may be the cause of a missing frame.
     """
-    troubled = {*doubtful, *_subjects(said, problems)}
+    with_problems = {*doubtful, *_subjects(said, problems)}
     found = [*check_individuals(state), *(check_placement(state) if not problems and not doubtful else ())]
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}
     for violation in found:
-        if violation.individual not in troubled:
+        if violation.individual not in with_problems:
             yield Diagnostic(violation.name, _statement_place(violation, places), violation.message, violation.help)
 
 
 def _subjects(said: Sequence[Statement], problems: Collection[Diagnostic]) -> Iterator[str]:
-    """Yield the individuals whose statements have problems."""
+    """Yield the individuals with problems in their statements."""
     if not problems:
         return
     wrong = {problem.span for problem in problems}

@@ -1,4 +1,4 @@
-"""What can be wrong with the classes that a scene declares itself."""
+"""Checks the classes that a scene declares."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from skillc_runtime.scene.suggestions import suggest
 
 
 def have_valid_parents(classes: Iterable[str], vocabulary: Vocabulary) -> bool:
-    """Whether the classes are below classes that there are, and none is below itself."""
+    """Whether all superclasses of the classes exist, and no class is its own superclass."""
     parents = [(iri, parent) for iri in classes for parent in vocabulary.classes[iri].parents]
     return all(parent in vocabulary.ancestors and not vocabulary.is_a(parent, iri) for iri, parent in parents)
 
 
 def check_class_parents(said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
-    """Yield a problem for each statement that puts an own class below one that there is not, or below itself.
+    """Yield a problem for each declared class with an unknown superclass, and for each cycle of classes.
 
-    Of the statements that make a circle the last one is told, with the others beside it.
+    A cycle is reported at its last statement, with labels at the others.
     """
     below = [each for each in said if each.predicate == SUBCLASS and iri_of(each.subject) in own]
     circles: dict[frozenset[str], list[Statement]] = {}
@@ -39,11 +39,11 @@ def check_class_parents(said: Iterable[Statement], own: frozenset[str], vocabula
 def individuals_of_unknown_classes(
     said: Iterable[Statement], own: frozenset[str], vocabulary: Vocabulary
 ) -> frozenset[str]:
-    """Return what is of an own class below one that there is not: what fits it is not known."""
+    """Return the individuals of declared classes with unknown superclasses; they cannot be checked."""
     known = vocabulary.ancestors.keys()
-    lost = {cls for cls in own if not vocabulary.ancestors[cls] <= known}
+    unknown = {cls for cls in own if not vocabulary.ancestors[cls] <= known}
     return frozenset(
-        iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) in lost
+        iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) in unknown
     )
 
 
@@ -55,7 +55,7 @@ def _unknown(each: Statement, parent: str, vocabulary: Vocabulary) -> Diagnostic
 
 
 def _circle(cls: str, vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the classes that are above and below a class."""
+    """Return the classes that are both superclass and subclass of a class."""
     return frozenset(other for other in vocabulary.ancestors[cls] - {THING} if vocabulary.is_a(other, cls))
 
 
@@ -64,5 +64,5 @@ def _cycle(statements: list[Statement], vocabulary: Vocabulary) -> Diagnostic:
     names = [vocabulary.short(iri_of(each.subject)) for each in others if each.subject != last.subject]
     way = "".join(f", by {name}" for name in dict.fromkeys(names))
     message = f"{vocabulary.short(iri_of(last.subject))} is declared below itself{way}"
-    notes = tuple(Label(each.object_place, "this goes round with it") for each in others)
-    return Diagnostic("class-cycle", last.object_place, message, "take one of the parents away", labels=notes)
+    notes = tuple(Label(each.object_place, "part of the same cycle") for each in others)
+    return Diagnostic("class-cycle", last.object_place, message, "remove one of the parents", labels=notes)

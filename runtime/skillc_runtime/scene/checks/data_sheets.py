@@ -1,4 +1,4 @@
-"""What a scene must say of data sheets: they are of their devices' kind, and speak of as many joints everywhere."""
+"""Checks data sheets: they are of the kind of their devices, and have the same number of joints everywhere."""
 
 from __future__ import annotations
 
@@ -33,24 +33,26 @@ KINDS = (
     (TOOL, (TOOL_SHEET, RIGID_TOOL_SHEET)),
     (FIXTURE, (FIXTURE_SHEET,)),
 )
-"""Kinds of devices and of sheets that describe them; of sheets of other kinds nothing is known here."""
+"""Kinds of devices with the kinds of sheets that describe them; other kinds are not checked."""
 
 
 def check_data_sheets(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield the sheets that cannot describe their device, or any; where the vocabulary has no sheets there is none."""
+    """Yield sheets of the wrong kind and invalid lists of joint values; nothing if the vocabulary has no sheets."""
     if {HAS_SHEET, HAS_POSTURE} <= state.facts.keys():
         yield from _wrong_sheets(state)
         for sheet in sorted(state.instances(ARM_SHEET)):
-            yield from _joints(state, sheet)
+            yield from _joint_lists(state, sheet)
 
 
 def _wrong_sheets(state: WorldState) -> Iterator[SceneViolation]:
     short, known = state.vocabulary.short, set(chain.from_iterable(kinds for _, kinds in KINDS))
     for device, sheet in sorted(state.pairs(HAS_SHEET)):
         needed = {kind for cls, kinds in KINDS if state.is_a(device, cls) for kind in kinds}
-        told = {kind for kind in known if state.is_a(sheet, kind)}
-        if needed and told and needed.isdisjoint(told):
-            message = f"{short(sheet)} is a {_names(state, told)}, and {short(device)} needs a {_names(state, needed)}"
+        actual = {kind for kind in known if state.is_a(sheet, kind)}
+        if needed and actual and needed.isdisjoint(actual):
+            message = (
+                f"{short(sheet)} is a {_names(state, actual)}, and {short(device)} needs a {_names(state, needed)}"
+            )
             fitting = sorted({short(each) for kind in needed for each in state.instances(kind)})
             cure = f"there is {', '.join(fitting)}" if fitting else ""
             yield SceneViolation(device, HAS_SHEET, "wrong-sheet", message, cure)
@@ -60,17 +62,17 @@ def _names(state: WorldState, classes: set[str]) -> str:
     return " or ".join(sorted(map(state.vocabulary.short, classes)))
 
 
-def _joints(state: WorldState, sheet: str) -> Iterator[SceneViolation]:
-    """Each list of a sheet is numbers, one for each joint; the speeds say how many joints there are."""
+def _joint_lists(state: WorldState, sheet: str) -> Iterator[SceneViolation]:
+    """Yield lists of a sheet that are not numbers, one for each joint; the speeds define the number of joints."""
     postures = ((posture, JOINT_VALUES) for posture in sorted(state.objects(sheet, HAS_POSTURE)))
     for owner, term in ((sheet, JOINT_SPEEDS), (sheet, JOINT_ACCELERATIONS), *postures):
-        told = _miscounted(state, sheet, owner, term)
-        if told is not None:
-            yield SceneViolation(owner, term, "joint-numbers", *told)
+        problem = _list_problem(state, sheet, owner, term)
+        if problem is not None:
+            yield SceneViolation(owner, term, "joint-numbers", *problem)
 
 
-def _miscounted(state: WorldState, sheet: str, owner: str, term: str) -> tuple[str, str] | None:
-    """Return what is wrong with a list of numbers that is stated, and its cure."""
+def _list_problem(state: WorldState, sheet: str, owner: str, term: str) -> tuple[str, str] | None:
+    """Return what is wrong with a list of numbers, if it is stated, and a hint."""
     text, short = state.value(owner, term), state.vocabulary.short
     if text is None:
         return None
@@ -78,7 +80,7 @@ def _miscounted(state: WorldState, sheet: str, owner: str, term: str) -> tuple[s
     if numbers is None:
         return f'{what} = "{text}" is not numbers separated by spaces', "write a number for each joint"
     if owner == sheet and min(numbers, default=0.0) <= 0:
-        return f'{what} = "{text}" is to be above 0 for each joint', ""
+        return f'{what} = "{text}" must be above 0 for each joint', ""
     if speeds and len(numbers) != len(speeds):
         message = f"{what} has {len(numbers)} numbers, and {short(sheet)}.{short(JOINT_SPEEDS)} {len(speeds)}"
         return message, "write a number for each joint in both"

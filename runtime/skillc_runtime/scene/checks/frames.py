@@ -1,4 +1,4 @@
-"""What a scene must say so that everything is somewhere: frames that lead to the map, poses that are whole."""
+"""Checks frames and poses: all frames lead to the map, and all poses are complete."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ from skillc_runtime.world.state.terms import (
 from skillc_runtime.world.state.world_state import WorldState
 
 PLACED = (AREA, ARM_DEVICE, FIXTURE, FURNITURE, MOBILE_ROBOT, PERSON, SURFACE, TOOL)
-"""What takes up space in a simulation, stands on something that does, or leads to a place."""
+"""Classes whose individuals need a pose."""
 
 
 def check_frames(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield what keeps things from being somewhere; rules about terms that the vocabulary lacks find nothing."""
+    """Yield problems of frames and poses; checks of terms that the vocabulary does not have find nothing."""
     owners = _owners(state)
     parents = _parents(state, owners)
     yield from _unknown_frames(state, owners)
     yield from _circles(state, parents)
     yield from _partial_poses(state)
-    yield from _nowhere(state, parents)
+    yield from _unplaced(state, parents)
 
 
 def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> Iterator[SceneViolation]:
@@ -70,7 +70,7 @@ def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneVio
 
 
 def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str | None:
-    """Return what a thing moves with: that in whose frame or at whose place it is, else what contains or has it."""
+    """Return the carrier of an object: the owner of its frame, its place, or else what contains or has it."""
     if thing in parents or state.value(thing, BASE_FRAME_ID) is not None:
         return parents.get(thing)
     holders = (state.subjects(relation, thing) for relation in (CONTAIN, HAS_A) if relation in state.facts)
@@ -78,7 +78,7 @@ def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str |
 
 
 def _partial_poses(state: WorldState) -> Iterator[SceneViolation]:
-    """A pose in a frame has all of its numbers."""
+    """Yield poses in a frame that lack some of their numbers."""
     short = state.vocabulary.short
     for individual, _ in stored_values(state, BASE_FRAME_ID):
         numbers = [name for name in (*POSITION, *ORIENTATION) if name in state.stored]
@@ -89,8 +89,8 @@ def _partial_poses(state: WorldState) -> Iterator[SceneViolation]:
             yield SceneViolation(individual, BASE_FRAME_ID, "partial-pose", message, cure)
 
 
-def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
-    """What takes up space has a frame that it is placed in, or is at a place that has one."""
+def _unplaced(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
+    """Yield objects that need a pose but have neither a base frame nor a place."""
     if BASE_FRAME_ID not in state.stored or AT not in state.facts:
         return
     short = state.vocabulary.short
@@ -104,7 +104,7 @@ def _nowhere(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneVio
 
 
 def _parents(state: WorldState, owners: Mapping[str, Sequence[str]]) -> dict[str, str]:
-    """Return in whose frame each thing is where the scene says so: by its base frame, else by the place it is at."""
+    """Return the object in whose frame each object is, by its base frame or else the place that it is at."""
     places = sorted(state.pairs(AT), reverse=True) if AT in state.facts else []
     based = {individual: owners.get(str(base), []) for individual, base in stored_values(state, BASE_FRAME_ID)}
     framed = {individual: found[0] for individual, found in based.items() if len(found) == 1}

@@ -1,4 +1,4 @@
-"""What a scene says of which individuals are one, and of what is not so, checked against the finished world."""
+"""Checks statements about identity and negative assertions against the finished world."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ PARTS = frozenset({RDF_TYPE, *MEMBERS, SOURCE, PROPERTY, *TARGETS})
 
 
 class IdentityChecker:
-    """The statements of a scene about identity and about what is not so.
+    """Checks the statements of a scene about identity, and its negative assertions.
 
-    `used` are the things that these statements are about, as far as they are understood.
+    `used` are the nodes of statements that were understood.
     """
 
     def __init__(self, said: Sequence[Statement], state: WorldState) -> None:
@@ -38,14 +38,14 @@ class IdentityChecker:
         self.used: set[Node] = set()
 
     def check(self) -> Iterator[Diagnostic]:
-        """Yield what is wrong; `used` is complete afterwards."""
+        """Yield the problems; `used` is complete afterwards."""
         for each in self._said:
             if each.predicate == SAME:
                 yield from self._same(each)
             elif each.predicate == DIFFERENT and each.subject == each.object:
                 name = self._short(each.object)
                 yield Diagnostic(
-                    "different-from-itself", each.object_place, f"{name} is said to be another than itself"
+                    "different-from-itself", each.object_place, f"{name} is declared different from itself"
                 )
             elif each.predicate == RDF_TYPE and iri_of(each.object) == ALL_DIFFERENT:
                 yield from self._all_different(each.subject)
@@ -57,7 +57,7 @@ class IdentityChecker:
             return
         one, other = self._short(each.subject), self._short(each.object)
         if self._state.exists(iri_of(each.subject)) and self._state.exists(iri_of(each.object)):
-            message = f"{one} and {other} are said to be the same, and different names are different individuals here"
+            message = f"{one} and {other} are declared the same, but different names denote different individuals here"
             yield Diagnostic("same-individuals", each.object_place, message, f"call it {one} everywhere")
         else:
             message = f"`{self._state.vocabulary.short(SAME)}` has no effect in a scene: there is no individual {other}"
@@ -70,12 +70,12 @@ class IdentityChecker:
             self.used.add(node)
         for one, other in pairwise(sorted(members, key=lambda each: (str(each.object), each.object_at))):
             if one.object == other.object:
-                message = f"{self._short(one.object)} is said to be another than itself"
-                notes = (Label(one.object_place, "said here too"),)
+                message = f"{self._short(one.object)} is declared different from itself"
+                notes = (Label(one.object_place, "also stated here"),)
                 yield Diagnostic("different-from-itself", other.object_place, message, "keep one of them", labels=notes)
 
     def _members(self, head: Node) -> Iterator[Statement]:
-        """Yield the statements that say what is in a list, in order."""
+        """Yield the statements with the elements of a list, in order."""
         seen: set[Node] = set()
         while head not in seen and self._about.get(head):
             seen.add(head)
@@ -100,7 +100,7 @@ class IdentityChecker:
         if holds:
             value = target.object
             words = (self._short(by[SOURCE].object), self._short(by[PROPERTY].object), self._short(value))
-            message = f"`{' '.join(words)}` is true in this scene, and said not to be"
+            message = f"`{' '.join(words)}` holds in this scene, but is denied"
             yield Diagnostic(
                 "denied-fact", target.object_place, message, "keep one of them", labels=self._saying(by, value)
             )
@@ -108,10 +108,10 @@ class IdentityChecker:
     def _saying(self, by: dict[str, Statement], value: Node) -> tuple[Label, ...]:
         source, predicate = by[SOURCE].object, iri_of(by[PROPERTY].object)
         said = (each for each in self._about[source] if each.predicate == predicate and each.object == value)
-        return tuple(Label(each.object_place, "said here") for each in said)
+        return tuple(Label(each.object_place, "stated here") for each in said)
 
     def _holds(self, subject: str, predicate: str, value: Node) -> bool | None:
-        """Whether something is so; None where the vocabulary does not know what it means."""
+        """Whether a fact holds; None if it is not a fact of the vocabulary."""
         state = self._state
         if not state.exists(subject):
             return None

@@ -1,4 +1,4 @@
-"""What a scene says that has no effect: each kind of statement is named, nothing is left out in silence."""
+"""Finds statements of a scene that have no effect, so that nothing is ignored silently."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ from skillc_runtime.world.state.terms import HAS_TEMPLATE, TEMPLATE
 
 NAME = "no-effect"
 SHOWN = 5
-"""How many of the places of one kind of statement are noted."""
+"""The maximum number of labels for one kind of statement."""
 NOTHING = f"{OWL}Nothing"
 DECLARATIONS = frozenset({*CLASS_DECLARATIONS, ANNOTATION, TEMPLATE, f"{OWL}Ontology"})
-"""Whatever is of these classes is understood, and no individual."""
+"""Classes whose instances are understood but are not individuals."""
 TYPES_ELSEWHERE = DECLARATIONS | {NOTHING, NAMED_INDIVIDUAL, THING}
 ELSEWHERE = frozenset({HAS_TEMPLATE, TEMPLATE, f"{OWL}sameAs", f"{OWL}differentFrom"})
-"""What other rules tell of."""
+"""Predicates that other checks report."""
 _BY_CLASS_ALONE = "a scene declares classes alone; declare this in a .skill file or in an ontology"
 _HELP = {
     f"{OWL}ObjectProperty": _BY_CLASS_ALONE,
@@ -50,35 +50,35 @@ _HELP = {
 def check_ineffective(
     said: Sequence[Statement], facts: Iterable[Statement], vocabulary: Vocabulary, own: Set[str], used: Set[Node]
 ) -> Iterator[Diagnostic]:
-    """Yield a warning for each kind of statement of a scene that is no fact and changes nothing.
+    """Yield a warning for each kind of statement of a scene that is not a fact and has no effect.
 
-    `own` are the classes that the scene declares; `used` are things that other rules have read.
+    `own` are the classes that the scene declares; `used` are nodes that other checks have read.
     """
     kinds, of_blank = _Kinds(said, vocabulary, own), _of_blank(said)
     counted = {(each.lines.path, each.subject_at, each.predicate_at, each.object_at) for each in facts}
-    passed = _with_nested((each.object for each in said if kinds.is_note(each)), of_blank) | used
+    ignored = _with_nested((each.object for each in said if kinds.is_note(each)), of_blank) | used
     found: dict[str, list[Statement]] = defaultdict(list)
     for each in said:
         place = each.lines.path, each.subject_at, each.predicate_at, each.object_at
-        named = isinstance(each.subject, ox.NamedNode) and each.subject not in passed
+        named = isinstance(each.subject, ox.NamedNode) and each.subject not in ignored
         if named and place not in counted and not kinds.is_understood(each):
             found[_kind(each)].append(each)
-    told = _with_nested((each.object for each in said if isinstance(each.subject, ox.NamedNode)), of_blank)
+    nested = _with_nested((each.object for each in said if isinstance(each.subject, ox.NamedNode)), of_blank)
     for node in () if kinds.is_ontology else of_blank:
         if (
-            node not in passed
-            and node not in told
+            node not in ignored
+            and node not in nested
             and not any(_is_of_world(each, vocabulary) for each in of_blank[node])
         ):
             first = _first(of_blank[node])
             found[_kind(first)].append(first)
-            told |= _with_nested([node], of_blank)
+            nested |= _with_nested([node], of_blank)
     for term, statements in found.items():
         yield _problem(term, statements, vocabulary)
 
 
 class _Kinds:
-    """Which statements of a scene are understood though they are no facts about individuals."""
+    """Decides which statements of a scene are understood although they are not facts about individuals."""
 
     def __init__(self, said: Sequence[Statement], vocabulary: Vocabulary, own: Set[str]) -> None:
         self._vocabulary, self._own, self._terms = vocabulary, own, terms_of(vocabulary) - own
@@ -88,11 +88,11 @@ class _Kinds:
         self.is_ontology = any(cls == f"{OWL}Ontology" for _, cls in types)
 
     def is_note(self, each: Statement) -> bool:
-        """Whether something is said for people and other tools."""
+        """Whether a statement is for people and other tools."""
         return is_annotation(each.predicate) or each.predicate in self._notes
 
     def is_understood(self, each: Statement) -> bool:
-        """Whether nothing is lost when the statement is no fact."""
+        """Whether the statement has a meaning although it is not a fact."""
         subject, object_ = iri_of(each.subject), iri_of(each.object)
         if self.is_note(each) or each.subject in self._templates or each.predicate in ELSEWHERE:
             return True
@@ -107,7 +107,7 @@ class _Kinds:
         return False
 
     def _is_declared(self, iri: str, kind: str) -> bool:
-        """Whether a type is told elsewhere, or the vocabulary has a term of this kind, which the scene may declare."""
+        """Whether another check handles a type, or the vocabulary has a term of a kind that scenes may declare."""
         if kind in CLASS_DECLARATIONS:
             return iri in self._vocabulary.classes
         match kind.removeprefix(OWL):
@@ -120,46 +120,46 @@ class _Kinds:
 
 
 def check_language_tags(facts: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
-    """Yield a warning for each text of a property that says in which language it is."""
+    """Yield a warning for each text of a property with a language tag."""
     for each in facts:
         if each.predicate in vocabulary.properties and isinstance(each.object, ox.Literal) and each.object.language:
-            message = f"the language `@{each.object.language}` has no effect: the text counts, in whatever language"
+            message = f"the language `@{each.object.language}` has no effect: texts are used in any language"
             yield Diagnostic(
                 NAME, each.object_place, message, f"write {ox.Literal(each.object.value)}", severity="warning"
             )
 
 
 def is_ordinary(predicate: str) -> bool:
-    """Whether what is said with a predicate is a fact, or for people and other tools."""
+    """Whether statements with a predicate are facts or annotations."""
     return predicate in (RDF_TYPE, SUBCLASS) or is_annotation(predicate) or not is_remark(predicate)
 
 
 def is_ordinary_class(cls: str) -> bool:
-    """Whether it is understood, or told elsewhere, that something is of a class."""
+    """Whether statements that something is of a class are understood."""
     return cls in DECLARATIONS or not is_term_kind(cls)
 
 
 def check_missing_classes(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
-    """Yield an error for each named individual of which no class is said, and for each of the class that is empty."""
+    """Yield an error for each individual without a class, and for each of the class owl:Nothing."""
     typed = {each.subject for each in said if _is_type(each) and iri_of(each.object) != NAMED_INDIVIDUAL}
-    told: set[Node] = set()
+    reported: set[Node] = set()
     for each in said:
         if not _is_type(each) or not isinstance(each.subject, ox.NamedNode):
             continue
         name = vocabulary.short(each.subject.value)
         if iri_of(each.object) == NOTHING:
-            message = f"{name} is of the class owl:Nothing, and nothing is"
+            message = f"{name} is of the class owl:Nothing, which has no individuals"
             yield Diagnostic("disjoint-classes", each.object_place, message, "say what it is")
-        elif iri_of(each.object) == NAMED_INDIVIDUAL and each.subject not in typed | told:
-            told.add(each.subject)
+        elif iri_of(each.object) == NAMED_INDIVIDUAL and each.subject not in typed | reported:
+            reported.add(each.subject)
             others = [one for one in said if one.subject == each.subject and not is_remark(one.predicate)]
             if len(others) == 1:
                 help_ = "say what it is: `a CLASS ;`"
-                yield Diagnostic("unknown-individual", each.subject_place, f"{name} is of no class", help_)
+                yield Diagnostic("unknown-individual", each.subject_place, f"{name} has no class", help_)
 
 
 def _kind(each: Statement) -> str:
-    """Return the term by which a statement is named."""
+    """Return the term that names a kind of statement."""
     return iri_of(each.object) if _is_type(each) else each.predicate
 
 
@@ -176,18 +176,18 @@ def _is_type(each: Statement) -> bool:
 
 
 def _is_of_world(each: Statement, vocabulary: Vocabulary) -> bool:
-    """Whether a statement would be a fact if its subject had a name, which is told."""
+    """Whether a statement would be a fact if its subject had a name; that is reported elsewhere."""
     relation = each.predicate in vocabulary.relations or each.predicate in vocabulary.properties
     return relation or (_is_type(each) and iri_of(each.object) in vocabulary.classes)
 
 
 def _first(statements: Sequence[Statement]) -> Statement:
-    """Return the statement that says best what a thing without a name is."""
+    """Return the statement that best describes a blank node."""
     return next((each for each in statements if _is_type(each)), statements[0])
 
 
 def _with_nested(nodes: Iterable[Node], of_blank: dict[Node, list[Statement]]) -> set[Node]:
-    """Return the things without a name among nodes, and all below them."""
+    """Return the blank nodes among nodes, and all that are reachable from them."""
     return reachable(_blank(nodes), lambda node: _blank(each.object for each in of_blank.get(node, ())))
 
 

@@ -1,4 +1,4 @@
-"""What a scene must say to be plausible, beyond the axioms: turns turn, ranges are ranges."""
+"""Checks orientations and ranges of friction, which the axioms do not cover."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from skillc_runtime.world.state.terms import (
 from skillc_runtime.world.state.world_state import WorldState
 
 LEAST_NORM, GREATEST_NORM = 0.99, 1.01
-"""How long the quaternion of a rotation may be, which has length 1: numbers in files are rounded."""
+"""Limits for the length of a quaternion, which should be 1: numbers in files are rounded."""
 
 
 def check_plausible(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield what no thing can be like; rules about terms that the vocabulary lacks find nothing."""
-    for rule in (_turns, _frictions):
+    """Yield impossible values; checks of terms that the vocabulary does not have find nothing."""
+    for rule in (_rotations, _frictions):
         yield from rule(state)
 
 
-def _turns(state: WorldState) -> Iterator[SceneViolation]:
+def _rotations(state: WorldState) -> Iterator[SceneViolation]:
     parts = [dict(stored_values(state, name)) for name in ORIENTATION]
     for individual in parts[0]:
         numbers = [value for part in parts if isinstance(value := part.get(individual), int | float)]
@@ -41,7 +41,7 @@ def _turns(state: WorldState) -> Iterator[SceneViolation]:
 
 
 def _frictions(state: WorldState) -> Iterator[SceneViolation]:
-    """A surface has a friction or both ends of a range, the lower one first; other things may have neither."""
+    """Yield surfaces without friction or with an incomplete range, and invalid ranges of other objects."""
     if not {FRICTION, FRICTION_LOW, FRICTION_HIGH} <= state.stored.keys():
         return
     ranged = {thing for end in (FRICTION_LOW, FRICTION_HIGH) for thing, _ in stored_values(state, end)}
@@ -57,15 +57,15 @@ def _friction(state: WorldState, thing: str) -> Iterator[SceneViolation]:
                 message = f"{short(thing)} has no {short(FRICTION)}"
                 yield SceneViolation(thing, None, "missing-friction", message, f"write `{short(FRICTION)} NUMBER`")
         case (None, _):
-            yield _halved(state, thing, FRICTION_HIGH, FRICTION_LOW)
+            yield _incomplete_range(state, thing, FRICTION_HIGH, FRICTION_LOW)
         case (_, None):
-            yield _halved(state, thing, FRICTION_LOW, FRICTION_HIGH)
+            yield _incomplete_range(state, thing, FRICTION_LOW, FRICTION_HIGH)
         case (int() | float() as low, int() | float() as high) if low > high:
             message = f"{short(thing)}.{short(FRICTION_LOW)} = {low:g} is above its {short(FRICTION_HIGH)} = {high:g}"
             yield SceneViolation(thing, FRICTION_LOW, "not-a-range", message, "exchange the two")
 
 
-def _halved(state: WorldState, thing: str, there: str, lost: str) -> SceneViolation:
+def _incomplete_range(state: WorldState, thing: str, there: str, lost: str) -> SceneViolation:
     short = state.vocabulary.short
     message = f"{short(thing)} has a {short(there)} and no {short(lost)}"
     return SceneViolation(thing, there, "missing-friction", message, "the two go together")

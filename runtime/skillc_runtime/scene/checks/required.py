@@ -1,4 +1,4 @@
-"""What individuals must state because of their classes: the vocabulary says that each has at least one."""
+"""Checks that individuals state what their classes require."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def check_required(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield the individuals that lack what their classes require, each once with all that it lacks."""
+    """Yield each individual that lacks required properties or relations, once with all of them."""
     short = state.vocabulary.short
     for individual, required in _required(state):
         lost = {predicate: cls for predicate, cls in required if not _has(state, individual, predicate)}
@@ -19,12 +19,12 @@ def check_required(state: WorldState) -> Iterator[SceneViolation]:
             of = ", ".join(sorted({short(cls) for cls in lost.values()}))
             names = ", ".join(map(short, sorted(lost)))
             message = f"{short(individual)} has no {names}, as every {of} must"
-            cure = " ".join(f"`{short(name)} {_form(state, name)} ;`" for name in sorted(lost))
+            cure = " ".join(f"`{short(name)} {_placeholder(state, name)} ;`" for name in sorted(lost))
             yield SceneViolation(individual, None, "missing-property", message, f"write {cure}")
 
 
 def _required(state: WorldState) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
-    """Return the individuals that must state something, by IRI, each with what and the class that requires it."""
+    """Return the individuals with requirements, sorted by IRI, each with predicates and the classes requiring them."""
     known = state.vocabulary.classes
     by_classes: dict[frozenset[str], tuple[tuple[str, str], ...]] = {}
     for classes in {classes for _, classes in state.classes.items()}:
@@ -42,8 +42,8 @@ def _has(state: WorldState, individual: str, predicate: str) -> bool:
     return True
 
 
-def _form(state: WorldState, predicate: str) -> str:
-    """Return what stands behind a predicate."""
+def _placeholder(state: WorldState, predicate: str) -> str:
+    """Return a placeholder for the object of a predicate."""
     term = state.vocabulary.properties.get(predicate)
     if term is None:
         ranges = state.vocabulary.relations[predicate].signatures

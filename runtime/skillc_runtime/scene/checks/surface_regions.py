@@ -1,4 +1,4 @@
-"""What a scene must say of holes and patches: they lie on their surface, flat, and holes along its axes."""
+"""Checks holes and patches: they lie flat on their surface, and holes are aligned with its axes."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from skillc_runtime.world.state.terms import HAS_HOLE, HAS_PATCH, ORIENTATION, P
 from skillc_runtime.world.state.world_state import WorldState
 
 TURN_RAD = 0.02
-"""Areas that are turned by less than this count as straight: numbers in files are rounded."""
+"""Areas turned by less than this count as aligned: numbers in files are rounded."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Area:
-    """An area and its surface, by IRI, with their sizes (2,) in m, and its pose seen from the surface."""
+    """An area and its surface, by IRI, with their sizes (2,) in m, and the pose in the surface frame."""
 
     area: str
     surface: str
@@ -31,7 +31,7 @@ class _Area:
 
     @property
     def box(self) -> Array:
-        """The size (2,) in m of the least rectangle along the surface's axes with the area in it."""
+        """The size (2,) in m of the smallest rectangle along the surface's axes that contains the area."""
         return np.asarray(np.abs(self.pose.rotation[:2, :2]) @ self.size)
 
     @property
@@ -41,7 +41,7 @@ class _Area:
 
     @property
     def turn(self) -> float:
-        """The angle in rad, from 0 to an eighth of a turn, by which the area's sides miss the surface's axes."""
+        """The angle in rad, from 0 to pi / 4, between the sides of the area and the surface's axes."""
         angle = atan2(self.pose.rotation[1, 0], self.pose.rotation[0, 0])
         return abs((angle + pi / 4) % (pi / 2) - pi / 4)
 
@@ -52,7 +52,7 @@ class _Area:
 
 
 def check_surface_regions(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield the areas that cannot be worked on or around as they lie; those whose place is not known are left out."""
+    """Yield areas that are tilted, turned or beside their surface; areas without a known pose are left out."""
     for each in (*_areas(state, HAS_HOLE), *_areas(state, HAS_PATCH)):
         if each.tilt > TURN_RAD:
             yield _tilted(state, each)
@@ -101,6 +101,6 @@ def _beside(state: WorldState, each: _Area) -> SceneViolation:
 
 
 def _violation(state: WorldState, each: _Area, predicate: str, name: str, message: str, cure: str) -> SceneViolation:
-    """Return a flaw at what the area says of its pose, else at its class."""
-    said = predicate if state.value(each.area, predicate) is not None else None
-    return SceneViolation(each.area, said, name, message, cure)
+    """Return a violation at a predicate of the area's pose if it is stated, else at its class."""
+    stated = predicate if state.value(each.area, predicate) is not None else None
+    return SceneViolation(each.area, stated, name, message, cure)

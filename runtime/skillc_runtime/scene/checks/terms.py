@@ -1,4 +1,4 @@
-"""Whether terms of RDF, RDFS and OWL are spelt as they are, and things of the world have names."""
+"""Checks the spelling of terms of RDF, RDFS and OWL, and that individuals are not blank nodes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FIRST = f"{RDF}first"
 
 
 def check_spelling(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
-    """Yield what is wrong with terms of OWL and RDFS, and with things that have no name."""
+    """Yield misspelt terms of RDF, RDFS and OWL, and blank nodes that have a class of the vocabulary."""
     for each in said:
         cls = iri_of(each.object) if each.predicate == RDF_TYPE else ""
         if is_misspelt(each.predicate):
@@ -35,7 +35,7 @@ def check_spelling(said: Iterable[Statement], vocabulary: Vocabulary) -> Iterato
 
 
 def check_unnamed(said: Sequence[Statement], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
-    """Yield a problem for each thing without a name, and of no class, that a relation or a property is said of."""
+    """Yield a problem for each blank node without a class that has a relation or property, and for each list."""
     typed = {each.subject for each in said if each.predicate == RDF_TYPE and iri_of(each.object) in vocabulary.classes}
     lists = {each.subject for each in said if each.predicate == FIRST}
     reported = set[Node]()

@@ -193,8 +193,8 @@ def _functional_conflict(state: WorldState, fact: IriTriple) -> tuple[str, tuple
             written = asserted_facts(state, *rival)
             if written or not holds:
                 kind, stated = "functional" if term.functional else "inverse functional", " ".join(map(short, rival))
-                return f"{short(term.iri)} is {kind}, and `{stated}` is said too", written
-    return None if holds else ("the same write takes it back", ())
+                return f"{short(term.iri)} is {kind}, and `{stated}` is stated too", written
+    return None if holds else ("the same write replaces it", ())
 
 
 def _with_fact(state: WorldState, fact: IriTriple, violation: AxiomViolation | None) -> AxiomViolation | None:
