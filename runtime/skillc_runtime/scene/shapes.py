@@ -21,7 +21,7 @@ from skillc_rdf.vocabulary.types import (
     VectorType,
     Vocabulary,
 )
-from skillc_runtime.world.state.axioms import RelationAxioms
+from skillc_runtime.world.state.axioms import WorldAxioms
 
 SHAPES = "https://w3id.org/skillc/shapes#"
 PREFIXES = {"sh": "http://www.w3.org/ns/shacl#", "xsd": "http://www.w3.org/2001/XMLSchema#", "shape": SHAPES}
@@ -47,7 +47,7 @@ def _head(prefixes: Mapping[str, str]) -> Iterator[str]:
 class _Shapes:
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
-        self._sources = RelationAxioms(vocabulary).sources
+        self._sources = WorldAxioms(vocabulary).sources
 
     def all(self) -> Iterator[str]:
         for _, cls in sorted(self._vocabulary.classes.items()):

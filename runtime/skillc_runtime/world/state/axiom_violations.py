@@ -178,7 +178,7 @@ def asserted_facts(state: WorldState, subject: str, relation: str, object_: str)
 
 
 def _functional_conflict(state: WorldState, fact: IriTriple) -> tuple[str, tuple[IriTriple, ...]] | None:
-    """Return the reason and the asserted facts that a functional relation does not allow beside this one, or None.
+    """Return the reason and the asserted facts that a functional relation does not allow together with a fact, or None.
 
     A fact that was written and does not hold was replaced by another one of the same write.
     """

@@ -7,7 +7,7 @@ from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.world.state.computed import ComputedRelation
 
 
-class RelationAxioms:
+class WorldAxioms:
     """The consequences of the vocabulary's relation axioms for stored facts.
 
     `implied`, `sources` and `transitive` are those of the vocabulary's closure. `carriers[x]`, for a relation x that is

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.world.state.axioms import RelationAxioms
+from skillc_runtime.world.state.axioms import WorldAxioms
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.versioned import EMPTY, PairIndex, VersionedMap, VersionedSet
 from skillc_runtime.world.state.world_state import WorldState
@@ -75,7 +75,7 @@ class _SetInterner:
 class _RelationClosure:
     """Computes the facts of every relation from the assertions, as ClosureBuilder defines them."""
 
-    def __init__(self, axioms: RelationAxioms, asserted: dict[str, PairIndex], sets: _SetInterner) -> None:
+    def __init__(self, axioms: WorldAxioms, asserted: dict[str, PairIndex], sets: _SetInterner) -> None:
         self._axioms, self._asserted, self._sets = axioms, asserted, sets
         self._facts: dict[str, PairIndex] = {}
         self._closed: dict[frozenset[tuple[str, bool]], PairIndex] = {}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Set
 
 from skillc_rdf.vocabulary.closure import reachable
-from skillc_runtime.world.state.axioms import RelationAxioms
+from skillc_runtime.world.state.axioms import WorldAxioms
 from skillc_runtime.world.state.versioned import PairIndex, PairIndexBuilder
 
 
@@ -17,7 +17,7 @@ class ClosureBuilder:
     and the facts of its transitive sub-relations.
     """
 
-    def __init__(self, axioms: RelationAxioms, asserted: dict[str, PairIndex], facts: dict[str, PairIndex]) -> None:
+    def __init__(self, axioms: WorldAxioms, asserted: dict[str, PairIndex], facts: dict[str, PairIndex]) -> None:
         self._axioms = axioms
         self._asserted, self._facts = asserted, facts
         self._asserting: dict[str, PairIndexBuilder] = {}

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import assert_never
 
 from skillc_rdf.vocabulary.types import THING, Vocabulary
-from skillc_runtime.world.state.axioms import RelationAxioms
+from skillc_runtime.world.state.axioms import WorldAxioms
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -33,7 +33,7 @@ class WorldState:
     """
 
     vocabulary: Vocabulary
-    axioms: RelationAxioms
+    axioms: WorldAxioms
     direct: VersionedMap[str, frozenset[str]]
     classes: VersionedMap[str, frozenset[str]]
     members: dict[str, VersionedSet]
@@ -48,7 +48,7 @@ class WorldState:
         stored: dict[str, VersionedMap[str, Value | None]] = {iri: VersionedMap(None) for iri in vocabulary.properties}
         return WorldState(
             vocabulary,
-            RelationAxioms(vocabulary),
+            WorldAxioms(vocabulary),
             VersionedMap(EMPTY),
             VersionedMap(EMPTY),
             {},
