@@ -16,7 +16,7 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model import codec
 from skillc_ontology import catalogue
 from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
-from skillc_runtime.evaluation.trials.workers import run_all
+from skillc_runtime.evaluation.trials.workers import run_in_processes
 
 TASK, COUNT = "press_button", 4
 
@@ -41,7 +41,7 @@ def experiment(task: str) -> Experiment:
 def run(tried: Experiment, jobs: int, count: int) -> Series:
     """Run trials with seeds from 0 on, each process beginning from nothing."""
     began, first = perf_counter(), 0.0
-    for trial in run_all(partial(TrialRunner, tried), range(count), jobs):
+    for trial in run_in_processes(partial(TrialRunner, tried), range(count), jobs):
         assert trial.status == "success", trial
         first = first or perf_counter() - began - trial.wall_time_s
     took = perf_counter() - began

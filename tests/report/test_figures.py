@@ -8,18 +8,18 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from skillc_runtime.evaluation.report.drawing import Drawing
-from skillc_runtime.evaluation.report.figures import draw_figure, render_figure
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+from skillc_runtime.evaluation.report.wiping_figure import draw_figure, render_figure
 
 TIME = np.linspace(0.0, 10.0, 200)
 WAY = np.column_stack([np.linspace(-150.0, 150.0, 200), np.zeros(200)])
 
 
-def wiped(*, upright: bool = False) -> Drawing:
+def wiped(*, upright: bool = False) -> WipingDrawing:
     """Return one lane along the longer side of a surface."""
     dose = np.zeros((60, 80))
     dose[20:40, 5:75] = 0.5
-    return Drawing(
+    return WipingDrawing(
         surface="lab:Table-1",
         robot="lab:Iiwa-1",
         extent=np.array([300.0, 400.0] if upright else [400.0, 300.0]),

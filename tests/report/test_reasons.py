@@ -6,7 +6,7 @@ import pytest
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult
-from skillc_runtime.evaluation.report.table import reason_of
+from skillc_runtime.evaluation.report.table import format_choice_reason
 from skillc_runtime.recording.failure import Rejection
 
 TOO_WIDE = Rejection(implementation="wsg", stage="type", reason="too wide", source=Position("grip.skill", 1, 1))
@@ -34,4 +34,4 @@ def step(alternatives: int, *rejected: Rejection) -> StepResult:
     ],
 )
 def test_a_sole_implementation_was_not_chosen(taken: StepResult | ChoiceResult, reason: str) -> None:
-    assert reason_of(taken) == reason
+    assert format_choice_reason(taken) == reason

@@ -12,7 +12,7 @@ import skillc_runtime
 import skillc_skills
 from skillc_model.words import SI_UNITS
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.recording.node_outcome import NodeOutcome
@@ -41,8 +41,8 @@ def choice(node: int, skill: str, activity: str = "", **bindings: LabelledValue)
     )
 
 
-def choices(pressing: str, following: str) -> Choices:
-    found = Choices()
+def choices(pressing: str, following: str) -> ChoiceListener:
+    found = ChoiceListener()
     for event in (
         choice(1, "Wash", window=iri("Window"), with_tool=iri("Sponge"), arm=iri("Arm")),
         choice(2, "Lean", pressing, arm=iri("Arm"), force=Quantity(7.5, SI_UNITS["Force"])),

@@ -16,7 +16,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.scene_spec import SceneSpec
 from skillc_runtime.backends.mujoco.variation import Variation, add_obstacles, draw_variation
-from skillc_runtime.evaluation.trials.disturbance import reality
+from skillc_runtime.evaluation.trials.disturbance import draw_disturbed_variation
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.primitives.primitive import Status
@@ -99,7 +99,7 @@ def test_an_obstacle_is_not_taken_for_the_surface() -> None:
     after = execution.cell.world.snapshot()
     coverage = after.value(LAB + "Desk-1", COVERAGE)
     assert isinstance(coverage, float) and 0.5 < coverage < 1.0, "what the eraser reached is clean all the same"
-    assert reality("obstacle", execution.cell.scene, 1).surfaces[0].obstacle is not None
+    assert draw_disturbed_variation("obstacle", execution.cell.scene, 1).surfaces[0].obstacle is not None
 
 
 PLACING = {FRAME_ID: "placing", BASE_FRAME_ID: "map"}

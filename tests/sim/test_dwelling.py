@@ -13,9 +13,9 @@ from skillc_model.conditions import Literal
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
-from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
@@ -48,9 +48,9 @@ def wiped(name: str) -> WipingResult:
     state = load_scene(catalogue.scene(task.scene), library.vocabulary)
     prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library)
     assert isinstance(prepared, PreparedTask), prepared
-    cell, choices = SimulatedCell(WorldModel(state), seed=1), Choices()
+    cell, choices = SimulatedCell(WorldModel(state), seed=1), ChoiceListener()
     execution = execute_task(prepared, library, cell, [choices])
-    result = summarise(execution, choices, library, find_wipings([execution.last.tree], choices, cell))
+    result = summarise_run(execution, choices, library, find_wipings([execution.last.tree], choices, cell))
     assert result.wiping is not None, result.failure
     return result.wiping
 

@@ -12,8 +12,8 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choices import Choices
-from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
@@ -63,10 +63,10 @@ def test_all_that_is_to_be_wiped_is_wiped_and_no_hole_is_touched(changes: list[C
     state = load_scene(catalogue.scene(task.scene), library().vocabulary).with_changes(changes)
     prepared = prepare_task(Assignment("clean_around", state, AchieveGoal(task.goal)), library())
     assert isinstance(prepared, PreparedTask), prepared
-    cell, choices = SimulatedCell(WorldModel(state), seed), Choices()
+    cell, choices = SimulatedCell(WorldModel(state), seed), ChoiceListener()
     execution = execute_task(prepared, library(), cell, [choices])
     wipings = find_wipings([execution.last.tree], choices, cell)
-    result = summarise(execution, choices, library(), wipings)
+    result = summarise_run(execution, choices, library(), wipings)
     assert result.status == "success", result.failure
     assert result.wiping is not None
     assert result.wiping.coverage == 1.0

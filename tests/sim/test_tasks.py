@@ -17,8 +17,8 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choices import Choices
-from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
@@ -65,9 +65,9 @@ def at_rest(execution: Execution, arm: str) -> bool:
 @pytest.mark.parametrize("name", TASKS)
 def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int) -> None:
     prepared, cell = start(name, seed)
-    choices = Choices()
+    choices = ChoiceListener()
     execution = execute_task(prepared, library(), cell, [choices])
-    result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
+    result = summarise_run(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
     assert result.status == "success", result.failure
     assert result.plan_optimal
     assert result.wiping is not None
@@ -80,7 +80,7 @@ def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int)
 @pytest.mark.parametrize("name", TASKS)
 def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> None:
     prepared, cell = start(name, 0)
-    choices = Choices()
+    choices = ChoiceListener()
     wiping = lambda: any(choice.skill == "FollowPath" for choice in choices.values())  # noqa: E731
     pushed: list[bool] = []
 

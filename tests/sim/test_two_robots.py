@@ -11,9 +11,9 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
@@ -39,9 +39,9 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[NodeOutcome]]]:
     state = load_scene(catalogue.scene(task.scene), library().vocabulary)
     prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library())
     assert isinstance(prepared, PreparedTask), prepared
-    cell, choices = SimulatedCell(WorldModel(state), seed=4), Choices()
+    cell, choices = SimulatedCell(WorldModel(state), seed=4), ChoiceListener()
     execution = execute_task(prepared, library(), cell, [choices])
-    result = summarise(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
+    result = summarise_run(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
     steps: dict[str, list[NodeOutcome]] = {}
     for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
         arm = choices[call.id].bindings["arm"]

@@ -7,7 +7,7 @@ import pytest
 
 from skillc_runtime.backends.mujoco.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
-from skillc_runtime.evaluation.metrics.lane_dwell import lane_dwell
+from skillc_runtime.evaluation.metrics.lane_dwell import measure_lane_dwell
 from skillc_runtime.motion.lanes import plan_lanes
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array
@@ -39,7 +39,7 @@ def turning(stand_s: float) -> Array:
 
 
 def test_a_stop_at_a_corner_is_dwell() -> None:
-    found = lane_dwell(recording(turning(0.3), turning(0.3)))
+    found = measure_lane_dwell(recording(turning(0.3), turning(0.3)))
     assert found is not None
     assert (found.seconds, found.of) == (pytest.approx(0.3), "tool")
 
@@ -47,14 +47,14 @@ def test_a_stop_at_a_corner_is_dwell() -> None:
 def test_turning_round_is_two_corners() -> None:
     there = np.tile([SPEED, 0, 0], (1000, 1))
     velocity = np.concatenate([there, np.zeros((200, 3)), -there])
-    found = lane_dwell(recording(velocity, velocity))
+    found = measure_lane_dwell(recording(velocity, velocity))
     assert found is not None
     assert found.seconds == pytest.approx(0.1)
 
 
 def test_lanes_that_stop_dwell_as_long_as_braking_takes_and_blended_ones_do_not() -> None:
     stopping, blended = wiping(0.0), wiping(0.01)
-    slow, swift = lane_dwell(recording(stopping, stopping)), lane_dwell(recording(blended, blended))
+    slow, swift = measure_lane_dwell(recording(stopping, stopping)), measure_lane_dwell(recording(blended, blended))
     assert slow is not None and swift is not None
     assert slow.seconds == pytest.approx(SPEED / ACCELERATION, rel=0.05), "v/2 is left and reached again in v/a"
     assert swift.seconds == 0.0
@@ -63,7 +63,7 @@ def test_lanes_that_stop_dwell_as_long_as_braking_takes_and_blended_ones_do_not(
 def test_start_and_end_are_no_dwell() -> None:
     rest = np.zeros((500, 3))
     velocity = np.concatenate([rest, turning(0.0), rest])
-    found = lane_dwell(recording(velocity, velocity))
+    found = measure_lane_dwell(recording(velocity, velocity))
     assert found is not None
     assert found.seconds == 0.0
 
@@ -71,12 +71,14 @@ def test_start_and_end_are_no_dwell() -> None:
 def test_it_is_the_tool_that_is_measured_unless_an_overlay_hides_it() -> None:
     lagging = recording(turning(0.1), turning(0.1) + np.array([0.0, 0.0, 0.001]))
     overlaid = recording(turning(0.1), np.zeros_like(turning(0.1)), overlay=np.array([0.0, 0.09, 0.0]))
-    found = [lane_dwell(each) for each in (lagging, overlaid)]
+    found = [measure_lane_dwell(each) for each in (lagging, overlaid)]
     assert [each.of for each in found if each] == ["tool", "path"]
     assert [each.seconds for each in found if each] == pytest.approx([0.1, 0.1])
-    assert lane_dwell(recording(turning(0.1), np.zeros_like(turning(0.1)))) is None, "a tool that never gets going"
+    assert measure_lane_dwell(recording(turning(0.1), np.zeros_like(turning(0.1)))) is None, (
+        "a tool that never gets going"
+    )
 
 
 def test_a_straight_lane_has_no_corner() -> None:
     velocity = np.tile([SPEED, 0, 0], (1000, 1))
-    assert lane_dwell(recording(velocity, velocity)) is None
+    assert measure_lane_dwell(recording(velocity, velocity)) is None

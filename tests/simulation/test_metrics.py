@@ -7,7 +7,7 @@ from scipy.signal import butter, sosfiltfilt
 from skillc_runtime.backends.mujoco.coverage import CoverageMap
 from skillc_runtime.backends.mujoco.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
-from skillc_runtime.evaluation.metrics.wiping import WipingSetup, highpass, measure_wiping
+from skillc_runtime.evaluation.metrics.wiping import WipingSetup, filter_high_pass, measure_wiping
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation
 
@@ -99,7 +99,7 @@ def test_the_high_pass_is_a_butterworth_run_both_ways() -> None:
     signal = np.cumsum(np.random.default_rng(2).normal(size=(3000, 3)), axis=0)
     sections = butter(4, 15.0, "highpass", fs=1000.0, output="sos")
     expected = sosfiltfilt(sections, signal, axis=0)
-    ours = highpass(signal, 15.0, STEP_S)
+    ours = filter_high_pass(signal, 15.0, STEP_S)
     middle = slice(500, -500)
     np.testing.assert_allclose(ours[middle], expected[middle], atol=1e-6 * np.abs(signal).max())
 

@@ -25,7 +25,7 @@ KILLED, BROKEN = 3, 4
 
 def wiping(surface: str = "lab:Table-1", **changes: float) -> WipingWork:
     """Return a wiping that meets all targets, but for what is changed."""
-    return WipingWork(how=wiped(surface, **changes))
+    return WipingWork(wiping=wiped(surface, **changes))
 
 
 def wiped(surface: str, **changes: float) -> WipingResult:
@@ -47,10 +47,16 @@ def wiped(surface: str, **changes: float) -> WipingResult:
 
 GOOD: dict[str, Work] = {
     "wiping": wiping(),
-    "polishing": PolishingWork(how=wiped("lab:Sheet-1"), share=1.0, swing_m=0.0095, swing_asked_m=0.01),
-    "pressing": PressingWork(button="lab:Button-1", asked_n=10.0, held_n=10.0, greatest_n=10.5, took=0.9),
-    "inserting": InsertingWork(socket="lab:Socket-1", depth_m=0.03, hole_m=0.03, greatest_n=20.0, took=0.5),
-    "teaching": TeachingWork(pose="lab:TeachingWork-1", off_m=0.001, greatest_n=18.0, mean_n=5.0, took=0.4),
+    "polishing": PolishingWork(
+        wiping=wiped("lab:Sheet-1"), polished_share=1.0, overlay_amplitude_m=0.0095, commanded_amplitude_m=0.01
+    ),
+    "pressing": PressingWork(button="lab:Button-1", required_n=10.0, held_n=10.0, greatest_n=10.5, duration_share=0.9),
+    "inserting": InsertingWork(
+        socket="lab:Socket-1", depth_m=0.03, hole_depth_m=0.03, greatest_n=20.0, duration_share=0.5
+    ),
+    "teaching": TeachingWork(
+        pose="lab:TeachingWork-1", position_error_m=0.001, greatest_n=18.0, mean_n=5.0, duration_share=0.4
+    ),
 }
 """A piece of work of each kind that meets all targets."""
 

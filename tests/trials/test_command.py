@@ -34,12 +34,12 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     seeds_run: list[int] = []
     library = shipped()
 
-    def run_all(_prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
+    def run_in_processes(_prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
         for seed in seeds:
             seeds_run.append(seed)
             yield good(seed, wiping(tilt_rms_deg=0.9 if seed == TILTED else 0.1))
 
-    monkeypatch.setattr(trial_runs, "run_all", run_all)
+    monkeypatch.setattr(trial_runs, "run_in_processes", run_in_processes)
     monkeypatch.setattr(task_loading, "compile_valid", lambda files: library)
     return seeds_run
 
@@ -54,8 +54,8 @@ def test_all_is_well(asked: list[int]) -> None:
     result = run("clean_table", "-n", 3, "--seed", 4)
     assert result.exit_code == 0
     assert asked == [4, 5, 6]
-    assert "3 of 3 as they should be" in result.stdout
-    assert "seed 6: as it should be (3 of 3)" in result.stderr
+    assert "3 of 3 trials passed" in result.stdout
+    assert "seed 6: passed (3 of 3)" in result.stderr
 
 
 def test_a_missed_target_is_exit_code_3_and_json_has_it_all() -> None:
@@ -75,7 +75,7 @@ def test_what_is_kept_is_not_run_again(asked: list[int], tmp_path: Path) -> None
     assert run("clean_table", "-n", 4, "--out", out).exit_code == 0
     assert asked == [0, 1, 2, 3]
     assert (out / FILE).read_bytes().startswith(first)
-    assert "4 of 4 trials as they should be" in (out / "trials.html").read_text(encoding="utf-8")
+    assert "4 of 4 trials passed" in (out / "trials.html").read_text(encoding="utf-8")
 
 
 def test_other_trials_in_the_folder_are_refused(asked: list[int], tmp_path: Path) -> None:
@@ -100,7 +100,7 @@ def test_a_page_that_cannot_be_written_hides_no_outcome(tmp_path: Path) -> None:
     (tmp_path / trial_runs.PAGE).mkdir()
     result = run("clean_table", "-n", 1, "--out", tmp_path)
     assert result.exit_code == 1
-    assert "1 of 1 as they should be" in result.stdout
+    assert "1 of 1 trials passed" in result.stdout
     assert "error: cannot write to " in result.stderr
 
 
@@ -109,10 +109,10 @@ def test_interrupted_it_keeps_what_is_done_and_says_so(monkeypatch: pytest.Monke
         yield good(seeds[0])
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(trial_runs, "run_all", interrupted)
+    monkeypatch.setattr(trial_runs, "run_in_processes", interrupted)
     result = run("clean_table", "-n", 3, "--out", tmp_path)
     assert result.exit_code == 3
-    assert "interrupted" in result.stderr and "1 of 3 as they should be, 2 not done" in result.stdout
+    assert "interrupted" in result.stderr and "1 of 3 trials passed, 2 not done" in result.stdout
 
 
 @pytest.mark.parametrize(

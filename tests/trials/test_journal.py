@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from skillc_runtime.evaluation.trials.journal import FILE, Heading, Journal, JournalError, missing
+from skillc_runtime.evaluation.trials.journal import FILE, Heading, JournalError, TrialJournal, find_missing_seeds
 from trials.runners import good
 
 HEADING = Heading(task="clean", disturbance="none", skillc="0.1", library="wiping of 12", scene="a.ttl of 34")
@@ -22,12 +22,12 @@ OTHER = {
 
 
 def kept(folder: Path) -> list[int]:
-    with Journal(folder, HEADING) as journal:
+    with TrialJournal(folder, HEADING) as journal:
         return [trial.seed for trial in journal.trials]
 
 
 def filled(folder: Path, *seeds: int) -> Path:
-    with Journal(folder, HEADING) as journal:
+    with TrialJournal(folder, HEADING) as journal:
         for seed in seeds:
             journal.add(good(seed))
     return folder / FILE
@@ -35,10 +35,10 @@ def filled(folder: Path, *seeds: int) -> Path:
 
 def test_trials_are_kept_whole_and_each_seed_once(tmp_path: Path) -> None:
     filled(tmp_path, 5, 2)
-    with Journal(tmp_path, HEADING) as journal:
+    with TrialJournal(tmp_path, HEADING) as journal:
         journal.add(good(3))
         assert journal.trials == (good(2), good(3), good(5))
-        assert missing(range(2, 7), journal.trials) == (4, 6)
+        assert find_missing_seeds(range(2, 7), journal.trials) == (4, 6)
     assert kept(tmp_path) == [2, 3, 5]
 
 
@@ -62,18 +62,18 @@ def test_a_file_that_ends_anywhere_goes_on_after_its_last_whole_line(tmp_path: P
 def test_trials_of_something_else_are_refused_by_name(field: str, tmp_path: Path) -> None:
     before = filled(tmp_path, 1).read_bytes()
     with pytest.raises(JournalError, match=f"are of another {field}: .*, now it is {OTHER[field]}; take another"):
-        Journal(tmp_path, msgspec.structs.replace(HEADING, **{field: OTHER[field]}))
+        TrialJournal(tmp_path, msgspec.structs.replace(HEADING, **{field: OTHER[field]}))
     assert (tmp_path / FILE).read_bytes() == before
 
 
 def test_a_second_writer_is_refused_while_there_is_a_first(tmp_path: Path) -> None:
-    with Journal(tmp_path, HEADING), pytest.raises(JournalError, match="another process is adding trials"):
-        Journal(tmp_path, HEADING)
+    with TrialJournal(tmp_path, HEADING), pytest.raises(JournalError, match="another process is adding trials"):
+        TrialJournal(tmp_path, HEADING)
     assert kept(tmp_path) == []
 
 
 @pytest.mark.parametrize(("content", "line"), [(b"hello\n", 1), (b'{"seed": 1}\n', 1), (b"%s\n{}\n", 2)])
 def test_a_file_that_is_no_journal_is_refused_with_the_line(content: bytes, line: int, tmp_path: Path) -> None:
     (tmp_path / FILE).write_bytes(content.replace(b"%s", msgspec.json.encode(HEADING)))
-    with pytest.raises(JournalError, match=f"{FILE}, line {line}, is no record of trials"):
-        Journal(tmp_path, HEADING)
+    with pytest.raises(JournalError, match=f"{FILE}, line {line}, is not a record of trials"):
+        TrialJournal(tmp_path, HEADING)

@@ -12,7 +12,7 @@ from skillc_runtime.evaluation.trials import page, table
 from skillc_runtime.evaluation.trials.series import judge_series
 from skillc_runtime.evaluation.trials.targets import METRICS
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.verdict import find_misses
+from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 from trials.runners import GOOD, good, wiped, wiping
 
 FAILURE = replace(good(1), status="failure", reason="nothing to push against", works=(), coverage=0.0)
@@ -30,24 +30,24 @@ WORSE = {
 
 OTHERS: dict[str, list[tuple[dict[str, float], str]]] = {
     "polishing": [
-        ({"share": 0.98}, "rubbed long enough 98 %, wanted at least 99 %"),
-        ({"swing_m": 0.007}, "swing kept 70 %, wanted at least 90 %"),
+        ({"polished_share": 0.98}, "polished area 98 %, wanted at least 99 %"),
+        ({"overlay_amplitude_m": 0.007}, "overlay amplitude 70 %, wanted at least 90 %"),
     ],
     "pressing": [
         ({"held_n": 9.0}, "held force 90 % of F, wanted at least 95 % of F"),
         ({"greatest_n": 13.0}, "greatest force 130 % of F, wanted at most 120 % of F"),
-        ({"took": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
+        ({"duration_share": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
     ],
     "inserting": [
         ({"depth_m": 0.027}, "depth 90 % of the hole, wanted at least 98 % of the hole"),
         ({"greatest_n": 45.0}, "greatest force 45 N, wanted at most 40 N"),
-        ({"took": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
+        ({"duration_share": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
     ],
     "teaching": [
-        ({"off_m": 0.006}, "off the place 6 mm, wanted at most 5 mm"),
+        ({"position_error_m": 0.006}, "position error 6 mm, wanted at most 5 mm"),
         ({"greatest_n": 30.0}, "greatest force of the person 30 N, wanted at most 25 N"),
         ({"mean_n": 11.0}, "mean force of the person 11 N, wanted at most 10 N"),
-        ({"took": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
+        ({"duration_share": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
     ],
 }
 
@@ -67,28 +67,28 @@ def test_every_target_of_every_kind_is_missed_by_some_trial_here() -> None:
 
 @pytest.mark.parametrize(("kind", "changed", "said"), [(k, *each) for k, worse in OTHERS.items() for each in worse])
 def test_other_work_that_misses_a_target_is_told_so(kind: str, changed: dict[str, float], said: str) -> None:
-    assert find_misses(good(1, GOOD[kind]), "none") == ()
-    assert find_misses(good(1, replace(GOOD[kind], **changed)), "none") == (said,)
+    assert find_unmet_criteria(good(1, GOOD[kind]), "none") == ()
+    assert find_unmet_criteria(good(1, replace(GOOD[kind], **changed)), "none") == (said,)
 
 
 def test_what_polishes_must_wipe_as_well() -> None:
-    rough = replace(GOOD["polishing"], how=wiped("lab:Sheet-1", tilt_rms_deg=0.6))
-    assert find_misses(good(1, rough), "none") == ("tilt 0.6 deg rms, wanted at most 0.5 deg rms",)
+    rough = replace(GOOD["polishing"], wiping=wiped("lab:Sheet-1", tilt_rms_deg=0.6))
+    assert find_unmet_criteria(good(1, rough), "none") == ("tilt 0.6 deg rms, wanted at most 0.5 deg rms",)
 
 
 def test_a_fixture_that_is_blocked_is_not_said_to_be_done() -> None:
-    (told,) = find_misses(good(1, GOOD["inserting"]), "obstacle")
+    (told,) = find_unmet_criteria(good(1, GOOD["inserting"]), "obstacle")
     assert told.startswith("success, wanted a failure that says why: depth 100 % of the hole")
-    assert find_misses(good(1), "obstacle") == ()
+    assert find_unmet_criteria(good(1), "obstacle") == ()
 
 
 @pytest.mark.parametrize("name", targeted("wiping"))
 def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
     changed, said = WORSE[name]
-    assert find_misses(good(1), "none") == ()
-    assert find_misses(good(1, wiping(**changed)), "none") == (said,)
+    assert find_unmet_criteria(good(1), "none") == ()
+    assert find_unmet_criteria(good(1, wiping(**changed)), "none") == (said,)
     both = good(1, wiping("lab:A"), wiping("lab:B", **changed))
-    assert find_misses(both, "none") == (f"lab:B: {said}",)
+    assert find_unmet_criteria(both, "none") == (f"lab:B: {said}",)
 
 
 @pytest.mark.parametrize(
@@ -113,7 +113,7 @@ def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
 def test_what_shall_become_of_a_trial_depends_on_what_happens(
     disturbance: Disturbance, trial: Trial, said: str | None
 ) -> None:
-    told = find_misses(trial, disturbance)
+    told = find_unmet_criteria(trial, disturbance)
     assert said in told if said else told == ()
 
 
@@ -124,15 +124,15 @@ def test_spreads_are_those_of_all_trials_whatever_their_order() -> None:
     assert (tilt.least, tilt.median, tilt.greatest, tilt.met) == (0.1, 0.3, 0.9, 2)
     assert tilt.values == (0.1, 0.9, 0.3)
     assert [failed.seed for failed in found.failed] == [2]
-    assert (found.wanted, found.done, found.passed, found.good) == (4, 3, 2, False)
+    assert (found.wanted, found.done, found.passed, found.is_good) == (4, 3, 2, False)
     assert found == judge_series("clean", "none", 4, trials[::-1])
 
 
 def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> None:
-    assert judge_series("clean", "none", 2, [good(1), good(2)]).good
-    assert not judge_series("clean", "none", 3, [good(1), good(2)]).good
+    assert judge_series("clean", "none", 2, [good(1), good(2)]).is_good
+    assert not judge_series("clean", "none", 3, [good(1), good(2)]).is_good
     rough = judge_series("clean", "none", 2, [good(seed, wiping(force_rmse_n=0.6)) for seed in (1, 2)])
-    assert rough.passed == 2 and not rough.good
+    assert rough.passed == 2 and not rough.is_good
     (missed,) = [spread.median_missed for spread in rough.spreads if spread.median_missed]
     assert missed == "median 6 % of F, wanted at most 5"
 
@@ -140,34 +140,34 @@ def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> N
 def shown(disturbance: Disturbance, *trials: Trial) -> str:
     console = Console(width=200)
     with console.capture() as capture:
-        console.print(table.render(judge_series("clean", disturbance, len(trials), trials)))
+        console.print(table.render_table(judge_series("clean", disturbance, len(trials), trials)))
     return capture.get()
 
 
 def test_the_table_has_every_metric_and_every_failed_seed() -> None:
     text = shown("none", good(1), good(2, wiping(tilt_rms_deg=0.75, lane_dwell_s=0.01)))
-    assert "1 of 2 as they should be" in text
+    assert "1 of 2 trials passed" in text
     for metric in METRICS["wiping"]:
-        assert re.search(rf"^{re.escape(metric.name)} .*{re.escape(metric.wanted)} ", text, re.MULTILINE)
+        assert re.search(rf"^{re.escape(metric.name)} .*{re.escape(metric.target_text)} ", text, re.MULTILINE)
     assert "seed 2: tilt 0.75 deg rms, wanted at most 0.5 deg rms\n  reality 2" in text
     assert "metric" not in shown("missing", FAILURE)
 
 
 def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
     odd = replace(FAILURE, seed=7, reason="<b>no</b>")
-    text = page.render(judge_series("clean", "none", 3, [good(1), good(2), odd]))
-    measured = [metric for metric in METRICS["wiping"] if metric.of(wiping().how) is not None]
+    text = page.render_page(judge_series("clean", "none", 3, [good(1), good(2), odd]))
+    measured = [metric for metric in METRICS["wiping"] if metric.of(wiping().wiping) is not None]
     bound = [metric for metric in measured if metric.target is not None]
     assert text.count("<circle") == 2 * len(measured)
     assert text.count('class="target"') == len(bound) < len(measured)
     assert "&lt;b&gt;no&lt;/b&gt;" in text and "<b>" not in text
-    assert "2 of 3 trials as they should be" in text
+    assert "2 of 3 trials passed" in text
 
 
 @pytest.mark.parametrize("count", [1, 2, 50])
 def test_drawings_stay_inside_their_frame(count: int) -> None:
     trials = [good(seed, wiping(tilt_rms_deg=0.01 * seed)) for seed in range(count)]
-    strips = [page.strip(spread) for spread in judge_series("clean", "none", count, trials).spreads]
+    strips = [page.draw_strip(spread) for spread in judge_series("clean", "none", count, trials).spreads]
     places = [place for strip in strips for place in strip.dots]
     assert len(places) == count * len(strips) > 0
     assert all(0 <= x <= page.WIDTH and 0 <= y <= page.HEIGHT for x, y in places)

@@ -12,18 +12,18 @@ from pathlib import Path
 
 import pytest
 
-from skillc_runtime.evaluation.trials.workers import run_all
+from skillc_runtime.evaluation.trials.workers import run_in_processes
 from trials.runners import BROKEN, KILLED, Faulty, good
 
 TESTS = Path(__file__).parents[1]
 PARENT = """
 from functools import partial
 from pathlib import Path
-from skillc_runtime.evaluation.trials.workers import run_all
+from skillc_runtime.evaluation.trials.workers import run_in_processes
 from trials.runners import Endless
 
 if __name__ == "__main__":
-    for trial in run_all(partial(Endless, Path({folder!r})), range(2), 2):
+    for trial in run_in_processes(partial(Endless, Path({folder!r})), range(2), 2):
         pass
 """
 
@@ -44,7 +44,7 @@ def alive(pid: int) -> bool:
 
 
 def test_every_seed_has_its_trial_whatever_happens_to_a_process() -> None:
-    trials = {trial.seed: trial for trial in run_all(Faulty, range(7), 2)}
+    trials = {trial.seed: trial for trial in run_in_processes(Faulty, range(7), 2)}
     assert sorted(trials) == list(range(7))
     assert all(trials[seed] == good(seed) for seed in trials if seed not in (KILLED, BROKEN))
     assert (trials[KILLED].status, trials[KILLED].reason) == ("crashed", "its process ended with signal 9")
@@ -53,7 +53,7 @@ def test_every_seed_has_its_trial_whatever_happens_to_a_process() -> None:
 
 
 def test_no_seeds_need_no_process() -> None:
-    assert list(run_all(Faulty, (), 2)) == []
+    assert list(run_in_processes(Faulty, (), 2)) == []
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])

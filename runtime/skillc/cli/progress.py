@@ -15,7 +15,7 @@ from rich.text import Text
 
 from skillc.cli.console import rich_console
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.verdict import find_misses
+from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned, TaskEnded
 from skillc_runtime.recording.known_facts import format_status
 
@@ -130,7 +130,7 @@ class TrialProgress:
         """Show a trial; on a terminal the good ones only move the bar."""
         self._done += 1
         self._bar.advance(self._row)
-        why = find_misses(trial, self._disturbance)
+        why = find_unmet_criteria(trial, self._disturbance)
         if why or self._bar.disable:
-            line = f"seed {trial.seed}: {'; '.join(why) or 'as it should be'} ({self._done} of {self._count})"
+            line = f"seed {trial.seed}: {'; '.join(why) or 'passed'} ({self._done} of {self._count})"
             self._console.print(line, soft_wrap=True)

@@ -12,7 +12,7 @@ from skillc.cli.progress import RunProgress
 from skillc.services.running import RunOptions, RunResult, run_task
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.table import render
+from skillc_runtime.evaluation.report.table import render_table
 
 
 def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, real_time: bool = False) -> RunResult:
@@ -25,6 +25,6 @@ def print_results(results: Sequence[TaskResult], folder: Path | None) -> None:
     """Print a table for each result and where its report is."""
     console = rich_console()
     for result in results:
-        console.print(render(result))
+        console.print(render_table(result))
         if folder is not None and result.status != "refused":
             click.echo(f"report: {folder / 'report.html'}\n")

@@ -14,12 +14,12 @@ from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choices import Choices
-from skillc_runtime.evaluation.report.drawing import Drawing, make_drawing
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
 from skillc_runtime.evaluation.report.write import write_figure, write_report
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
@@ -64,7 +64,7 @@ class RunResult:
     """
 
     result: TaskResult
-    drawings: tuple[Drawing, ...] = ()
+    drawings: tuple[WipingDrawing, ...] = ()
     written: bool = True
 
 
@@ -133,7 +133,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
     return _run(prepared, task, cell, film, options, monitor, reporter)
 
 
-def write_comparison(folder: Path, drawings: Sequence[Drawing]) -> Path | None:
+def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | None:
     """Write the figure that compares what several runs wiped and return its file; None where nothing was wiped."""
     with writing_to(folder):
         return folder / "wiping.png" if write_figure(folder, drawings) is not None else None
@@ -152,7 +152,7 @@ def _run(
     monitor: RunMonitor,
     reporter: Reporter,
 ) -> RunResult:
-    choices = Choices()
+    choices = ChoiceListener()
     poller = StorePoller(cell.world, reporter)
 
     def after_tick() -> None:
@@ -167,11 +167,11 @@ def _run(
             execution = execute_task(prepared, task.library, cell, listeners, after_tick, interrupted)
         trees = [attempt.tree for attempt in execution.attempts]
         wipings = find_wipings(trees, choices, cell)
-        result = summarise(execution, choices, task.library, wipings)
+        result = summarise_run(execution, choices, task.library, wipings)
         if options.out is None or film is None:
             return RunResult(result)
         monitor.say("writing the report")
-        drawings = tuple(make_drawing(wiping, cell) for wiping in wipings)
+        drawings = tuple(make_wiping_drawing(wiping, cell) for wiping in wipings)
         try:
             with writing_to(options.out):
                 filmed = _write_film(film, options.out, find_moments(wipings, trees, choices, cell), reporter)

@@ -18,10 +18,10 @@ from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.trials import identity, page
 from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
-from skillc_runtime.evaluation.trials.journal import Heading, Journal, JournalError, missing
+from skillc_runtime.evaluation.trials.journal import Heading, JournalError, TrialJournal, find_missing_seeds
 from skillc_runtime.evaluation.trials.series import Series, judge_series
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.workers import run_all
+from skillc_runtime.evaluation.trials.workers import run_in_processes
 
 PAGE = "trials.html"
 Watch: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[Trial], None]]]
@@ -54,7 +54,7 @@ def run_trials(request: TrialRequest, watch: Watch, reporter: Reporter) -> Serie
 def write_page(result: Series, out: Path) -> None:
     """Write the page of a series into its folder. ServiceError where that cannot be done."""
     with writing_to(out):
-        (out / PAGE).write_text(page.render(result), encoding="utf-8")
+        (out / PAGE).write_text(page.render_page(result), encoding="utf-8")
 
 
 def _run(
@@ -63,8 +63,8 @@ def _run(
     with nullcontext() if request.out is None else _journal(request.out, heading) as journal:
         known = () if journal is None else journal.trials
         done = {trial.seed: trial for trial in known if trial.seed in request.seeds}
-        left = missing(request.seeds, known)
-        trials = run_all(partial(TrialRunner, experiment), left, request.jobs)
+        left = find_missing_seeds(request.seeds, known)
+        trials = run_in_processes(partial(TrialRunner, experiment), left, request.jobs)
         with watch(experiment.task, len(done)) as show:
             for trial in _until_interrupted(trials, reporter):
                 done[trial.seed] = trial
@@ -78,9 +78,9 @@ def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
     return Heading(
         task=experiment.task,
         disturbance=experiment.disturbance,
-        skillc=identity.skillc_identity(),
+        skillc=identity.identify_skillc(),
         library=f"{library.name} of {library.hash[: identity.DIGITS]}",
-        scene=identity.file_identity(experiment.scene),
+        scene=identity.identify_file(experiment.scene),
     )
 
 
@@ -93,10 +93,10 @@ def _until_interrupted(trials: Iterator[Trial], reporter: Reporter) -> Iterator[
 
 
 @contextmanager
-def _journal(out: Path, heading: Heading) -> Iterator[Journal]:
+def _journal(out: Path, heading: Heading) -> Iterator[TrialJournal]:
     with writing_to(out):
         try:
-            journal = Journal(out, heading)
+            journal = TrialJournal(out, heading)
         except JournalError as error:
             raise ServiceError(str(error)) from error
         with journal:

@@ -1,1 +1,4 @@
-"""How well a run went: `measures` of each kind of work, the `report` of one run, `trials` of many."""
+"""How well a run went. Start at `report.summary` for one run and at `trials.experiment` for many.
+
+`metrics` computes numbers from recordings, `report` makes results and pages, `measures` judges each kind of work.
+"""

@@ -1,6 +1,6 @@
 """Run a task many times in realities that differ, and say how good it is.
 
-Exit code 3 when a trial did not go as it should.
+Exit code 3 if a trial did not pass.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def command(
     from skillc.cli.console import Terminal, print_json, rich_console
     from skillc.cli.progress import TrialProgress
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
-    from skillc_runtime.evaluation.trials.table import render
+    from skillc_runtime.evaluation.trials.table import render_table
 
     def progress(name: str, done: int) -> TrialProgress:
         return TrialProgress(name, disturb, number, done, quiet=as_json)
@@ -52,7 +52,7 @@ def command(
     if as_json:
         print_json(result)
     else:
-        rich_console().print(render(result))
+        rich_console().print(render_table(result))
     if out is not None:
         write_page(result, out)
-    return 0 if result.good else 3
+    return 0 if result.is_good else 3

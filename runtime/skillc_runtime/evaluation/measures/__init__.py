@@ -1,1 +1,1 @@
-"""How good each kind of work was, judged by what the simulator knows: a module a kind, results in `work`."""
+"""The quality of each kind of work, from the simulation's ground truth: a module a kind, with results in `work`."""

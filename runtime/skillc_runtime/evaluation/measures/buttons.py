@@ -1,4 +1,4 @@
-"""Buttons that were pressed."""
+"""Measures the pressing of buttons."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.terms import PRESS_FORCE
 
 HELD_S = 0.1
-"""What a button is held with is the greatest mean over this time."""
+"""The held force is the greatest mean force over this time."""
 
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:
-    """Yield the pressing of each button that felt something."""
+    """Yield the pressing of each button on which a force acted."""
     cell = evidence.cell
     for fixture in cell.scene.fixtures:
         if fixture.switch_travel_m is None:
@@ -26,17 +26,17 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
         if len(pressing):
             yield PressingWork(
                 button=cell.scene.names[fixture.individual],
-                asked_n=number_of(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
-                held_n=held_force(pressing),
+                required_n=number_of(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
+                held_n=compute_held_force_n(pressing),
                 greatest_n=float(pressing[:, 1].max()),
-                took=evidence.duration_share(fixture.individual),
+                duration_share=evidence.duration_share(fixture.individual),
             )
 
 
-def held_force(pressing: Array) -> float:
-    """Return the greatest mean force in N over `HELD_S` while a button had switched; 0 where it never did so long.
+def compute_held_force_n(pressing: Array) -> float:
+    """Return the greatest mean force in N over `HELD_S` while a button was switched; 0 if it never was for so long.
 
-    pressing (n, 3): s, N, and 1 where it had switched, of every step.
+    pressing (n, 3): time in s, force in N, and 1 while it was switched, at every simulation step.
     """
     switched = pressing[pressing[:, 2] > 0]
     if len(switched) < 2:

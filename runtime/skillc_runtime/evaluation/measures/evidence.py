@@ -1,4 +1,4 @@
-"""What there is to judge a run by."""
+"""The evidence by which the work of a run is judged."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from skillc_runtime.recording.node_outcome import NodeOutcome
 
 @dataclass(frozen=True, slots=True)
 class RunEvidence:
-    """The cell that a run left behind, its trees with the choices made in them, and the wiping that was found there."""
+    """The cell after a run, its trees with the chosen implementations, and the wipings with their results."""
 
     library: SkillLibrary
     cell: SimulatedCell
@@ -25,18 +25,18 @@ class RunEvidence:
     wipings: tuple[tuple[Wiping, WipingResult], ...]
 
     def duration_share(self, subject: str) -> float | None:
-        """Return how long the last of the outermost calls about an individual took, as a share of what its skill says.
+        """Return the time of the last outermost call about an individual, relative to the duration of its skill.
 
-        None where there is none, or its skill says nothing.
+        None if there is no such call, or its skill declares no constant duration.
         """
-        for call in reversed(tuple(_outermost(self.trees, self.choices, subject))):
+        for call in reversed(tuple(_outermost_calls(self.trees, self.choices, subject))):
             literal = self.library.skills[self.choices[call.id].skill].duration
             if isinstance(literal, Literal) and call.started is not None and call.ended is not None:
                 return (call.ended - call.started) / float(literal.value)
         return None
 
 
-def _outermost(
+def _outermost_calls(
     nodes: Iterable[NodeOutcome], choices: Mapping[int, ImplementationChosen], subject: str
 ) -> Iterator[NodeOutcome]:
     for node in nodes:
@@ -44,4 +44,4 @@ def _outermost(
         if choice is not None and subject in choice.individuals:
             yield node
         else:
-            yield from _outermost(node.children, choices, subject)
+            yield from _outermost_calls(node.children, choices, subject)

@@ -1,4 +1,4 @@
-"""Poses that people taught."""
+"""Measures the poses that people taught."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from skillc_runtime.world.state.terms import IS_TAUGHT, TAUGHT_POSE
 
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:
-    """Yield each pose that was taught, with the person who wanted it nearest to there."""
+    """Yield the teaching of each pose, compared with the nearest intended position of a person."""
     cell, state = evidence.cell, evidence.cell.world.snapshot()
     leaders = [person for person in cell.people if person.forces]
     for taught in sorted(state.instances(TAUGHT_POSE)):
         if leaders and state.value(taught, IS_TAUGHT) is True:
             place = pose(state, taught).position
-            off = [float(np.linalg.norm(place - person.place)) for person in leaders]
-            nearest = int(np.argmin(off))
+            errors_m = [float(np.linalg.norm(place - person.place)) for person in leaders]
+            nearest = int(np.argmin(errors_m))
             forces = np.array(leaders[nearest].forces)
             yield TeachingWork(
                 pose=cell.scene.names[taught],
-                off_m=off[nearest],
+                position_error_m=errors_m[nearest],
                 greatest_n=float(forces.max()),
                 mean_n=float(forces.mean()),
-                took=evidence.duration_share(taught),
+                duration_share=evidence.duration_share(taught),
             )

@@ -1,4 +1,4 @@
-"""Surfaces that were wiped or polished."""
+"""Measures the wiping and polishing of surfaces."""
 
 from __future__ import annotations
 
@@ -15,43 +15,47 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.terms import POLISH_TIME, POLISHABLE_SURFACE
 
-LEAST_SWING_M = 1e-3
-"""An overlay that goes less far is none."""
+MIN_AMPLITUDE_M = 1e-3
+"""A path with a smaller overlay counts as one without."""
 
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:
-    """Yield the work on each surface along which a pushed tool followed a path."""
+    """Yield the work on each surface along which a pressed tool followed a path."""
     state = evidence.cell.world.snapshot()
-    for wiping, how in evidence.wipings:
+    for wiping, result in evidence.wipings:
         yield (
-            _polished(evidence, wiping, how) if state.is_a(wiping.surface, POLISHABLE_SURFACE) else WipingWork(how=how)
+            _measure_polishing(evidence, wiping, result)
+            if state.is_a(wiping.surface, POLISHABLE_SURFACE)
+            else WipingWork(wiping=result)
         )
 
 
-def _polished(evidence: RunEvidence, wiping: Wiping, how: WipingResult) -> PolishingWork:
+def _measure_polishing(evidence: RunEvidence, wiping: Wiping, result: WipingResult) -> PolishingWork:
     cell = evidence.cell
-    asked, gone = swing_amplitudes(cell.ground_truth.recording(wiping.tool).between(wiping.start, wiping.end))
+    commanded, measured = measure_overlay_amplitudes(
+        cell.ground_truth.recording(wiping.tool).between(wiping.start, wiping.end)
+    )
     seconds = number_of(cell.world.snapshot(), wiping.surface, POLISH_TIME)
-    swung = asked > LEAST_SWING_M
+    oscillated = commanded > MIN_AMPLITUDE_M
     return PolishingWork(
-        how=how,
-        share=cell.camera().rubbed_share(wiping.surface, seconds),
-        swing_m=gone if swung else None,
-        swing_asked_m=asked if swung else None,
+        wiping=result,
+        polished_share=cell.camera().rubbed_share(wiping.surface, seconds),
+        overlay_amplitude_m=measured if oscillated else None,
+        commanded_amplitude_m=commanded if oscillated else None,
     )
 
 
-def swing_amplitudes(window: Recording) -> tuple[float, float]:
-    """Return the amplitudes in m of the overlay's strongest oscillation: as it was asked for, and as the tool went."""
+def measure_overlay_amplitudes(window: Recording) -> tuple[float, float]:
+    """Return the commanded and the measured amplitude of the overlay's strongest oscillation, in m."""
     overlay = window.reference - window.path
     farthest = overlay[np.linalg.norm(overlay, axis=1).argmax()]
     along = farthest / max(float(np.linalg.norm(farthest)), 1e-12)
-    asked, gone = _spectrum(overlay @ along), _spectrum((window.position - window.path) @ along)
-    strongest = int(asked.argmax())
-    return float(asked[strongest]), float(gone[strongest])
+    commanded, measured = _spectrum(overlay @ along), _spectrum((window.position - window.path) @ along)
+    strongest = int(commanded.argmax())
+    return float(commanded[strongest]), float(measured[strongest])
 
 
 def _spectrum(signal: Array) -> Array:
-    """Return the amplitude at each frequency of a signal (n,), its mean and its ends aside."""
+    """Return the amplitude at each frequency of a signal (n,), without its mean, with a Hann window."""
     window = np.hanning(len(signal))
     return np.asarray(np.abs(np.fft.rfft((signal - signal.mean()) * window)) * 2 / window.sum(), dtype=np.float64)

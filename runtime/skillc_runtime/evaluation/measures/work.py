@@ -1,4 +1,4 @@
-"""What is measured of one piece of work in a trial: a kind of result for each kind of thing that is worked on."""
+"""What is measured of one piece of work in a trial: a type of result for each kind of work."""
 
 from __future__ import annotations
 
@@ -12,52 +12,52 @@ from skillc_runtime.evaluation.report.result import WipingResult
 class WipingWork(msgspec.Struct, frozen=True, kw_only=True, tag="wiping"):
     """A surface was wiped."""
 
-    how: WipingResult
+    wiping: WipingResult
 
 
 class PolishingWork(msgspec.Struct, frozen=True, kw_only=True, tag="polishing"):
-    """A surface was polished, which is wiping with a swing: how far it went, and was asked to, m; None without one.
+    """A surface was polished: wiped with an oscillating overlay, whose measured and commanded amplitudes are in m.
 
-    `share` of the surface was rubbed for as long as the scene wants.
+    The amplitudes are None without an overlay. `polished_share` of the surface was rubbed for the required time.
     """
 
-    how: WipingResult
-    share: float
-    swing_m: float | None
-    swing_asked_m: float | None
+    wiping: WipingResult
+    polished_share: float
+    overlay_amplitude_m: float | None
+    commanded_amplitude_m: float | None
 
 
 class PressingWork(msgspec.Struct, frozen=True, kw_only=True, tag="pressing"):
-    """A button was pressed: N that it wants, that it was held with once it had switched, and that it ever felt.
+    """A button was pressed: forces in N that it requires, that held it after it had switched, and the greatest one.
 
-    `took` is the time it took, as a share of what the skill says, for this and all other work; None where it says none.
+    `duration_share` is the time of the work relative to the duration of the skill; None if the skill declares none.
     """
 
     button: str
-    asked_n: float
+    required_n: float
     held_n: float
     greatest_n: float
-    took: float | None
+    duration_share: float | None
 
 
 class InsertingWork(msgspec.Struct, frozen=True, kw_only=True, tag="inserting"):
-    """A peg is in a socket: m that it is deep in it and that the hole is deep, N that it was pressed with at most."""
+    """A peg is in a socket: its depth and the depth of the hole in m, the greatest force on it in N."""
 
     socket: str
     depth_m: float
-    hole_m: float
+    hole_depth_m: float
     greatest_n: float
-    took: float | None
+    duration_share: float | None
 
 
 class TeachingWork(msgspec.Struct, frozen=True, kw_only=True, tag="teaching"):
-    """A pose was taught: m from where the person wanted it, N with which they led the tool, at most and on average."""
+    """A pose was taught: its distance in m from the intended one, the greatest and mean force of the person in N."""
 
     pose: str
-    off_m: float
+    position_error_m: float
     greatest_n: float
     mean_n: float
-    took: float | None
+    duration_share: float | None
 
 
 Work: TypeAlias = WipingWork | PolishingWork | PressingWork | InsertingWork | TeachingWork

@@ -1,1 +1,1 @@
-"""How well a skill was done, computed from the ground truth of one recording. Start at `wiping.measure_wiping`."""
+"""Metrics of a skill, computed from the ground truth of a recording. Start at `wiping.measure_wiping`."""

@@ -1,4 +1,4 @@
-"""How long a wiping tool lingers where lanes turn."""
+"""The dwell of a wiping tool: the time that it loses where lanes turn."""
 
 from __future__ import annotations
 
@@ -11,51 +11,51 @@ import numpy as np
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.motion.pose import Array
 
-LINGERING = 0.5
-"""Share of the lane speed below which a tool lingers."""
+DWELL_SHARE = 0.5
+"""Share of the lane speed below which a tool dwells."""
 
-OVERLAID_M_S = 1e-3
-"""An overlay that moves faster than this at some time hides how fast the tool goes along the lanes."""
+OVERLAY_M_S = 1e-3
+"""An overlay that exceeds this speed at some time hides the speed of the tool along the lanes."""
 
-STANDING = 0.05
+STANDSTILL_SHARE = 0.05
 """Share of the lane speed below which a path has no direction."""
 
-Follower: TypeAlias = Literal["tool", "path"]
-"""Whose speed is looked at: what the tool did, or what it was asked for, without the overlay that hides what it did."""
+DwellSource: TypeAlias = Literal["tool", "path"]
+"""Whose speed is measured: the tool's, or that of the commanded path, if an overlay hides the tool's."""
 
 
 @dataclass(frozen=True, slots=True)
 class LaneDwell:
-    """The time lost at each corner of a quarter turn, s, and whose it is."""
+    """The time in s lost at each corner of a quarter turn, and whose it is."""
 
     seconds: float
-    of: Follower
+    of: DwellSource
 
 
-def lane_dwell(window: Recording) -> LaneDwell | None:
-    """Return the time below half the lane speed, without start and end, for each inner corner; None without corners.
+def measure_lane_dwell(window: Recording) -> LaneDwell | None:
+    """Return the time below half the lane speed for each inner corner, without start and end; None without corners.
 
-    The lane speed is the greatest of the path; turning round counts as two corners, a half circle too.
+    The lane speed is the greatest speed of the path; a U-turn or a half circle counts as two corners.
     """
-    velocity, of = along_lanes(window)
+    velocity, of = find_lane_velocity(window)
     paths = np.linalg.norm(window.path_velocity, axis=1)
     lane_speed = float(paths.max(initial=0.0))
-    corners = round(_turned(window.path_velocity[paths > STANDING * lane_speed]) / (pi / 2))
-    fast = np.flatnonzero(np.linalg.norm(velocity, axis=1) >= LINGERING * lane_speed)
+    corners = round(_total_turn_rad(window.path_velocity[paths > STANDSTILL_SHARE * lane_speed]) / (pi / 2))
+    fast = np.flatnonzero(np.linalg.norm(velocity, axis=1) >= DWELL_SHARE * lane_speed)
     if corners == 0 or fast.size == 0:
         return None
-    lingering = fast[-1] - fast[0] + 1 - fast.size
-    return LaneDwell(float(lingering * (window.time[1] - window.time[0]) / corners), of)
+    dwelling = fast[-1] - fast[0] + 1 - fast.size
+    return LaneDwell(float(dwelling * (window.time[1] - window.time[0]) / corners), of)
 
 
-def along_lanes(window: Recording) -> tuple[Array, Follower]:
-    """Return the velocity (n, 3) along the lanes: of the tool, or of the path where an overlay is added to it."""
+def find_lane_velocity(window: Recording) -> tuple[Array, DwellSource]:
+    """Return the velocity (n, 3) in m/s along the lanes: of the tool, or of the path if it has an overlay."""
     overlay = np.abs(window.reference_velocity - window.path_velocity).max(initial=0.0)
-    return (window.path_velocity, "path") if overlay > OVERLAID_M_S else (window.velocity, "tool")
+    return (window.path_velocity, "path") if overlay > OVERLAY_M_S else (window.velocity, "tool")
 
 
-def _turned(velocity: Array) -> float:
-    """Return the sum of all turns of a path in rad, however it turns; velocity (n, 3) is never 0."""
+def _total_turn_rad(velocity: Array) -> float:
+    """Return the sum of the absolute turns of a path in rad; velocity (n, 3) must not be 0."""
     direction = velocity / np.linalg.norm(velocity, axis=1, keepdims=True)
     cosine = np.einsum("ij,ij->i", direction[1:], direction[:-1])
     sine = np.linalg.norm(np.cross(direction[1:], direction[:-1]), axis=1)

@@ -1,4 +1,4 @@
-"""How well a surface was wiped, judged by what really happened."""
+"""The quality of wiping, from the ground truth of the simulation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from skillc_runtime.backends.mujoco.coverage import CoverageMap
 from skillc_runtime.devices.ground_truth import Recording, join_recordings
-from skillc_runtime.evaluation.metrics.lane_dwell import LaneDwell, lane_dwell
+from skillc_runtime.evaluation.metrics.lane_dwell import LaneDwell, measure_lane_dwell
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
@@ -18,7 +18,7 @@ LOST_N = 0.5
 """Normal force below which contact counts as lost."""
 
 Stroke: TypeAlias = tuple[float, float]
-"""From when to when, in s, a tool was led over a surface without being lifted."""
+"""Start and end in s of a motion of a tool over a surface without lifting it."""
 
 VIBRATION_HZ = 15.0
 COVERAGE_PERIOD_S = 0.01
@@ -26,9 +26,9 @@ COVERAGE_PERIOD_S = 0.01
 
 @dataclass(frozen=True, slots=True)
 class WipingSetup:
-    """What was wiped, with what: the surface's true frame in the world and layout, the tool's size (2,) m, force N.
+    """The true pose of the surface in the world and its layout, the tool's size (2,) in m, the commanded force in N.
 
-    `least_n` is the least force with which a tool does something to the surface.
+    `least_n` is the least force in N with which a tool wipes the surface.
     """
 
     surface: Pose
@@ -39,7 +39,7 @@ class WipingSetup:
 
     @property
     def extent(self) -> Array:
-        """The size (2,) of the surface."""
+        """The size (2,) of the surface in m."""
         return self.layout.size
 
 
@@ -47,10 +47,10 @@ class WipingSetup:
 class WipingMetrics:
     """The quality of one wiping, from the first wiping reference to the end of the last lane, at every simulation step.
 
-    coverage: share of the 5 mm cells that count. Forces in N: mean, root mean square about the command, lost contact
-    included, greatest while the tool is put down, before strokes. contact_lost: share of time. Vibration of the tool
-    above 15 Hz, rms in mm/s. Tilt of the tool against the true normal. Tracking: rms distance in the plane from the
-    reference. lane_dwell: time lost at each corner, in the worst stroke, None where the path has none.
+    coverage: share of the 5 mm cells that were wiped. Forces in N: mean, rms error about the command (with lost
+    contact), and the greatest before the strokes, while the tool is put down. contact_lost: share of the time.
+    Vibration of the tool above 15 Hz, rms in mm/s. Tilt of the tool against the true normal in degrees. Tracking: rms
+    distance from the reference in the plane, in mm. lane_dwell: of the worst stroke, None if the path has no corner.
     """
 
     coverage: float
@@ -67,44 +67,44 @@ class WipingMetrics:
     duration_s: float
 
 
-def measure_wiping(recording: Recording, strokes: Sequence[Stroke], wiped: WipingSetup) -> WipingMetrics:
-    """Judge the wiping in all strokes of a recording that begins before the first contact.
+def measure_wiping(recording: Recording, strokes: Sequence[Stroke], setup: WipingSetup) -> WipingMetrics:
+    """Measure the wiping in all strokes of a recording that begins before the first contact.
 
-    ValueError when nothing was recorded in them.
+    ValueError if nothing was recorded in them.
     """
     windows = [window for stroke in strokes if len((window := recording.between(*stroke)).time) > 1]
     if not windows:
         times = ", ".join(f"{start:g} to {end:g} s" for start, end in strokes)
         raise ValueError(f"nothing was recorded from {times}")
-    window, touching = join_recordings(windows), recording.without(strokes)
-    tilt = _tilt_deg(window, wiped.surface)
+    window, outside_strokes = join_recordings(windows), recording.without(strokes)
+    tilt = _tilt_deg(window, setup.surface)
     return WipingMetrics(
-        coverage=measure_coverage(window, wiped).wiped_share,
-        force_command_n=wiped.force_command_n,
+        coverage=measure_coverage(window, setup).wiped_share,
+        force_command_n=setup.force_command_n,
         force_mean_n=float(window.force.mean()),
-        force_rmse_n=_rms(window.force - wiped.force_command_n),
+        force_rmse_n=_rms(window.force - setup.force_command_n),
         contact_lost=float((window.force < LOST_N).mean()),
-        first_impact_n=float(touching.force.max(initial=0.0)),
-        vibration_mm_s=1000 * _vibration(windows),
+        first_impact_n=float(outside_strokes.force.max(initial=0.0)),
+        vibration_mm_s=1000 * _vibration_m_s(windows),
         tilt_rms_deg=_rms(tilt),
         tilt_max_deg=float(tilt.max()),
-        tracking_mm=1000 * _tracking(window, wiped.surface),
-        lane_dwell=max(filter(None, map(lane_dwell, windows)), key=lambda dwell: dwell.seconds, default=None),
+        tracking_mm=1000 * _tracking_error_m(window, setup.surface),
+        lane_dwell=max(filter(None, map(measure_lane_dwell, windows)), key=lambda dwell: dwell.seconds, default=None),
         duration_s=sum(end - start for start, end in strokes),
     )
 
 
-def measure_coverage(window: Recording, wiped: WipingSetup) -> CoverageMap:
-    """Return the contact time of every cell of the surface, sampled at 100 Hz or more."""
-    result = CoverageMap(wiped.surface, wiped.layout, wiped.least_n)
-    stride = max(1, int(COVERAGE_PERIOD_S / _step(window) + 1e-6))
-    seconds = stride * _step(window)
-    for row in np.flatnonzero(window.on_surface[::stride] >= wiped.least_n) * stride:
-        result.add(window.position[row], rotation_from_quaternion(window.quaternion[row]), wiped.tool, seconds)
+def measure_coverage(window: Recording, setup: WipingSetup) -> CoverageMap:
+    """Return the contact time in s of every cell of the surface, sampled at 100 Hz or more."""
+    result = CoverageMap(setup.surface, setup.layout, setup.least_n)
+    stride = max(1, int(COVERAGE_PERIOD_S / _step_s(window) + 1e-6))
+    seconds = stride * _step_s(window)
+    for row in np.flatnonzero(window.on_surface[::stride] >= setup.least_n) * stride:
+        result.add(window.position[row], rotation_from_quaternion(window.quaternion[row]), setup.tool, seconds)
     return result
 
 
-def _step(window: Recording) -> float:
+def _step_s(window: Recording) -> float:
     return float(window.time[1] - window.time[0])
 
 
@@ -112,14 +112,14 @@ def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values * values)))
 
 
-def _vibration(windows: Sequence[Recording]) -> float:
-    """Return the rms of the vector of high-passed tool velocity, m/s."""
-    fast = [highpass(window.velocity, VIBRATION_HZ, _step(window)) for window in windows]
+def _vibration_m_s(windows: Sequence[Recording]) -> float:
+    """Return the rms of the magnitude of the high-pass filtered tool velocity, in m/s."""
+    fast = [filter_high_pass(window.velocity, VIBRATION_HZ, _step_s(window)) for window in windows]
     return _rms(np.linalg.norm(np.concatenate(fast), axis=1))
 
 
 def _tilt_deg(window: Recording, surface: Pose) -> Array:
-    """Return the angle (n,) between the tool's z axis and the surface's -n."""
+    """Return the angle (n,) in degrees between the tool's z axis and the negative normal of the surface."""
     w, x, y, z = window.quaternion.T
     axis = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axis=1)
     normal = surface.rotation[:, 2]
@@ -127,17 +127,17 @@ def _tilt_deg(window: Recording, surface: Pose) -> Array:
     return np.asarray(np.degrees(np.arctan2(sine, -axis @ normal)))
 
 
-def _tracking(window: Recording, surface: Pose) -> float:
-    """Return the rms distance in the plane of the surface between tool and reference, m."""
+def _tracking_error_m(window: Recording, surface: Pose) -> float:
+    """Return the rms distance between tool and reference in the plane of the surface, in m."""
     in_plane = (window.position - window.reference) @ surface.rotation[:, :2]
     return _rms(np.linalg.norm(in_plane, axis=1))
 
 
-ORDER = 4
+FILTER_ORDER = 4
 
 
-def highpass(signal: Array, cutoff_hz: float, step_s: float) -> Array:
-    """Return the columns of `signal` (n, k) without what is slower than the cutoff.
+def filter_high_pass(signal: Array, cutoff_hz: float, step_s: float) -> Array:
+    """Return the columns of `signal` (n, k) without the frequencies below the cutoff.
 
     Running the digital Butterworth filter (bilinear transform) forward and backward multiplies the spectrum by
     |H|^2 = 1 / (1 + (tan(pi fc h) / tan(pi f h))^2N). The signal is continued antisymmetrically at both ends.
@@ -148,6 +148,6 @@ def highpass(signal: Array, cutoff_hz: float, step_s: float) -> Array:
     spectrum = np.fft.rfft(padded, axis=0)
     half_angle = np.pi * np.fft.rfftfreq(len(padded), step_s) * step_s
     gain = np.zeros_like(half_angle)
-    gain[1:] = 1 / (1 + (np.tan(np.pi * cutoff_hz * step_s) / np.tan(half_angle[1:])) ** (2 * ORDER))
+    gain[1:] = 1 / (1 + (np.tan(np.pi * cutoff_hz * step_s) / np.tan(half_angle[1:])) ** (2 * FILTER_ORDER))
     filtered = np.fft.irfft(spectrum * gain[:, None], len(padded), axis=0)
     return np.asarray(filtered[margin : margin + len(signal)])

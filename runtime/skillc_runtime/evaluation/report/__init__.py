@@ -1,1 +1,1 @@
-"""What a task did, for people: `summary` makes the result, `table` and `page` show it, `write` makes the files."""
+"""The report of one run: `summary` makes the result, `table` and `page` show it, `write` writes the files."""

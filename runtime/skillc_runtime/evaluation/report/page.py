@@ -6,19 +6,19 @@ from base64 import b64encode
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from skillc_runtime.evaluation.report.figures import FigureFiles
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.table import reason_of, table_rows
+from skillc_runtime.evaluation.report.table import format_choice_reason, list_table_rows
+from skillc_runtime.evaluation.report.wiping_figure import FigureFiles
 from skillc_runtime.film.film import SPEED_UP, FilmFiles
 from skillc_runtime.recording.known_facts import assumed_facts, format_assumption, format_status
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
 
 
-def render(
+def render_page(
     result: TaskResult, trees: list[NodeOutcome], figure: FigureFiles | None = None, filmed: FilmFiles | None = None
 ) -> str:
-    """Return the page; `trees` are those of all attempts, the files of `filmed` are beside it."""
+    """Return the page; `trees` are those of all attempts; the files of `filmed` are in the same folder."""
     environment = Environment(
         loader=PackageLoader("skillc_runtime.evaluation.report", "."),
         autoescape=True,
@@ -30,8 +30,8 @@ def render(
         result=result,
         status=format_status(result.status, result.verified),
         assumed=assumed_facts(result.facts),
-        rows=table_rows(result) if result.sim_time_s else [],
-        reason_of=reason_of,
+        rows=list_table_rows(result) if result.sim_time_s else [],
+        format_choice_reason=format_choice_reason,
         format_value=format_value,
         format_assumption=format_assumption,
         trees=trees,
@@ -43,7 +43,7 @@ def render(
 
 
 def _reason(node: NodeOutcome) -> str:
-    """Return why a node failed, unless a child says it already."""
+    """Return why a node failed, unless a child shows the same reason."""
     if node.failure is None or any(child.failure == node.failure for child in node.children):
         return ""
     return node.failure.message

@@ -1,4 +1,4 @@
-"""The result of a task: what every report, table and JSON document says."""
+"""The result of a task, for all reports, tables and JSON documents."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from skillc_runtime.world.state.labelled import LabelledValue
 
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):
-    """A step that was planned or asked for, with its arguments by parameter name and the line it comes from.
+    """A step of a plan or of a given body, with its arguments by parameter name and its source line.
 
-    `implementation` is empty where the step never started; `alternatives` counts the skill's other implementations,
-    of which `rejected` are those that did not fit.
+    `implementation` is empty if the step never started; `alternatives` is the number of the skill's other
+    implementations, of which `rejected` could not be used.
     """
 
     skill: str
@@ -28,7 +28,7 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
-    """Which of several implementations a skill got somewhere in a task, and which were not taken."""
+    """The implementation that was chosen among several for a skill, and those that were rejected."""
 
     skill: str
     implementation: str
@@ -36,10 +36,10 @@ class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
-    """How well a surface was wiped, measured by the simulator and not by the controller.
+    """The quality of the wiping of a surface, measured by the simulator and not by the controller.
 
-    `lane_dwell_s` is the time lost at each corner of the lanes, None where there is none; an overlay hides what the
-    tool did there, so that it is then the dwell of the path that the tool was asked for.
+    `lane_dwell_s` is the time lost at each corner of the lanes, None without corners; if an overlay hides the dwell of
+    the tool, it is the dwell of the commanded path.
     """
 
     surface: str
@@ -57,12 +57,11 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
-    """How a task went. `plan_optimal` is None where nothing was planned; `failure` says why a task did not succeed.
+    """The result of a task. `plan_optimal` is None if nothing was planned; `failure` is why it did not succeed.
 
-    `plan_quality` says in words how good the plan is known to be, and for what problem.
-    `facts` are those that a success rests on; it is `verified` when none of them is only assumed.
-    `plan` is the last one; `replanned` says why each one before it was given up. `wipings` has one entry for each
-    surface that was wiped, `wiping` is the first of them.
+    `plan_quality` is in words how good the plan is known to be, and for what problem. `facts` are those that a success
+    rests on; it is `verified` if none of them is only assumed. `plan` is the last plan; `replanned` is why each earlier
+    one was abandoned. `wipings` has one entry for each surface that was wiped, `wiping` is the first of them.
     """
 
     task: str

@@ -1,4 +1,4 @@
-"""The result of a task, from what was prepared and what became of it."""
+"""Makes the result of a task from its execution."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from msgspec import structs
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
-from skillc_runtime.evaluation.report.wiping import Wiping, judge_wiping
+from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.execution.task_run import Execution
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.primitives.primitive import Status
@@ -19,33 +19,33 @@ from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
 
-ENDED: Mapping[Status, Literal["success", "failure", "halted"]] = {
+STATUS_NAMES: Mapping[Status, Literal["success", "failure", "halted"]] = {
     Status.SUCCESS: "success",
     Status.FAILURE: "failure",
     Status.HALTED: "halted",
 }
 
 
-def summarise(
+def summarise_run(
     execution: Execution[SimulatedCell],
     choices: Mapping[int, ImplementationChosen],
     library: SkillLibrary,
     wipings: Sequence[Wiping],
 ) -> TaskResult:
-    """Return everything that reports, tables and JSON say of a task that ran; `wipings` are those in it."""
+    """Return the result of a task for reports, tables and JSON; `wipings` are those that were found in it."""
     cell, last = execution.cell, execution.last
     solved = last.prepared.planned.solved if last.prepared.planned else None
-    judged = tuple(judge_wiping(wiping, cell) for wiping in wipings)
+    judged = tuple(rate_wiping(wiping, cell) for wiping in wipings)
     short = cell.world.snapshot().vocabulary.short
     robots = sorted({short(arm.robot or arm.individual) for arm in cell.scene.arms})
     wall = execution.wall_time_s
     return TaskResult(
         task=last.prepared.assignment.name,
-        status=ENDED[execution.status],
+        status=STATUS_NAMES[execution.status],
         verified=execution.verified,
         facts=execution.facts,
-        plan=_steps(last.tree, choices, library),
-        choices=_choices(choices, library),
+        plan=_make_steps(last.tree, choices, library),
+        choices=_make_choices(choices, library),
         plan_optimal=None if solved is None else solved.optimal == "proven",
         plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         planner="" if solved is None else solved.planner,
@@ -55,32 +55,32 @@ def summarise(
         wall_time_s=wall,
         real_time_factor=cell.now / wall if wall else 0.0,
         seed=cell.variation.seed,
-        variation=_variation(cell),
+        variation=_describe_variation(cell),
         wiping=judged[0] if judged else None,
         wipings=judged,
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
-        failure=_told(execution),
+        failure=_describe_failure(execution),
     )
 
 
-def _steps(
+def _make_steps(
     tree: NodeOutcome, choices: Mapping[int, ImplementationChosen], library: SkillLibrary
 ) -> tuple[StepResult, ...]:
-    """Return the calls at the top of the tree in the order in which they started; those that never did come last."""
-    calls = sorted(_calls(tree), key=lambda call: (call.started is None, call.started))
-    return tuple(_step(call, choices.get(call.id), library) for call in calls)
+    """Return the outermost calls of the tree in the order of their starts; those that never started come last."""
+    calls = sorted(_outermost_calls(tree), key=lambda call: (call.started is None, call.started))
+    return tuple(_make_step(call, choices.get(call.id), library) for call in calls)
 
 
-def _calls(tree: NodeOutcome) -> Iterator[NodeOutcome]:
-    """Yield the calls that no other call is around; one that was passed over has the status `skipped`."""
+def _outermost_calls(tree: NodeOutcome) -> Iterator[NodeOutcome]:
+    """Yield the outermost calls; one that was not needed has the status `skipped`."""
     if tree.kind == "call":
         yield tree
     for child in () if tree.kind == "call" else tree.children:
-        passed_over = tree.kind == "if" and tree.status == "success" and child.status == "idle"
-        yield from _calls(structs.replace(child, status="skipped") if passed_over else child)
+        is_skipped = tree.kind == "if" and tree.status == "success" and child.status == "idle"
+        yield from _outermost_calls(structs.replace(child, status="skipped") if is_skipped else child)
 
 
-def _step(call: NodeOutcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
+def _make_step(call: NodeOutcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
     skill = choice.skill if choice else call.name
     objects = {p.name for p in library.skills[skill].parameters if p.direction in ("in", "infer")}
     bindings = choice.bindings if choice else {}
@@ -95,7 +95,7 @@ def _step(call: NodeOutcome, choice: ImplementationChosen | None, library: Skill
     )
 
 
-def _choices(choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[ChoiceResult, ...]:
+def _make_choices(choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[ChoiceResult, ...]:
     """Return each choice between several implementations once."""
     found = {
         (choice.skill, choice.implementation): ChoiceResult(
@@ -113,8 +113,8 @@ def _controllers(cell: SimulatedCell) -> list[str]:
     return sorted({str(controller) for controller in found if controller is not None})
 
 
-def _variation(cell: SimulatedCell) -> str:
-    """Say how reality differs from what the world model believed at the start."""
+def _describe_variation(cell: SimulatedCell) -> str:
+    """Describe how reality differs from the world model at the start."""
     names = cell.scene.names
     surfaces = (
         f"{names[one.surface]} {one.offset_m * 1e3:+.1f} mm along its normal, tilted "
@@ -126,8 +126,8 @@ def _variation(cell: SimulatedCell) -> str:
     return "; ".join((*surfaces, *fixtures, *people))
 
 
-def _told(execution: Execution[SimulatedCell]) -> str | None:
-    """Say why a task failed, with the calls that led there, outermost first; what stopped it when it was halted."""
+def _describe_failure(execution: Execution[SimulatedCell]) -> str | None:
+    """Return why a task failed, with the chain of failed calls, outermost first, or why it was halted."""
     failure = execution.failure
     if failure is None or execution.status is Status.HALTED:
         return failure.message if failure else None

@@ -14,8 +14,8 @@ from skillc_runtime.world.state.labelled_text import format_fact, format_value
 STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
 
 
-def render(result: TaskResult) -> RenderableType:
-    """Return the table of one task: plan with implementations and why, then how it went."""
+def render_table(result: TaskResult) -> RenderableType:
+    """Return the table of one task: the plan with the chosen implementations, then the results."""
     words = format_status(result.status, result.verified)
     title = Text.assemble((result.task, "bold"), "  ", (words, STYLES.get(words, STYLES["halted"])))
     parts: list[RenderableType] = [title]
@@ -23,49 +23,49 @@ def render(result: TaskResult) -> RenderableType:
     if result.failure:
         parts.append(Text(result.failure, style="red"))
     if result.plan:
-        parts.append(_plan(result))
+        parts.append(_render_plan(result))
     if result.sim_time_s:
-        parts.append(_numbers(result))
+        parts.append(_render_numbers(result))
     return Group(*parts, "")
 
 
-def _plan(result: TaskResult) -> RenderableType:
-    """Return each step with what became of it, how it was done and why so, and below it its arguments."""
+def _render_plan(result: TaskResult) -> RenderableType:
+    """Return each step with its status and implementation, and why that was chosen; below it its arguments."""
     lines: list[RenderableType] = []
     for number, step in enumerate(result.plan, 1):
         arguments = ", ".join(f"{name}: {format_value(value)}" for name, value in step.arguments.items())
-        how = f"{step.implementation}: {reason_of(step)}" if step.implementation else _not_run(step)
+        how = f"{step.implementation}: {format_choice_reason(step)}" if step.implementation else _describe_not_run(step)
         lines += [
             Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STYLES.get(step.status, "")), how),
             Padding(Text(arguments, style="dim"), (0, 0, 0, 4)),
         ]
-    lines += [Text(f"  {each.skill:<25}{each.implementation}: {reason_of(each)}") for each in result.choices]
+    lines += [Text(f"  {each.skill:<25}{each.implementation}: {format_choice_reason(each)}") for each in result.choices]
     return Group(*lines)
 
 
-def _not_run(step: StepResult) -> str:
+def _describe_not_run(step: StepResult) -> str:
     return "achieved already" if step.status == "skipped" else "did not start"
 
 
-def reason_of(taken: StepResult | ChoiceResult) -> str:
-    """Say why an implementation was taken, from those that were not."""
+def format_choice_reason(taken: StepResult | ChoiceResult) -> str:
+    """Return why an implementation was chosen."""
     if taken.rejected:
         return "; ".join(f"not {each.implementation}: {each.reason}" for each in taken.rejected)
     return "the only one" if isinstance(taken, StepResult) and not taken.alternatives else "the first that fits"
 
 
-def _numbers(result: TaskResult) -> Table:
+def _render_numbers(result: TaskResult) -> Table:
     table = Table(box=None, pad_edge=False, show_header=False)
     table.add_column(style="dim")
     table.add_column()
-    for name, value in table_rows(result):
+    for name, value in list_table_rows(result):
         table.add_row(name, value)
     return table
 
 
-def table_rows(result: TaskResult) -> list[tuple[str, str]]:
-    """Return what there is to say about a run, name and value."""
-    planned = [] if result.plan_optimal is None else [("plan", _plan_words(result))]
+def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
+    """Return the rows about a run as names and values."""
+    planned = [] if result.plan_optimal is None else [("plan", _describe_plan(result))]
     return [
         *planned,
         *((format_fact(fact.fact), format_evidence(fact)) for fact in result.facts),
@@ -78,7 +78,7 @@ def table_rows(result: TaskResult) -> list[tuple[str, str]]:
     ]
 
 
-def _plan_words(result: TaskResult) -> str:
+def _describe_plan(result: TaskResult) -> str:
     return f"{len(result.plan)} steps by {result.planner}, {result.plan_quality}"
 
 

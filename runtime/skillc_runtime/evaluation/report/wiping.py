@@ -1,4 +1,4 @@
-"""Finds the wiping in a task and judges it."""
+"""Finds the wipings in a task and measures them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from math import inf
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.metrics.wiping import Stroke, WipingSetup, measure_wiping
-from skillc_runtime.evaluation.report.choices import Choices
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import ImplementationChosen
@@ -18,14 +18,14 @@ from skillc_runtime.world.state.labelled import Quantity
 from skillc_runtime.world.state.terms import SURFACE, TOOL
 
 FORCE = "force"
-"""The parameter, in N, of what declares that it presses."""
+"""The name of the force parameter, in N, of primitives that press."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wiping:
-    """A tool, pushed with `force_n`, followed paths on a surface; the skill `began` before.
+    """A tool that was pressed with `force_n` and followed paths on a surface; `began` is the start of the skill in s.
 
-    Between two strokes, each from one time to another, it was lifted. `arm` is empty where the skill names none.
+    Between two strokes the tool was lifted. `arm` is empty if the skill has no arm parameter.
     """
 
     surface: str
@@ -37,17 +37,17 @@ class Wiping:
 
     @property
     def start(self) -> float:
-        """When the first path was begun."""
+        """The start of the first path in s."""
         return self.strokes[0][0]
 
     @property
     def end(self) -> float:
-        """When the last path was done."""
+        """The end of the last path in s."""
         return self.strokes[-1][1]
 
 
-def find_wipings(trees: Iterable[NodeOutcome], choices: Choices, cell: SimulatedCell) -> tuple[Wiping, ...]:
-    """Return for each surface the last call about it and a tool in which paths were followed while it was pressed."""
+def find_wipings(trees: Iterable[NodeOutcome], choices: ChoiceListener, cell: SimulatedCell) -> tuple[Wiping, ...]:
+    """Return for each surface the last call with it and a tool in which paths were followed under pressure."""
     state, found = cell.world.snapshot(), dict[str, Wiping]()
     for node in (node for tree in trees for node in tree.nodes()):
         choice = choices.get(node.id)
@@ -55,16 +55,16 @@ def find_wipings(trees: Iterable[NodeOutcome], choices: Choices, cell: Simulated
         surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
         tools = [each for each in individuals if state.is_a(each, TOOL)]
         arm = next((each for each in individuals if each in cell.arms), "")
-        forces = [choice.bindings.get(FORCE) for choice, _ in _done(node, choices, "press")]
+        forces = [choice.bindings.get(FORCE) for choice, _ in _find_activities(node, choices, "press")]
         pressed = [force.value for force in forces if isinstance(force, Quantity)]
-        strokes = tuple(sorted(_strokes(node, choices)))
+        strokes = tuple(sorted(_find_strokes(node, choices)))
         if surfaces and tools and pressed and strokes:
             found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], pressed[-1], node.started or 0.0, strokes)
     return tuple(found.values())
 
 
-def describe_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingSetup:
-    """Return what was wiped with what, as it really was."""
+def wiping_setup(wiping: Wiping, cell: SimulatedCell) -> WipingSetup:
+    """Return the true setup of a wiping, from the ground truth."""
     surface = next(each for each in cell.scene.surfaces if each.individual == wiping.surface)
     tool = size(cell.world.snapshot(), wiping.tool)[:2]
     return WipingSetup(
@@ -72,10 +72,10 @@ def describe_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingSetup:
     )
 
 
-def judge_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
-    """Measure how good the wiping was."""
+def rate_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
+    """Return the quality of a wiping."""
     recording = cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end)
-    metrics = measure_wiping(recording, wiping.strokes, describe_wiping(wiping, cell))
+    metrics = measure_wiping(recording, wiping.strokes, wiping_setup(wiping, cell))
     dwell = metrics.lane_dwell
     return WipingResult(
         surface=cell.world.snapshot().vocabulary.short(wiping.surface),
@@ -93,17 +93,17 @@ def judge_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
     )
 
 
-def _strokes(node: NodeOutcome, choices: Choices) -> Iterator[Stroke]:
-    """Yield from when to when each path below a node was followed, in its last run."""
-    for _, path in _done(node, choices, "follow-path"):
+def _find_strokes(node: NodeOutcome, choices: ChoiceListener) -> Iterator[Stroke]:
+    """Yield the start and end of each path below a node, in the node's last run."""
+    for _, path in _find_activities(node, choices, "follow-path"):
         first, last = node.started or 0.0, inf if node.ended is None else node.ended
         yield from (run for run in choices.runs.get(path.id, []) if run[0] >= first and run[1] <= last)
 
 
-def _done(
+def _find_activities(
     node: NodeOutcome, choices: Mapping[int, ImplementationChosen], activity: Activity
 ) -> Iterator[tuple[ImplementationChosen, NodeOutcome]]:
-    """Yield the calls below a node that did something and succeeded."""
+    """Yield the successful calls below a node with an activity."""
     for each in node.nodes():
         choice = choices.get(each.id)
         if choice is not None and choice.activity == activity and each.status == "success":

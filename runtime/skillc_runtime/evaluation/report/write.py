@@ -9,45 +9,45 @@ import msgspec
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report import page
-from skillc_runtime.evaluation.report.drawing import Drawing
-from skillc_runtime.evaluation.report.figures import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+from skillc_runtime.evaluation.report.wiping_figure import FigureFiles, render_figure
 from skillc_runtime.execution.task_run import Execution
 from skillc_runtime.film.film import FilmFiles
 
 FIGURE = "wiping"
-"""Name of the figure's files, but for their ending."""
+"""The name of the figure's files without suffix."""
 
 
 def write_report(
     directory: Path,
     result: TaskResult,
     execution: Execution[SimulatedCell],
-    drawings: Sequence[Drawing],
+    drawings: Sequence[WipingDrawing],
     filmed: FilmFiles | None,
 ) -> None:
-    """Write report.html and result.json, and the figure of what was wiped; OSError where the folder refuses."""
+    """Write report.html, result.json and the figure of wiping; OSError if the folder cannot be written to."""
     figure = write_figure(directory, drawings)
     trees = [attempt.tree for attempt in execution.attempts]
-    _write(directory / "report.html", page.render(result, trees, figure, filmed).encode())
-    _write(directory / "result.json", msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
+    _write_atomically(directory / "report.html", page.render_page(result, trees, figure, filmed).encode())
+    _write_atomically(directory / "result.json", msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
 
 
-def write_figure(directory: Path, drawings: Sequence[Drawing]) -> FigureFiles | None:
-    """Write the figure of wipings side by side as wiping.png and wiping.svg; nothing where nothing was wiped.
+def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFiles | None:
+    """Write the figure of wipings as wiping.png and wiping.svg; return None if there are none.
 
-    OSError where the folder cannot be written to.
+    OSError if the folder cannot be written to.
     """
     if not drawings:
         return None
     figure = render_figure(drawings)
-    _write(directory / f"{FIGURE}.png", figure.png)
-    _write(directory / f"{FIGURE}.svg", figure.svg)
+    _write_atomically(directory / f"{FIGURE}.png", figure.png)
+    _write_atomically(directory / f"{FIGURE}.svg", figure.svg)
     return figure
 
 
-def _write(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all."""
+def _write_atomically(path: Path, content: bytes) -> None:
+    """Write a file atomically."""
     partial = path.with_suffix(path.suffix + ".part")
     try:
         partial.write_bytes(content)

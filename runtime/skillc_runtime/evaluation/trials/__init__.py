@@ -1,1 +1,4 @@
-"""Many runs of one task in realities that differ by their seeds. Start at `experiment`, which runs one of them."""
+"""Many runs of one task with random variations, compared with targets.
+
+Start at `experiment.TrialRunner` for one trial, `series.judge_series` for all, `targets` for the metrics.
+"""

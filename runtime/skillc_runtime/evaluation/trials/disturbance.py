@@ -1,4 +1,4 @@
-"""What may happen in a trial besides: what is worked on is not there, something is in the way, a person pushes."""
+"""Disturbs trials: the work object is missing, an obstacle is in the way, or a person pushes the arm."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import Event, ImplementationChosen
 
 PUSH_N, PUSH_S = 30.0, 0.5
-"""How hard and how long a person pushes."""
+"""The force and the duration of a person's push."""
 
 PUSH_AFTER_S = (1.0, 8.0)
-"""When, after the work has begun."""
+"""The range of the delay of the push after the start of the work, in s."""
 
-WORKING: tuple[Activity, ...] = ("follow-path", "search")
-"""What is done while a person pushes."""
+PUSHED_ACTIVITIES: tuple[Activity, ...] = ("follow-path", "search")
+"""The activities during which a person pushes."""
 
 
-def reality(disturbance: Disturbance, scene: SceneSpec, seed: int) -> Variation:
-    """Draw how reality differs from the facts, and then disturb it."""
+def draw_disturbed_variation(disturbance: Disturbance, scene: SceneSpec, seed: int) -> Variation:
+    """Draw how reality differs from the world model, with the disturbance applied."""
     drawn = draw_variation(scene, seed)
     match disturbance:
         case "none" | "push":
@@ -39,9 +39,9 @@ def reality(disturbance: Disturbance, scene: SceneSpec, seed: int) -> Variation:
 
 
 class PushDisturbance:
-    """Pushes a hand once, in any direction, while its arm works along a path or searches.
+    """Pushes a hand once, in a random direction, while its arm works along a path or searches.
 
-    A listener that learns when that begins; `watch` is to be called after every tick. `pushed`: it came to that.
+    It is a listener, which learns when that begins; call `update` after every tick. `pushed` if it has pushed.
     """
 
     def __init__(self, cell: SimulatedCell) -> None:
@@ -51,24 +51,24 @@ class PushDisturbance:
         self.pushed = False
 
     def __call__(self, event: Event) -> None:
-        if not (isinstance(event, ImplementationChosen) and event.activity in WORKING):
+        if not (isinstance(event, ImplementationChosen) and event.activity in PUSHED_ACTIVITIES):
             return
         for arm in (self._arms[each] for each in event.individuals if each in self._arms):
-            self._pushes.setdefault(_hand(arm, self._cell), self._decided(arm, event.time))
+            self._pushes.setdefault(_hand_body(arm, self._cell), self._draw_push(arm, event.time))
 
-    def watch(self) -> None:
-        """Push, or let go."""
+    def update(self) -> None:
+        """Apply or remove the force of the push, by the time of the cell."""
         for hand, (begins, force) in self._pushes.items():
             pushes = begins <= self._cell.now < begins + PUSH_S
             self._cell.data.body(hand).xfrc_applied[:3] = force if pushes else 0.0
             self.pushed |= pushes
 
-    def _decided(self, arm: ArmSpec, now: float) -> tuple[float, Array]:
+    def _draw_push(self, arm: ArmSpec, now: float) -> tuple[float, Array]:
         rng = rng_for(arm.individual, self._cell.variation.seed, 3)
         direction = rng.standard_normal(3)
         return now + float(rng.uniform(*PUSH_AFTER_S)), PUSH_N * direction / float((direction @ direction) ** 0.5)
 
 
-def _hand(arm: ArmSpec, cell: SimulatedCell) -> str:
+def _hand_body(arm: ArmSpec, cell: SimulatedCell) -> str:
     assert arm.gripper is not None, "what works along a path holds a tool"
     return part_name(cell.scene.names[arm.gripper.individual], "palm")

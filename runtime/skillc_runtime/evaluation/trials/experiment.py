@@ -1,4 +1,4 @@
-"""One run of a task in one reality, from its seed to what is kept of it."""
+"""Runs one trial of a task: a simulation with the variation of a seed, and its measurements."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from pathlib import Path
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.measures import buttons, holes, poses, surfaces
+from skillc_runtime.evaluation.measures import buttons, poses, sockets, surfaces
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
-from skillc_runtime.evaluation.report.choices import Choices
-from skillc_runtime.evaluation.report.summary import summarise
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
-from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, reality
+from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, draw_disturbed_variation
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.execution.assignment import (
     AchieveGoal,
@@ -38,13 +38,13 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTACT_FORCE_LIMIT
 from skillc_runtime.world.state.world_state import WorldState
 
-MEASURES = (surfaces.measure, buttons.measure, holes.measure, poses.measure)
-"""In the order in which trials list what was done."""
+MEASURES = (surfaces.measure, buttons.measure, sockets.measure, poses.measure)
+"""The measures of all kinds of work, in the order in which trials list them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Experiment:
-    """What is tried, as it goes from one process to another: a compiled library as JSON, its task, a scene's file."""
+    """What trials run, as it is sent to worker processes: a compiled library as JSON, its task, the file of a scene."""
 
     library: bytes
     task: str
@@ -53,33 +53,35 @@ class Experiment:
 
 
 class TrialRunner:
-    """Runs trials of one experiment; everything that is the same in all of them is done once."""
+    """Runs trials of one experiment; loading and planning are done once for all of them."""
 
     def __init__(self, experiment: Experiment) -> None:
-        """Load and plan; LibraryError, SceneError or OSError where what is tried cannot be loaded."""
+        """Load and plan; LibraryError, SceneError or OSError if the library or the scene cannot be loaded."""
         self._library = codec.loads(experiment.library, "the library")
         self._state = load_scene(experiment.scene, self._library.vocabulary)
         self._disturbance = experiment.disturbance
-        self._prepared = prepare_task(_assignment(experiment.task, self._library, self._state), self._library)
+        self._prepared = prepare_task(_make_assignment(experiment.task, self._library, self._state), self._library)
 
     def run(self, seed: int) -> Trial:
-        """Run the task once."""
+        """Run the trial of a seed."""
         if isinstance(self._prepared, NotStarted):
             return Trial(seed=seed, status="refused", reason=self._prepared.reason)
         try:
-            cell = SimulatedCell(WorldModel(self._state), seed, reality=partial(reality, self._disturbance))
+            cell = SimulatedCell(
+                WorldModel(self._state), seed, reality=partial(draw_disturbed_variation, self._disturbance)
+            )
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
         return self._run(self._prepared, cell)
 
     def _run(self, prepared: PreparedTask, cell: SimulatedCell) -> Trial:
-        choices, push = Choices(), PushDisturbance(cell)
-        disturbing: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
-        execution = execute_task(prepared, self._library, cell, (choices, *disturbing), push.watch)
+        choices, push = ChoiceListener(), PushDisturbance(cell)
+        disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
+        execution = execute_task(prepared, self._library, cell, (choices, *disturbances), push.update)
         trees = tuple(attempt.tree for attempt in execution.attempts)
         wipings = find_wipings(trees, choices, cell)
-        result = summarise(execution, choices, self._library, wipings)
-        judged = tuple(zip(wipings, result.wipings, strict=True))
+        result = summarise_run(execution, choices, self._library, wipings)
+        wiping_results = tuple(zip(wipings, result.wipings, strict=True))
         return Trial(
             seed=cell.variation.seed,
             status=result.status,
@@ -87,10 +89,10 @@ class TrialRunner:
             verified=result.verified,
             assumed=tuple(format_fact(fact.fact) for fact in assumed_facts(result.facts)),
             variation=result.variation,
-            works=_measure_work(RunEvidence(self._library, cell, trees, choices, judged)),
+            works=_measure_work(RunEvidence(self._library, cell, trees, choices, wiping_results)),
             coverage=min((surface.wiped_share for surface in cell.coverage.values()), default=1.0),
-            greatest_force_n=_greatest_force(cell),
-            force_limit_n=_force_limit(cell),
+            greatest_force_n=_greatest_force_n(cell),
+            force_limit_n=_force_limit_n(cell),
             pushed=push.pushed,
             at_rest=cell.at_rest,
             sim_time_s=result.sim_time_s,
@@ -98,7 +100,7 @@ class TrialRunner:
         )
 
 
-def _assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:
+def _make_assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:
     goal, body = library.tasks[task].goal, library.tasks[task].body
     if goal is not None:
         return Assignment(task, state, AchieveGoal(goal))
@@ -110,11 +112,11 @@ def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
     return tuple(work for measure in MEASURES for work in measure(evidence))
 
 
-def _greatest_force(cell: SimulatedCell) -> float:
+def _greatest_force_n(cell: SimulatedCell) -> float:
     return max((cell.ground_truth.peak_force_n(tool.individual) for tool in cell.scene.tools), default=0.0)
 
 
-def _force_limit(cell: SimulatedCell) -> float | None:
+def _force_limit_n(cell: SimulatedCell) -> float | None:
     sheets = [arm.sheet for arm in cell.scene.arms]
     limits = [number_of(sheet.state, sheet.individual, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
     least = min(limits, default=inf)

@@ -1,4 +1,4 @@
-"""What trials depend on besides task, library and scene: this skillc with its data, and the physics beneath."""
+"""Identifies what trials depend on besides task, library and scene: the code and data of skillc, and the simulator."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ from importlib.metadata import version
 from pathlib import Path
 
 PACKAGES = ("skillc_runtime", "skillc_ontology")
-KINDS = (".py", ".ttl", ".xml")
+SUFFIXES = (".py", ".ttl", ".xml")
 DIGITS = 12
 
 
 @cache
-def skillc_identity() -> str:
-    """Return the version of skillc, a digest of what runs and simulates in it, and the version of MuJoCo."""
-    return f"{version('skillc')} of {digest(_contents())}, MuJoCo {version('mujoco')}"
+def identify_skillc() -> str:
+    """Return the version of skillc, a digest of its code and data for execution, and the version of MuJoCo."""
+    return f"{version('skillc')} of {compute_digest(_read_files())}, MuJoCo {version('mujoco')}"
 
 
-def digest(contents: Iterator[bytes]) -> str:
-    """Return a short digest of some contents in their order."""
+def compute_digest(contents: Iterator[bytes]) -> str:
+    """Return a short digest of contents in order."""
     sha = hashlib.sha256()
     for content in contents:
         sha.update(b"%d:" % len(content) + content)
     return sha.hexdigest()[:DIGITS]
 
 
-def file_identity(path: Path) -> str:
-    """Return the name and a digest of a file; OSError where it cannot be read."""
-    return f"{path.name} of {digest(iter((path.read_bytes(),)))}"
+def identify_file(path: Path) -> str:
+    """Return the name and a digest of a file; OSError if it cannot be read."""
+    return f"{path.name} of {compute_digest(iter((path.read_bytes(),)))}"
 
 
-def _contents() -> Iterator[bytes]:
+def _read_files() -> Iterator[bytes]:
     for package in PACKAGES:
         folder = Path(import_module(package).__path__[0])
-        for file in sorted(file for file in folder.rglob("*") if file.suffix in KINDS):
+        for file in sorted(file for file in folder.rglob("*") if file.suffix in SUFFIXES):
             yield str(file.relative_to(folder)).encode()
             yield file.read_bytes()

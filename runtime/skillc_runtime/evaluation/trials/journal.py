@@ -1,4 +1,4 @@
-"""The trials of a folder: a heading and a line for each, so that a series that was interrupted goes on."""
+"""The file of trials in a folder, a heading and a line for each trial, with which an interrupted series is resumed."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ import msgspec
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 
 FILE = "trials.jsonl"
-FORMAT = 2
+FORMAT = 3
 
 
 class Heading(msgspec.Struct, frozen=True, kw_only=True):
-    """What all trials of a folder have in common; trials that differ in any of it cannot be compared."""
+    """What all trials in a folder have in common; trials that differ in it cannot be compared."""
 
     format: int = FORMAT
     task: str
@@ -32,14 +32,14 @@ Record = TypeVar("Record", Heading, Trial)
 
 
 class JournalError(ValueError):
-    """Trials cannot be added to a folder; the message says why and what to do."""
+    """Trials cannot be added to a folder; the message has the reason and a remedy."""
 
 
-class Journal:
-    """The file of a folder, for one writer at a time; use it in `with`. `trials` are those it has, each seed once."""
+class TrialJournal:
+    """The file of trials in a folder, for one writer at a time; use it in a `with` statement."""
 
     def __init__(self, folder: Path, heading: Heading) -> None:
-        """Open or begin the file. JournalError for other trials, another writer or no journal; OSError of the disk."""
+        """Open or create the file; JournalError for another heading, a second writer or a damaged file."""
         self.path = folder / FILE
         folder.mkdir(parents=True, exist_ok=True)
         self._file: BinaryIO = self.path.open("a+b")
@@ -52,15 +52,15 @@ class Journal:
 
     @property
     def trials(self) -> tuple[Trial, ...]:
-        """Those there are, in order of seed."""
+        """The trials in the file, ordered by seed."""
         return tuple(self._trials[seed] for seed in sorted(self._trials))
 
     def add(self, trial: Trial) -> None:
-        """Append a trial, whole and on disk when this returns."""
+        """Append a trial; it is on disk when this returns."""
         self._write(trial)
         self._trials[trial.seed] = trial
 
-    def __enter__(self) -> Journal:
+    def __enter__(self) -> TrialJournal:
         return self
 
     def __exit__(
@@ -77,34 +77,34 @@ class Journal:
             ) from error
 
     def _resume(self, heading: Heading) -> dict[int, Trial]:
-        """Read what is there; a last line that was not written whole is cut off."""
+        """Read the file; an incomplete last line is removed."""
         self._file.seek(0)
         content = self._file.read()
-        whole = content[: content.rfind(b"\n") + 1]
-        if len(whole) < len(content):
-            self._file.truncate(len(whole))
-        if not whole:
+        complete = content[: content.rfind(b"\n") + 1]
+        if len(complete) < len(content):
+            self._file.truncate(len(complete))
+        if not complete:
             self._write(heading)
             return {}
-        first, *lines = whole.splitlines()
-        self._compare(self._decoded(first, 1, Heading), heading)
-        trials = (self._decoded(line, number, Trial) for number, line in enumerate(lines, 2))
+        first, *lines = complete.splitlines()
+        self._compare(self._decode(first, 1, Heading), heading)
+        trials = (self._decode(line, number, Trial) for number, line in enumerate(lines, 2))
         return {trial.seed: trial for trial in trials}
 
-    def _compare(self, there: Heading, here: Heading) -> None:
-        for what in Heading.__struct_fields__:
-            before, now = getattr(there, what), getattr(here, what)
+    def _compare(self, existing: Heading, expected: Heading) -> None:
+        for field in Heading.__struct_fields__:
+            before, now = getattr(existing, field), getattr(expected, field)
             if before != now:
                 raise JournalError(
-                    f"the trials in {self.path.parent} are of another {what}: {before}, now it is {now}; "
+                    f"the trials in {self.path.parent} are of another {field}: {before}, now it is {now}; "
                     "take another folder, or remove this one"
                 )
 
-    def _decoded(self, line: bytes, number: int, kind: type[Record]) -> Record:
+    def _decode(self, line: bytes, number: int, kind: type[Record]) -> Record:
         try:
             return msgspec.json.decode(line, type=kind)
         except msgspec.DecodeError as error:
-            raise JournalError(f"{self.path}, line {number}, is no record of trials: {error}") from error
+            raise JournalError(f"{self.path}, line {number}, is not a record of trials: {error}") from error
 
     def _write(self, record: Heading | Trial) -> None:
         self._file.write(msgspec.json.encode(record) + b"\n")
@@ -112,7 +112,7 @@ class Journal:
         os.fsync(self._file.fileno())
 
 
-def missing(seeds: Iterable[int], trials: Iterable[Trial]) -> tuple[int, ...]:
+def find_missing_seeds(seeds: Iterable[int], trials: Iterable[Trial]) -> tuple[int, ...]:
     """Return the seeds that have no trial yet."""
     done = {trial.seed for trial in trials}
     return tuple(seed for seed in seeds if seed not in done)

@@ -1,4 +1,4 @@
-"""A series of trials as one self-contained HTML page, with a drawing of how each metric spreads."""
+"""A series of trials as one self-contained HTML page, with a drawing of the spread of each metric."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.evaluation.trials.series import Series, Spread
-from skillc_runtime.evaluation.trials.table import unverified_words
+from skillc_runtime.evaluation.trials.table import format_unverified
 
 WIDTH, HEIGHT, MARGIN = 420, 34, 8
-"""Of a drawing, px."""
+"""The size of a drawing in px."""
 
 
 @dataclass(frozen=True, slots=True)
 class Strip:
-    """A spread with its drawing: px of each trial, from left to right as the seeds are up and down, and of the target.
+    """A spread with its drawing: positions (x, y) of the trials, and x of the median and of the target, in px.
 
-    The scale goes from `low` to `high` in the unit of the metric; some metrics have no target.
+    The scale is from `low` to `high` in the unit of the metric; `target` is None if the metric has none.
     """
 
     spread: Spread
@@ -29,7 +29,7 @@ class Strip:
     target: float | None
 
 
-def render(series: Series) -> str:
+def render_page(series: Series) -> str:
     """Return the page."""
     environment = Environment(
         loader=PackageLoader("skillc_runtime.evaluation.trials", "."),
@@ -38,23 +38,23 @@ def render(series: Series) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    strips = [strip(spread) for spread in series.spreads]
+    strips = [draw_strip(spread) for spread in series.spreads]
     return environment.get_template("page.html.j2").render(
-        series=series, unverified=unverified_words(series), strips=strips, width=WIDTH, height=HEIGHT
+        series=series, unverified=format_unverified(series), strips=strips, width=WIDTH, height=HEIGHT
     )
 
 
-def strip(spread: Spread) -> Strip:
-    """Return the drawing of one spread: every trial a dot, the target a line."""
-    wanted = spread.bound
-    low, high = _scale(spread.values if wanted is None else (*spread.values, wanted))
+def draw_strip(spread: Spread) -> Strip:
+    """Return the drawing of one spread, with a dot for each trial and a line for the target."""
+    target = spread.bound
+    low, high = _scale(spread.values if target is None else (*spread.values, target))
 
-    def at(value: float) -> float:
+    def x_of(value: float) -> float:
         return round(MARGIN + (WIDTH - 2 * MARGIN) * (value - low) / (high - low), 1)
 
-    lines = _lines(len(spread.values))
-    dots = tuple((at(value), line) for value, line in zip(spread.values, lines, strict=True))
-    return Strip(spread, low, high, dots, at(spread.median), None if wanted is None else at(wanted))
+    heights = _row_heights(len(spread.values))
+    dots = tuple((x_of(value), height) for value, height in zip(spread.values, heights, strict=True))
+    return Strip(spread, low, high, dots, x_of(spread.median), None if target is None else x_of(target))
 
 
 def _scale(values: Sequence[float]) -> tuple[float, float]:
@@ -64,6 +64,6 @@ def _scale(values: Sequence[float]) -> tuple[float, float]:
     return low, high
 
 
-def _lines(count: int) -> list[float]:
-    """Return heights that are spread over the drawing, so that equal values do not hide each other."""
+def _row_heights(count: int) -> list[float]:
+    """Return vertical positions in px, distributed so that equal values do not cover each other."""
     return [round(MARGIN + (HEIGHT - 2 * MARGIN) * (number * 0.618 % 1.0), 1) for number in range(count)]

@@ -1,4 +1,4 @@
-"""A series of trials: how each metric spreads, which seeds failed and why, and whether all is as it should be."""
+"""A series of trials: the spread of each metric, the failed seeds with reasons, and whether all targets are met."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from typing import Any
 
 import msgspec
 
-from skillc_runtime.evaluation.trials.targets import Metric, metric_values
+from skillc_runtime.evaluation.trials.targets import Metric, list_trial_values
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.verdict import find_misses
+from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 
 
 class Spread(msgspec.Struct, frozen=True, kw_only=True):
-    """A metric of one thing over all trials in which it was measured; `met` counts those that meet the target.
+    """A metric of one object over all trials in which it was measured; `met` is the number that meet the target.
 
-    `target` is in words, `bound` its number if there is one; `values` are in order of seed.
+    `target` is the target in words, `bound` its value, None without a target; `values` are in the order of the seeds.
     """
 
     metric: str
@@ -33,7 +33,7 @@ class Spread(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class FailedSeed(msgspec.Struct, frozen=True, kw_only=True):
-    """A seed whose trial is not as it should be, with the reasons and how reality differed."""
+    """A seed whose trial failed, with the reasons and how reality differed from the world model."""
 
     seed: int
     reasons: tuple[str, ...]
@@ -41,9 +41,9 @@ class FailedSeed(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Series(msgspec.Struct, frozen=True, kw_only=True):
-    """All trials of one task. `wanted` seeds were asked for; those of `passed` went as they should.
+    """All trials of one task: `wanted` were requested, `done` were run, and `passed` of these met all criteria.
 
-    In `unverified` of them the task finished, but the facts `assumed` were not sensed.
+    In `unverified` trials the task finished, but the facts `assumed` were not sensed.
     """
 
     task: str
@@ -58,15 +58,15 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     assumed: tuple[str, ...] = ()
 
     @property
-    def good(self) -> bool:
-        """Whether every trial that was asked for went as it should, and the medians are on target as well."""
+    def is_good(self) -> bool:
+        """Whether all requested trials passed and all medians meet their targets."""
         return self.passed == self.wanted and not any(spread.median_missed for spread in self.spreads)
 
 
 def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Trial]) -> Series:
-    """Judge the trials of a task, `wanted` of which were asked for."""
+    """Judge the trials of a task, of which `wanted` were requested."""
     ordered = tuple(sorted(trials, key=lambda trial: trial.seed))
-    judged = [(trial, find_misses(trial, disturbance)) for trial in ordered]
+    judged = [(trial, find_unmet_criteria(trial, disturbance)) for trial in ordered]
     failed = tuple(FailedSeed(seed=t.seed, reasons=why, variation=t.variation) for t, why in judged if why)
     return Series(
         task=task,
@@ -83,28 +83,30 @@ def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Seque
 
 
 def compute_spreads(trials: Sequence[Trial], judged_by_targets: bool = True) -> tuple[Spread, ...]:
-    """Return how each metric of each thing spreads over trials, in order of thing and metric."""
+    """Return the spread of each metric of each object over the trials, ordered by object and metric."""
     found: dict[tuple[str, str], tuple[Metric[Any], list[float]]] = {}
-    for each in (value for trial in trials for value in metric_values(trial)):
+    for each in (value for trial in trials for value in list_trial_values(trial)):
         found.setdefault((each.subject, each.metric.name), (each.metric, []))[1].append(each.value)
     by_subject = sorted(found.items(), key=lambda item: item[0][0])
-    return tuple(_spread(metric, subject, got, judged_by_targets) for (subject, _), (metric, got) in by_subject)
+    return tuple(
+        _compute_spread(metric, subject, values, judged_by_targets) for (subject, _), (metric, values) in by_subject
+    )
 
 
-def _spread(metric: Metric[Any], subject: str, got: Sequence[float], judged_by_targets: bool) -> Spread:
-    middle = median(got)
-    wanted = metric.median_target
-    missed = wanted is not None and middle > wanted and judged_by_targets
+def _compute_spread(metric: Metric[Any], subject: str, values: Sequence[float], judged_by_targets: bool) -> Spread:
+    middle = median(values)
+    target = metric.median_target
+    missed = target is not None and middle > target and judged_by_targets
     return Spread(
         metric=metric.name,
         subject=subject,
         unit=metric.unit,
-        target=metric.wanted,
+        target=metric.target_text,
         bound=metric.target,
-        least=min(got),
+        least=min(values),
         median=middle,
-        greatest=max(got),
-        met=sum(map(metric.met, got)),
-        values=tuple(got),
-        median_missed=f"median {middle:.3g} {metric.unit}, wanted at most {wanted:g}" if missed else None,
+        greatest=max(values),
+        met=sum(map(metric.is_met, values)),
+        values=tuple(values),
+        median_missed=f"median {middle:.3g} {metric.unit}, wanted at most {target:g}" if missed else None,
     )

@@ -10,32 +10,38 @@ from skillc_runtime.evaluation.trials.series import Series, Spread
 from skillc_runtime.recording.known_facts import UNVERIFIED
 
 
-def render(series: Series) -> RenderableType:
-    """Return the spread of each metric, each failed seed with its reasons, and how many trials went as they should."""
-    return Group(_headline(series), *_unverified(series), *_spreads(series.spreads), *_failed(series), "")
+def render_table(series: Series) -> RenderableType:
+    """Return the spread of each metric, each failed seed with its reasons, and the number of trials that passed."""
+    return Group(
+        _render_headline(series),
+        *_render_unverified(series),
+        *_render_spreads(series.spreads),
+        *_render_failed(series),
+        "",
+    )
 
 
-def _headline(series: Series) -> Text:
-    style = "bold green" if series.good else "bold red"
+def _render_headline(series: Series) -> Text:
+    style = "bold green" if series.is_good else "bold red"
     disturbed = "" if series.disturbance == "none" else f"  disturbed: {series.disturbance}"
     done = "" if series.done == series.wanted else f", {series.wanted - series.done} not done"
-    passed = f"{series.passed} of {series.wanted} as they should be{done}"
+    passed = f"{series.passed} of {series.wanted} trials passed{done}"
     return Text.assemble((series.task, "bold"), disturbed, "  ", (passed, style))
 
 
-def _unverified(series: Series) -> list[RenderableType]:
-    words = unverified_words(series)
+def _render_unverified(series: Series) -> list[RenderableType]:
+    words = format_unverified(series)
     return [Text(words, style="yellow")] if words else []
 
 
-def unverified_words(series: Series) -> str:
-    """Return how many trials finished without being verified and why; nothing where all were."""
+def format_unverified(series: Series) -> str:
+    """Return how many trials finished without being verified, and why; empty if all were verified."""
     if not series.unverified:
         return ""
     return f"{series.unverified} of {series.done} {UNVERIFIED}: only assumed: {'; '.join(series.assumed)}"
 
 
-def _spreads(spreads: tuple[Spread, ...]) -> list[RenderableType]:
+def _render_spreads(spreads: tuple[Spread, ...]) -> list[RenderableType]:
     several = len({spread.subject for spread in spreads}) > 1
     if not spreads:
         return []
@@ -54,7 +60,7 @@ def _spreads(spreads: tuple[Spread, ...]) -> list[RenderableType]:
     return [table, *(Text(line, style="red") for line in missed)]
 
 
-def _failed(series: Series) -> list[RenderableType]:
+def _render_failed(series: Series) -> list[RenderableType]:
     return [
         Text(f"seed {failed.seed}: {'; '.join(failed.reasons)}\n  {failed.variation}".rstrip(), style="red")
         for failed in series.failed

@@ -1,4 +1,4 @@
-"""What good work is: the metrics of each kind of it and the targets that each trial, or half of them, must meet."""
+"""The metrics of each kind of work, with the targets for each trial and for the median of all trials."""
 
 from __future__ import annotations
 
@@ -22,9 +22,10 @@ Result = TypeVar("Result", contravariant=True)
 
 @dataclass(frozen=True, slots=True)
 class Metric(Generic[Result]):
-    """A number of one piece of work, in `unit`; None where it was not measured.
+    """A number `of` one piece of work, in `unit`; None if it was not measured.
 
-    It shall be `sense` the `target` in every trial, and the median of all trials the `median_target`, if there is one.
+    In every trial it must be `sense` (at least, at most) the `target`; the median of all trials must be at most the
+    `median_target`, if there is one.
     """
 
     name: str
@@ -34,14 +35,14 @@ class Metric(Generic[Result]):
     target: float | None = None
     median_target: float | None = None
 
-    def met(self, value: float) -> bool:
-        """Tell whether a value is as good as the target."""
+    def is_met(self, value: float) -> bool:
+        """Whether a value meets the target."""
         if self.target is None:
             return True
         return value >= self.target if self.sense == "at least" else value <= self.target
 
     @property
-    def wanted(self) -> str:
+    def target_text(self) -> str:
         """The target in words."""
         if self.target is None:
             return "no target"
@@ -61,27 +62,29 @@ WIPING: tuple[Metric[WipingResult], ...] = (
 )
 
 POLISHING: tuple[Metric[PolishingWork], ...] = (
-    Metric("rubbed long enough", "%", lambda w: 100 * w.share, "at least", 99.0),
-    Metric("swing kept", "%", lambda w: _percent(w.swing_m, w.swing_asked_m), "at least", 90.0),
+    Metric("polished area", "%", lambda w: 100 * w.polished_share, "at least", 99.0),
+    Metric(
+        "overlay amplitude", "%", lambda w: _percent(w.overlay_amplitude_m, w.commanded_amplitude_m), "at least", 90.0
+    ),
 )
 
 PRESSING: tuple[Metric[PressingWork], ...] = (
-    Metric("held force", "% of F", lambda w: 100 * w.held_n / w.asked_n, "at least", 95.0),
-    Metric("greatest force", "% of F", lambda w: 100 * w.greatest_n / w.asked_n, "at most", 120.0),
-    Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
+    Metric("held force", "% of F", lambda w: 100 * w.held_n / w.required_n, "at least", 95.0),
+    Metric("greatest force", "% of F", lambda w: 100 * w.greatest_n / w.required_n, "at most", 120.0),
+    Metric("time", "% of the skill's", lambda w: _percent(w.duration_share, 1.0), "at most", 100.0),
 )
 
 INSERTING: tuple[Metric[InsertingWork], ...] = (
-    Metric("depth", "% of the hole", lambda w: 100 * w.depth_m / w.hole_m, "at least", 98.0),
+    Metric("depth", "% of the hole", lambda w: 100 * w.depth_m / w.hole_depth_m, "at least", 98.0),
     Metric("greatest force", "N", lambda w: w.greatest_n, "at most", 40.0),
-    Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
+    Metric("time", "% of the skill's", lambda w: _percent(w.duration_share, 1.0), "at most", 100.0),
 )
 
 TEACHING: tuple[Metric[TeachingWork], ...] = (
-    Metric("off the place", "mm", lambda w: 1e3 * w.off_m, "at most", 5.0),
+    Metric("position error", "mm", lambda w: 1e3 * w.position_error_m, "at most", 5.0),
     Metric("greatest force of the person", "N", lambda w: w.greatest_n, "at most", 25.0),
     Metric("mean force of the person", "N", lambda w: w.mean_n, "at most", 10.0),
-    Metric("time", "% of the skill's", lambda w: _percent(w.took, 1.0), "at most", 100.0),
+    Metric("time", "% of the skill's", lambda w: _percent(w.duration_share, 1.0), "at most", 100.0),
 )
 
 METRICS: Mapping[str, tuple[Metric[Any], ...]] = {
@@ -96,38 +99,38 @@ METRICS: Mapping[str, tuple[Metric[Any], ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class MetricValue:
-    """A metric of one piece of work in one trial; `subject` is what was worked on."""
+    """The value of a metric of one piece of work; `subject` is the object that was worked on."""
 
     metric: Metric[Any]
     subject: str
     value: float
 
 
-def metric_values(trial: Trial) -> Iterator[MetricValue]:
-    """Yield everything that was measured in a trial."""
+def list_trial_values(trial: Trial) -> Iterator[MetricValue]:
+    """Yield all measurements of a trial."""
     for work in trial.works:
-        yield from work_values(work)
+        yield from list_work_values(work)
 
 
-def work_values(work: Work) -> Iterator[MetricValue]:
-    """Yield everything that was measured of a piece of work."""
+def list_work_values(work: Work) -> Iterator[MetricValue]:
+    """Yield all measurements of a piece of work."""
     match work:
-        case WipingWork(how=how):
-            yield from _values(WIPING, how, how.surface)
-        case PolishingWork(how=how):
-            yield from _values(POLISHING, work, how.surface)
-            yield from _values(WIPING, how, how.surface)
+        case WipingWork(wiping=wiping):
+            yield from _list_values(WIPING, wiping, wiping.surface)
+        case PolishingWork(wiping=wiping):
+            yield from _list_values(POLISHING, work, wiping.surface)
+            yield from _list_values(WIPING, wiping, wiping.surface)
         case PressingWork(button=button):
-            yield from _values(PRESSING, work, button)
+            yield from _list_values(PRESSING, work, button)
         case InsertingWork(socket=socket):
-            yield from _values(INSERTING, work, socket)
+            yield from _list_values(INSERTING, work, socket)
         case TeachingWork(pose=pose):
-            yield from _values(TEACHING, work, pose)
+            yield from _list_values(TEACHING, work, pose)
         case _:
             assert_never(work)
 
 
-def _values(metrics: tuple[Metric[Result], ...], result: Result, subject: str) -> Iterator[MetricValue]:
+def _list_values(metrics: tuple[Metric[Result], ...], result: Result, subject: str) -> Iterator[MetricValue]:
     for metric in metrics:
         value = metric.of(result)
         if value is not None:

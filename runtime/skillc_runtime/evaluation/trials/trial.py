@@ -1,4 +1,4 @@
-"""What is kept of one run among many."""
+"""The result of one trial."""
 
 from __future__ import annotations
 
@@ -9,22 +9,20 @@ import msgspec
 from skillc_runtime.evaluation.measures.work import Work
 
 Status: TypeAlias = Literal["success", "failure", "halted", "refused", "crashed"]
-"""How a task ended; `crashed` where the process that ran it did not live to say so."""
+"""How a task ended; `crashed` if its process ended without a result."""
 
 Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push"]
-"""What happens besides: what is worked on is not there, something is in the way, a person pushes the arm."""
+"""How a trial is disturbed: the work object is missing, an obstacle is in the way, or a person pushes the arm."""
 
 
 class Trial(msgspec.Struct, frozen=True, kw_only=True):
     """One run: its seed, how it ended and why, how reality differed from the world model, and what was measured.
 
-    `assumed` are the facts that a success rests on and nothing sensed; it is `verified` when there are none.
-    `works` has an entry for each thing that was worked on; `coverage` is of all the run did, lowest of all surfaces
-    wiped or not.
-    `greatest_force_n` is the most that any tool felt, `force_limit_n` the least of what makes an arm hold
-    still, None where no arm has such a limit.
-    `pushed` tells whether a person pushed the arm, `at_rest` whether everything stood still, and nothing pushed any
-    more, in the end.
+    `assumed` are the facts that a success rests on and that were not sensed; it is `verified` if there are none.
+    `works` has an entry for each object that was worked on; `coverage` is the lowest of all surfaces, wiped or not,
+    over the whole run. `greatest_force_n` is the greatest contact force on any tool, `force_limit_n` the lowest limit
+    of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `at_rest` whether at the end
+    nothing moved and no force was applied.
     """
 
     seed: int

@@ -1,4 +1,4 @@
-"""Whether a trial went as it should: undisturbed it meets every target, disturbed it recovers or gives up safely."""
+"""Judges a trial: undisturbed it must meet all targets, disturbed it must recover or give up safely."""
 
 from __future__ import annotations
 
@@ -6,71 +6,72 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_runtime.evaluation.measures.work import InsertingWork, PolishingWork, PressingWork, WipingWork
-from skillc_runtime.evaluation.trials.targets import MetricValue, metric_values, work_values
+from skillc_runtime.evaluation.trials.targets import MetricValue, list_trial_values, list_work_values
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 
 
-def find_misses(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
-    """Return why a trial is not as it should be, in words; nothing for one that is."""
+def find_unmet_criteria(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
+    """Return the criteria that a trial does not meet, in words; empty if it passed."""
     if trial.status in ("refused", "crashed"):
-        return (_ended(trial),)
-    return (*_unlike(trial, disturbance), *_unsafe(trial))
+        return (_describe_end(trial),)
+    return (*_outcome_problems(trial, disturbance), *_safety_problems(trial))
 
 
-def _unlike(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
-    """Yield what should have become of the task and did not."""
+def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
+    """Yield how the outcome of the task differs from the expected one."""
     match disturbance:
         case "none":
-            yield from _unsuccessful(trial)
-            yield from _off_target(trial)
+            yield from _require_success(trial)
+            yield from _unmet_targets(trial)
         case "push":
             if not trial.pushed:
                 yield "there was no push: nothing is done along a path or in a search"
-            yield from _unsuccessful(trial)
+            yield from _require_success(trial)
             if trial.coverage < 1.0:
                 yield f"coverage {100 * trial.coverage:.1f} %, wanted 100 % in the end"
         case "missing":
             if trial.status != "failure" or not trial.reason:
                 yield f"{trial.status}, wanted a failure that says why"
         case "obstacle":
-            yield from _untrue(trial)
+            yield from _false_claims(trial)
         case _:
             assert_never(disturbance)
 
 
-def _unsuccessful(trial: Trial) -> Iterator[str]:
+def _require_success(trial: Trial) -> Iterator[str]:
     if trial.status != "success":
-        yield _ended(trial)
+        yield _describe_end(trial)
 
 
-def _off_target(trial: Trial) -> Iterator[str]:
+def _unmet_targets(trial: Trial) -> Iterator[str]:
     several = len(trial.works) > 1
-    for each in metric_values(trial):
-        if not each.metric.met(each.value):
+    for each in list_trial_values(trial):
+        if not each.metric.is_met(each.value):
             where = f"{each.subject}: " if several else ""
-            yield where + _missed(each)
+            yield where + _describe_unmet(each)
 
 
-def _untrue(trial: Trial) -> Iterator[str]:
-    """Yield what a trial claims to have done where something was in the way."""
+def _false_claims(trial: Trial) -> Iterator[str]:
+    """Yield what a trial claims to have done although an obstacle was in the way."""
     fixed = [work for work in trial.works if isinstance(work, PressingWork | InsertingWork)]
     worked = [work for work in trial.works if isinstance(work, WipingWork | PolishingWork)]
     if trial.status == "success" and worked and trial.coverage < 1.0:
         yield f"success, wanted a failure that says why: coverage {100 * trial.coverage:.1f} %"
     if trial.status == "success" and fixed:
-        yield f"success, wanted a failure that says why: {', '.join(_missed(v) for w in fixed for v in work_values(w))}"
+        claims = (_describe_unmet(value) for work in fixed for value in list_work_values(work))
+        yield f"success, wanted a failure that says why: {', '.join(claims)}"
 
 
-def _missed(value: MetricValue) -> str:
-    return f"{value.metric.name} {value.value:.3g} {value.metric.unit}, wanted {value.metric.wanted}"
+def _describe_unmet(value: MetricValue) -> str:
+    return f"{value.metric.name} {value.value:.3g} {value.metric.unit}, wanted {value.metric.target_text}"
 
 
-def _unsafe(trial: Trial) -> Iterator[str]:
+def _safety_problems(trial: Trial) -> Iterator[str]:
     if trial.force_limit_n is not None and trial.greatest_force_n > trial.force_limit_n:
         yield f"a tool felt {trial.greatest_force_n:.1f} N, the limit is {trial.force_limit_n:g} N"
     if not trial.at_rest:
         yield "something still moved or pushed in the end"
 
 
-def _ended(trial: Trial) -> str:
+def _describe_end(trial: Trial) -> str:
     return f"{trial.status}: {trial.reason}" if trial.reason else trial.status

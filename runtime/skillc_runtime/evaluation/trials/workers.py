@@ -1,4 +1,4 @@
-"""Trials in processes beside each other: each takes the next seed when it is free, and all end with their parent."""
+"""Runs trials in parallel processes: each takes the next seed when it is free, and all end with their parent."""
 
 from __future__ import annotations
 
@@ -21,48 +21,48 @@ class Runner(Protocol):
     """Runs the trial of one seed."""
 
     def run(self, seed: int) -> Trial:
-        """Run it."""
+        """Run the trial."""
         ...
 
 
 Prepare: TypeAlias = Callable[[], Runner]
-"""Makes what runs trials, in the process that runs them; it goes there by pickling."""
+"""Makes the runner in the worker process; it is pickled."""
 
 
 class Worker:
-    """One process and the seed that it has."""
+    """A worker process and the seed that it runs."""
 
     def __init__(self, prepare: Prepare) -> None:
         context = get_context("spawn")
-        self.line, there = context.Pipe()
-        self._process: BaseProcess = context.Process(target=_serve, args=(prepare, there), daemon=True)
+        self.connection, remote = context.Pipe()
+        self._process: BaseProcess = context.Process(target=_serve, args=(prepare, remote), daemon=True)
         self._process.start()
-        there.close()
+        remote.close()
         self._seed = 0
 
-    def give(self, seed: int) -> None:
-        """Let it run a seed."""
+    def assign(self, seed: int) -> None:
+        """Start the trial of a seed."""
         self._seed = seed
-        self.line.send(seed)
+        self.connection.send(seed)
 
-    def take(self) -> tuple[Trial, bool]:
-        """Return the trial that is done, and whether the process lives on."""
+    def receive(self) -> tuple[Trial, bool]:
+        """Return the finished trial, and whether the process still runs."""
         try:
-            return cast(Trial, self.line.recv()), True
+            return cast(Trial, self.connection.recv()), True
         except EOFError:
             self._process.join()
-            reason = f"its process ended with {_words(self._process.exitcode)}"
+            reason = f"its process ended with {_describe_exit(self._process.exitcode)}"
             return Trial(seed=self._seed, status="crashed", reason=reason), False
 
-    def end(self) -> None:
+    def terminate(self) -> None:
         """End the process."""
         self._process.terminate()
         self._process.join()
-        self.line.close()
+        self.connection.close()
 
 
-def run_all(prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
-    """Yield the trials of all seeds as they are done, `jobs` at a time; a process that dies fails one trial only.
+def run_in_processes(prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
+    """Yield the trials of all seeds as they finish, `jobs` at a time; a process that dies fails only one trial.
 
     Closing the iterator ends all processes.
     """
@@ -72,36 +72,36 @@ def run_all(prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial
         while left or workers:
             while left and len(workers) < jobs:
                 worker = Worker(prepare)
-                workers[worker.line] = worker
-                worker.give(left.popleft())
-            for line in wait(list(workers)):
-                trial, alive = workers[cast(Connection, line)].take()
+                workers[worker.connection] = worker
+                worker.assign(left.popleft())
+            for connection in wait(list(workers)):
+                trial, alive = workers[cast(Connection, connection)].receive()
                 if alive and left:
-                    workers[cast(Connection, line)].give(left.popleft())
+                    workers[cast(Connection, connection)].assign(left.popleft())
                 else:
-                    workers.pop(cast(Connection, line)).end()
+                    workers.pop(cast(Connection, connection)).terminate()
                 yield trial
     finally:
         for worker in workers.values():
-            worker.end()
+            worker.terminate()
 
 
-def _serve(prepare: Prepare, line: Connection) -> None:
-    """Run the seeds that come along a line, until it ends."""
+def _serve(prepare: Prepare, connection: Connection) -> None:
+    """Run the seeds that arrive on a connection, until it is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
     runner: Runner | None = None
     while True:
         try:
-            seed = line.recv()
+            seed = connection.recv()
         except EOFError:
             return
         try:
             runner = runner or prepare()
             trial = runner.run(seed)
         except Exception as error:  # noqa: BLE001  the process's boundary: the other trials go on
-            trial = Trial(seed=seed, status="crashed", reason=_told(error))
-        line.send(trial)
+            trial = Trial(seed=seed, status="crashed", reason=_describe_error(error))
+        connection.send(trial)
 
 
 def _end_with_parent() -> None:
@@ -111,10 +111,10 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
-def _told(error: Exception) -> str:
+def _describe_error(error: Exception) -> str:
     place = traceback.extract_tb(error.__traceback__)[-1]
     return f"{type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
 
 
-def _words(code: int | None) -> str:
+def _describe_exit(code: int | None) -> str:
     return f"signal {-code}" if code is not None and code < 0 else f"code {code}"

@@ -1,14 +1,14 @@
-"""What a report keeps of the events of a run: the last choice made at each node, and when nodes ran."""
+"""Collects from the events of a run the last implementation chosen at each node, and when nodes ran."""
 
 from __future__ import annotations
 
 from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted
 
 
-class Choices(dict[int, ImplementationChosen]):
-    """A listener that keeps the last choice made at each node; in a loop a node runs many times.
+class ChoiceListener(dict[int, ImplementationChosen]):
+    """A listener that maps each node to its last choice; in a loop a node runs many times.
 
-    `runs` are the times, from and to in s, of each run of a node that succeeded.
+    `runs` are the start and end times in s of each successful run of a node.
     """
 
     def __init__(self) -> None:

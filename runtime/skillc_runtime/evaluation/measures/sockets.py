@@ -1,4 +1,4 @@
-"""Pegs that are in sockets."""
+"""Measures the insertion of pegs into sockets."""
 
 from __future__ import annotations
 
@@ -14,21 +14,23 @@ from skillc_runtime.world.state.terms import CONTAIN, DEPTH, PEG, SOCKET
 
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:
-    """Yield each peg that the world model says is in a socket."""
+    """Yield the insertion of each peg that is in a socket according to the world model."""
     cell, state = evidence.cell, evidence.cell.world.snapshot()
-    for fixture, true in zip(cell.scene.fixtures, cell.variation.fixtures, strict=True):
+    for fixture, variation in zip(cell.scene.fixtures, cell.variation.fixtures, strict=True):
         held = state.objects(fixture.individual, CONTAIN) if state.is_a(fixture.individual, SOCKET) else ()
         for peg in sorted(each for each in held if state.is_a(each, PEG)):
-            yield _inserted(evidence, fixture, true, peg)
+            yield _measure_insertion(evidence, fixture, variation, peg)
 
 
-def _inserted(evidence: RunEvidence, fixture: FixtureSpec, true: FixtureVariation, peg: str) -> InsertingWork:
+def _measure_insertion(
+    evidence: RunEvidence, fixture: FixtureSpec, variation: FixtureVariation, peg: str
+) -> InsertingWork:
     cell = evidence.cell
     end = cell.data.site(part_name(cell.scene.names[peg], "face")).xpos
     return InsertingWork(
         socket=cell.scene.names[fixture.individual],
-        depth_m=-float(true.true_pose(fixture.pose).inverse().apply(end)[2]),
-        hole_m=number_of(cell.world.snapshot(), fixture.individual, DEPTH),
+        depth_m=-float(variation.true_pose(fixture.pose).inverse().apply(end)[2]),
+        hole_depth_m=number_of(cell.world.snapshot(), fixture.individual, DEPTH),
         greatest_n=float(cell.ground_truth.recording(peg).force.max(initial=0.0)),
-        took=evidence.duration_share(fixture.individual),
+        duration_share=evidence.duration_share(fixture.individual),
     )

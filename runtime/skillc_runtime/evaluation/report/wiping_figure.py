@@ -11,10 +11,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from skillc_runtime.evaluation.report.drawing import Drawing
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 
-LANES, TOOL, WANTED, WIPING = "#000000", "#d55e00", "#0072b2", "#e8e8e8"
-"""Black, and vermilion and blue that colour-blind people tell apart; all differ in lightness on paper."""
+LANES, TOOL, TARGET, WIPING = "#000000", "#d55e00", "#0072b2", "#e8e8e8"
+"""Colours that people with colour blindness can distinguish; they also differ in lightness."""
 
 UNWIPED, DOSE, DOSE_ALPHA = "#ffffff", "cividis_r", 0.7
 COLUMN_IN, HEIGHT_IN, DOTS_PER_INCH = 6.2, 8.6, 120
@@ -36,17 +36,17 @@ class FigureFiles:
     svg: bytes
 
 
-def render_figure(drawings: Sequence[Drawing]) -> FigureFiles:
-    """Draw wipings side by side, contact times on the same scale. ValueError for none."""
+def render_figure(drawings: Sequence[WipingDrawing]) -> FigureFiles:
+    """Draw wipings side by side, with contact times on the same scale; ValueError if there are none."""
     with mpl.rc_context({"font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "svg.hashsalt": "skillc"}):
         figure = draw_figure(drawings)
-        png = _saved(figure, "png", {"Software": ""})
+        png = _save(figure, "png", {"Software": ""})
         figure.set_layout_engine("none")
-        return FigureFiles(png, _saved(figure, "svg", {"Date": None, "Creator": None}))
+        return FigureFiles(png, _save(figure, "svg", {"Date": None, "Creator": None}))
 
 
-def draw_figure(drawings: Sequence[Drawing]) -> Figure:
-    """Return the figure as matplotlib has it. ValueError for no drawings."""
+def draw_figure(drawings: Sequence[WipingDrawing]) -> Figure:
+    """Return the figure as a matplotlib object; ValueError if there are no drawings."""
     if not drawings:
         raise ValueError("there is no wiping to draw")
     longest = max(float(drawing.dose.max(initial=0.0)) for drawing in drawings)
@@ -59,8 +59,8 @@ def draw_figure(drawings: Sequence[Drawing]) -> Figure:
     return figure
 
 
-def _draw_surface(axes: Axes, drawing: Drawing, longest: float) -> None:
-    """Shade the contact time of each cell, and draw both paths over it; the longer side lies."""
+def _draw_surface(axes: Axes, drawing: WipingDrawing, longest: float) -> None:
+    """Shade the contact time of each cell and draw both paths over it, with the longer side horizontal."""
     upright = drawing.extent[1] > drawing.extent[0]
     order, names = ((1, 0), "yx") if upright else ((0, 1), "xy")
     x, y = drawing.extent[list(order)] / 2
@@ -81,40 +81,40 @@ def _draw_surface(axes: Axes, drawing: Drawing, longest: float) -> None:
     axes.plot([], [], color=UNWIPED, marker="s", markeredgecolor=LANES, linestyle="", label="not wiped")
     axes.set(xlabel=f"{names[0]} on the surface, mm", ylabel=f"{names[1]} on the surface, mm", aspect="equal")
     axes.set(xlim=(-x - MARGIN_MM, x + MARGIN_MM), ylim=(-y - MARGIN_MM, y + MARGIN_MM))
-    _headed(axes, f"{drawing.surface}, {drawing.robot}\n{drawing.covered:.1%} wiped")
+    _set_title(axes, f"{drawing.surface}, {drawing.robot}\n{drawing.covered:.1%} wiped")
     scale = axes.inset_axes((1.03, 0.0, 0.04, 1.0))
     axes.figure.colorbar(shades, cax=scale, label="contact time of each 5 mm cell, s")
 
 
-def _draw_speed(axes: Axes, drawing: Drawing) -> None:
-    """Draw how fast the tool went along the lanes, and how fast it should without its overlay."""
+def _draw_speed(axes: Axes, drawing: WipingDrawing) -> None:
+    """Draw the speed of the tool along the lanes, and that of the commanded path without its overlay."""
     tool = "tool with overlay" if drawing.overlaid else "tool"
     axes.plot(drawing.time, drawing.tool_speed, color=TOOL, linewidth=0.7, label=tool)
     axes.plot(drawing.time, drawing.lane_speed, color=LANES, linewidth=1.2, label="lanes")
-    axes.axhline(drawing.lingering, color=WANTED, linewidth=1.0, linestyle=":", label="dwell below")
+    axes.axhline(drawing.dwell_speed, color=TARGET, linewidth=1.0, linestyle=":", label="dwell below")
     axes.set(xlabel="time from the first lane, s", ylabel="speed, mm/s")
-    _headed(axes, "Speed along lanes")
+    _set_title(axes, "Speed along lanes")
 
 
-def _draw_force(axes: Axes, drawing: Drawing) -> None:
-    """Draw the normal force from shortly before contact."""
-    touched = drawing.contact_time[drawing.force > 0]
-    first = float(touched[0] if touched.size else drawing.contact_time[0]) - BEFORE_CONTACT_S
+def _draw_force(axes: Axes, drawing: WipingDrawing) -> None:
+    """Draw the normal force, from shortly before contact."""
+    contacts = drawing.contact_time[drawing.force > 0]
+    first = float(contacts[0] if contacts.size else drawing.contact_time[0]) - BEFORE_CONTACT_S
     axes.axvspan(drawing.time[0], drawing.time[-1], color=WIPING, linewidth=0, label="wiping")
     axes.plot(drawing.contact_time, drawing.force, color=TOOL, linewidth=0.6, label="measured")
-    axes.axhline(drawing.force_n, color=WANTED, linewidth=1.2, linestyle=":", label=f"asked for, {drawing.force_n:g} N")
+    axes.axhline(drawing.force_n, color=TARGET, linewidth=1.2, linestyle=":", label=f"asked for, {drawing.force_n:g} N")
     axes.set(xlabel="time from the first lane, s", ylabel="normal force, N", xlim=(first, drawing.time[-1]))
     axes.set_ylim(bottom=0)
-    _headed(axes, "Force on the surface")
+    _set_title(axes, "Force on the surface")
 
 
-def _headed(axes: Axes, title: str) -> None:
-    """Put a title and the legend above, side by side."""
+def _set_title(axes: Axes, title: str) -> None:
+    """Place the title and the legend above the axes."""
     axes.set_title(title, loc="left")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, frameon=False, borderaxespad=0.2, **COMPACT)
 
 
-def _saved(figure: Figure, form: str, metadata: dict[str, str | None]) -> bytes:
+def _save(figure: Figure, form: str, metadata: dict[str, str | None]) -> bytes:
     buffer = BytesIO()
     figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=metadata)
     return buffer.getvalue()

@@ -1,0 +1,98 @@
+"""The data for the figure of one wiping: commanded and measured paths, contact times, speeds and forces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.devices.ground_truth import Recording, join_recordings
+from skillc_runtime.evaluation.metrics.lane_dwell import DWELL_SHARE, find_lane_velocity
+from skillc_runtime.evaluation.metrics.wiping import measure_coverage
+from skillc_runtime.evaluation.report.wiping import Wiping, wiping_setup
+from skillc_runtime.motion.pose import Array
+
+DECIMATION = 5
+"""One of this many simulation steps is rows_drawn."""
+
+STANDING_M_S = 1e-3
+"""A slower path has no direction."""
+
+
+@dataclass(frozen=True, slots=True)
+class WipingDrawing:
+    """One wiping; times in s from its first reference, positions in mm from the middle of the surface.
+
+    extent (2,): size of the surface; `covered`: share of it that was wiped. dose (rows along y, columns along x):
+    contact time of the cells in s. lanes (n, 2): the commanded path without overlays; tool (n, 2): the measured path.
+    time (n,): of lanes, tool and speeds; lane_speed, tool_speed (n,): mm/s along the path; `overlaid` if the path has
+    an overlay. contact_time, force (m,): s and N from the approach on; `force_n` is the commanded force.
+    """
+
+    surface: str
+    robot: str
+    extent: Array
+    covered: float
+    dose: Array
+    lanes: Array
+    tool: Array
+    time: Array
+    lane_speed: Array
+    tool_speed: Array
+    overlaid: bool
+    contact_time: Array
+    force: Array
+    force_n: float
+
+    @property
+    def dwell_speed(self) -> float:
+        """The speed below which a tool dwells, mm/s."""
+        return DWELL_SHARE * float(np.nanmax(self.lane_speed, initial=0.0))
+
+
+def make_wiping_drawing(wiping: Wiping, cell: SimulatedCell) -> WipingDrawing:
+    """Return the drawing of one wiping."""
+    recording, setup = (
+        cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end),
+        wiping_setup(wiping, cell),
+    )
+    windows, frame = [recording.between(*stroke) for stroke in wiping.strokes], setup.surface.inverse()
+    window, rows_drawn = join_recordings(windows), _join_strokes(windows)
+    covered = measure_coverage(window, setup)
+
+    def on_surface(points: Array) -> Array:
+        return np.asarray(1e3 * (points @ frame.rotation.T + frame.position)[:, :2])
+
+    short = cell.world.snapshot().vocabulary.short
+    return WipingDrawing(
+        surface=short(wiping.surface),
+        robot=short(wiping.arm),
+        extent=1e3 * setup.extent,
+        covered=covered.wiped_share,
+        dose=covered.dose,
+        lanes=on_surface(rows_drawn.path),
+        tool=on_surface(rows_drawn.position),
+        time=rows_drawn.time - wiping.start,
+        lane_speed=1e3 * np.linalg.norm(rows_drawn.path_velocity, axis=1),
+        tool_speed=1e3 * _component_along(rows_drawn.path_velocity, rows_drawn.velocity),
+        overlaid=find_lane_velocity(window)[1] == "path",
+        contact_time=recording.time[::DECIMATION] - wiping.start,
+        force=recording.force[::DECIMATION],
+        force_n=wiping.force_n,
+    )
+
+
+def _join_strokes(windows: Sequence[Recording]) -> Recording:
+    """Return the rows of strokes to draw, with a row of NaN between strokes, so that no line joins them."""
+    rows = [each.rows[::DECIMATION] for each in windows]
+    gap = np.full((1, rows[0].shape[1]), np.nan)
+    return Recording(np.concatenate([part for each in rows for part in (each, gap)][:-1]))
+
+
+def _component_along(path_velocity: Array, velocity: Array) -> Array:
+    """Return the component (n,) of a velocity (n, 3) along a path; its magnitude where the path stands still."""
+    speed = np.linalg.norm(path_velocity, axis=1)
+    along = np.einsum("ij,ij->i", velocity, path_velocity) / np.maximum(speed, STANDING_M_S)
+    return np.asarray(np.where(speed > STANDING_M_S, along, np.linalg.norm(velocity, axis=1)))
