@@ -1,4 +1,4 @@
-"""Files in the user's cache folder: found whole and intact, or not at all."""
+"""Files in the cache folder of the user, which are either complete or absent."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def cache_folder() -> Path | None:
 
 
 def load(path: Path) -> bytes | None:
-    """Return what `store` wrote there; None where there is nothing, or where it is damaged."""
+    """Return what `store` wrote there; None if there is nothing, or if it is damaged."""
     try:
         content = path.read_bytes()
     except OSError:
@@ -37,7 +37,7 @@ def load(path: Path) -> bytes | None:
 
 
 def store(path: Path, body: bytes) -> None:
-    """Write a file whole or not at all, whoever else does; a folder that cannot be written only costs time."""
+    """Write a file atomically, also if others write it; a folder that cannot be written only costs time."""
     name = None
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -51,7 +51,7 @@ def store(path: Path, body: bytes) -> None:
 
 
 def delete_oldest(folder: Path, most: int, left: int) -> None:
-    """Delete the oldest files of a folder until `left` are left, where there are more than `most`.
+    """Delete the oldest files of a folder until `left` are left, if there are more than `most`.
 
     Other processes may delete some at the same time; a folder that cannot be read stays as it is.
     """

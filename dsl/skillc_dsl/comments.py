@@ -1,4 +1,4 @@
-"""The comments of a file, which its syntax tree leaves out."""
+"""The comments of a file, which its syntax tree omits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the compiler reports to an author: problems as data, with places, causes and fixes."""
+"""Diagnostics as data: problems with places, causes and fixes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Severity = Literal["error", "warning"]
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A second place that explains the first, such as the declaration that is contradicted."""
+    """A second place that explains the first, such as the contradicted declaration."""
 
     span: Span
     message: str
@@ -23,10 +23,10 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """An edit that fixes the problem: put `text` where `span` is; `message` says what it does, `write `..``.
+    """An edit that fixes a problem: replace `span` by `text`; `message` describes it, as in `write `..``.
 
-    `safe` if nobody who sees the problem could mean something else, so that `check --fix` may apply it unasked; a guess
-    at a name or a deletion of what was written is not.
+    `safe` if the edit is certainly what is meant, so that `check --fix` may apply it unasked; a guessed name or a
+    deletion is not safe.
     """
 
     span: Span
@@ -37,9 +37,9 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One problem, named in kebab case and described in the author's words.
+    """A problem with its name in kebab case.
 
-    `message` says what is wrong, `help` what to type instead; `fix` is the machine-applicable form of the help.
+    `message` describes the problem, `help` what to write instead; `fix` is the machine-applicable form of the help.
     """
 
     name: str
@@ -57,7 +57,7 @@ class Diagnostic:
 
 @dataclass(frozen=True, slots=True)
 class Outcome(Generic[T_co]):
-    """What a pass understood, with everything it has to say about the rest."""
+    """The result of a pass, with the diagnostics about what it had to leave out."""
 
     value: T_co
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -69,9 +69,9 @@ class Outcome(Generic[T_co]):
 
 
 def did_you_mean(wrong: str, candidates: Iterable[str]) -> str:
-    """Return a help line that names the candidates closest to `wrong`, or lists them all when few and none is close.
+    """Return a help line with the candidates closest to `wrong`, or with all of them if they are few and none is close.
 
-    Close are those spelt alike, or else those that hold `wrong` as a part, as `ArmDevice` holds `Arm`.
+    Close candidates are spelt alike, or else contain `wrong`, as `ArmDevice` contains `Arm`.
     """
     names = sorted(set(candidates))
     near = difflib.get_close_matches(wrong, names, n=3, cutoff=0.6) or _holding(wrong, names)
@@ -83,7 +83,7 @@ def did_you_mean(wrong: str, candidates: Iterable[str]) -> str:
 
 
 def _holding(word: str, names: Iterable[str]) -> list[str]:
-    """Return up to three names that `word`, of three letters or more, is a part of: first those that begin with it."""
+    """Return up to three names that contain `word`, of three letters or more; those that begin with it first."""
     small = word.lower()
     holding = [name for name in names if len(small) >= 3 and small in name.lower()]
     return sorted(holding, key=lambda name: (not name.lower().startswith(small), len(name), name))[:3]

@@ -1,4 +1,4 @@
-"""Edits of a text: fixes applied to it, several at once where they do not touch."""
+"""Edits of a text: several fixes are applied at once if they do not overlap."""
 
 from __future__ import annotations
 

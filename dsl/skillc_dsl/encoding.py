@@ -1,4 +1,4 @@
-"""From the bytes of a file to its text; each file that is not UTF-8 text is reported once."""
+"""From the bytes of a file to its text; each file that is not UTF-8 is reported once."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source, Span
 
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
-"""What decoding puts in the place of each byte that is not UTF-8."""
+"""The character that decoding puts in the place of each byte that is not UTF-8."""
 MOST_CHARACTERS = 500_000
-"""What is longer is no file that somebody wrote."""
+"""The maximum length of a file; longer files are not read."""
 MOST_BYTES = 4 * MOST_CHARACTERS + 4
-"""What holds more characters than are read, whichever they are."""
+"""More bytes than MOST_CHARACTERS can take in UTF-8."""
 _BYTE_ORDER_MARK = 2 * REPLACEMENT
 _NUL = "\0"
 
@@ -24,14 +24,14 @@ def decode(path: str, data: bytes) -> Source:
 
 
 def normalise_text(text: str) -> str:
-    """Return a text as it is read: without a byte order mark, and with LF at the end of each line."""
+    """Return a text without a byte order mark, and with LF at the end of each line."""
     return normalise_newlines(text.removeprefix("\ufeff"))
 
 
 def normalise_newlines(text: str) -> str:
-    """Return a text whose lines end as editors see it, at CR LF, CR and LF, with LF at the end of each.
+    """Return a text with LF at the end of each line, for CR LF, CR and LF.
 
-    Form feeds, U+0085 and U+2028 end no line: neither here nor in editors and the Language Server Protocol.
+    Form feeds, U+0085 and U+2028 do not end a line, as in editors and the Language Server Protocol.
     """
     return text.replace("\r\n", "\n").replace("\r", "\n")
 

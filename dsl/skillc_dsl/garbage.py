@@ -1,4 +1,4 @@
-"""Work without the collector of cyclic garbage: trees have no cycles, and looking for them takes 10 % of the time."""
+"""Suspends the cyclic garbage collector: trees have no cycles, and searching for them takes 10 % of the time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def gc_disabled() -> Iterator[None]:
-    """Turn the collector off for the block, if it is on; objects made in the block are collected later."""
+    """Disable the garbage collector for the block, if it is enabled; objects made in the block are collected later."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

@@ -1,4 +1,4 @@
-"""Colours for skill files wherever Pygments is: documentation, GitLab, terminals. The tokens are those of the table."""
+"""A Pygments lexer for skill files, with the tokens of the table."""
 
 from __future__ import annotations
 

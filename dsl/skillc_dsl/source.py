@@ -1,4 +1,4 @@
-"""Source text and places in it."""
+"""Source texts and places in them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A file's text under the path that diagnostics show."""
+    """The text of a file and the path that diagnostics show."""
 
     path: str
     text: str
@@ -15,7 +15,7 @@ class Source:
 
 @dataclass(frozen=True, slots=True, order=True)
 class Span:
-    """A stretch of text. Lines and columns count from 1; the end column is exclusive."""
+    """A range of text. Lines and columns count from 1; the end column is exclusive."""
 
     path: str
     line: int
@@ -24,5 +24,5 @@ class Span:
     end_column: int
 
     def to(self, end: Span) -> Span:
-        """Return the span from this one's start to the end of `end`, in the same file."""
+        """Return the span from the start of this one to the end of `end`, in the same file."""
         return Span(self.path, self.line, self.column, end.end_line, end.end_column)

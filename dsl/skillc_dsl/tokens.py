@@ -1,4 +1,4 @@
-"""The tokens of the language in one table, which the grammar and every highlighter are tested against."""
+"""The tokens of the language in one table; tests compare the grammar and every highlighter with it."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ NAMES_ELSEWHERE: frozenset[str] = frozenset(
         *("all", "race", "lead", "invert", "once", "retry", "repeat", "timeout", "wait", "until", "max", "check"),
     )
 )
-"""Keywords that are legal names wherever they cannot stand as keywords."""
+"""Keywords that are legal names in places where no keyword fits."""
 
 TYPES = (
     *(name for name in DIMENSIONS if name != "Number"),
@@ -67,7 +67,7 @@ TYPES = (
     "Vector",
     "Direction",
 )
-"""The types that are no classes of an ontology."""
+"""The types that are not classes of an ontology."""
 
 NAME = r"[^\W\d]\w*"
 NUMBER = r"\d+(\.\d+)?([eE][+-]?\d+)?"
@@ -94,12 +94,12 @@ PATTERNS: MappingProxyType[TokenKind, str] = MappingProxyType(
 
 
 def keyword_group(word: str) -> Group | None:
-    """Return what a keyword is for, None for a word that is none."""
+    """Return what a keyword is for, None for any other word."""
     return next((group for group, words in KEYWORDS.items() if word in words), None)
 
 
 def scan_tokens(text: str) -> Iterator[tuple[TokenKind, int, str]]:
-    """Yield the kind, position and text of each token, read from the left; what is none is left out."""
+    """Yield the kind, position and text of each token, from left to right; other characters are left out."""
     for match in _table().finditer(text):
         yield _KINDS[match.lastgroup or ""], match.start(), match.group()
 

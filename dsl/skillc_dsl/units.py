@@ -1,4 +1,4 @@
-"""Units and dimensions: what a quantity measures, and its value in SI."""
+"""Units and dimensions: the dimension of a quantity, and its value in SI units."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """What a quantity measures, as the exponents of length, mass, time and angle."""
+    """A dimension, as exponents of length, mass, time and angle."""
 
     length: int = 0
     mass: int = 0
@@ -31,7 +31,7 @@ class Dimension:
 
     @property
     def name(self) -> str:
-        """The language's name for this dimension, such as `Force`; a formula such as `m^2 s^-1` where it has none."""
+        """The language's name for this dimension, such as `Force`; a formula such as `m^2 s^-1` if it has none."""
         return _NAMES.get(self) or self._formula()
 
     def _formula(self) -> str:
@@ -77,7 +77,7 @@ _NAMES = MappingProxyType({dimension: name for name, dimension in DIMENSIONS.ite
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit as written: its dimension, and the SI value of one of it."""
+    """A unit: its dimension, and its value in SI units."""
 
     dimension: Dimension
     in_si: float
@@ -131,12 +131,12 @@ def to_si(value: float, unit: str) -> float:
 
 
 def dimension_of(unit: str) -> Dimension:
-    """Return what `unit` measures. Raises KeyError for a unit that is not in UNITS."""
+    """Return the dimension of `unit`. Raises KeyError for a unit that is not in UNITS."""
     return UNITS[unit].dimension
 
 
 def suggest_units(wrong: str) -> tuple[str, ...]:
-    """Return the units an author may have meant by `wrong`, the likeliest first; none when nothing is like it."""
+    """Return the units an author may have meant by `wrong`, the most likely first; empty if none is close."""
     meant = _SPELLINGS.get(wrong.lower())
     alike = difflib.get_close_matches(wrong, list(UNITS), n=3, cutoff=0.5)
     return tuple(dict.fromkeys((meant, *alike))) if meant else tuple(alike)

@@ -95,12 +95,12 @@ def _is_accounted_for(types: AliasTypes, condition: Condition, before: tuple[Sta
 
 
 def _with_identities(state: State, other: State) -> State:
-    """Return the state with what the other knows of identity and classes, which nothing changes."""
+    """Return the state with the identities and classes that the other knows, which never change."""
     return state.with_facts({fact: true for fact, true in other.facts.items() if isinstance(fact, Same | IsA)})
 
 
 def _is_declared(run: Exploration, implementation: Implementation, write: Write) -> bool:
-    """Whether a postcondition declares the write, for whatever individual."""
+    """Whether a postcondition declares the write, for any individual."""
     for _, effect in definite_effects(requirements_of(implementation, "post")):
         own = write_of(effect)
         if isinstance(own, RelationWrite) and own == write and own.value is True:

@@ -112,7 +112,7 @@ def _writes_of_others(writes: list[frozenset[Write]], number: int) -> frozenset[
 def states_when_halted(
     run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext
 ) -> dict[State, Path]:
-    """Return what is known after a node was halted, wherever it was."""
+    """Return what is known after a node was halted at any point."""
     return havoc_all(run.types, interleave(run, states, node), run.writes(node) | context.concurrent_writes)
 
 

@@ -178,7 +178,7 @@ def in_caller_terms(call: Call, writes: frozenset[Write]) -> frozenset[Write]:
 
 
 def _argument_values(call: Call, skill: Skill) -> Mapping[str, Expression]:
-    """Return the caller's terms for the parameters of a skill; any fitting individual where it has no stable name."""
+    """Return the caller's terms for the parameters of a skill; any fitting individual if it has no stable name."""
     values: dict[str, Expression] = {p.name: any_individual(class_of(p)) for p in skill.parameters}
     for argument in call.arguments:
         meaning = argument.value.meaning

@@ -47,12 +47,12 @@ def _class(
     vocabulary: Vocabulary, declaration: s.ClassDeclaration, iri: str, reported: set[frozenset[str]]
 ) -> Iterator[Diagnostic]:
     above = vocabulary.ancestors.get(iri, frozenset())
-    circle = frozenset(other for other in above if other != iri and vocabulary.is_a(other, iri))
-    if circle or (iri in vocabulary.classes and iri in vocabulary.classes[iri].parents):
-        if circle | {iri} not in reported:
-            reported.add(circle | {iri})
-            way = "".join(f", by `{local_name(other)}`" for other in sorted(circle))
-            message = f"`{declaration.name.text}` is declared below itself{way}"
+    cycle = frozenset(other for other in above if other != iri and vocabulary.is_a(other, iri))
+    if cycle or (iri in vocabulary.classes and iri in vocabulary.classes[iri].parents):
+        if cycle | {iri} not in reported:
+            reported.add(cycle | {iri})
+            chain = "".join(f", by `{local_name(other)}`" for other in sorted(cycle))
+            message = f"`{declaration.name.text}` is declared below itself{chain}"
             yield Diagnostic("class-cycle", declaration.name.span, message, "remove one of the parents")
         return
     for one, other in combinations(declaration.parents, 2):

@@ -91,7 +91,7 @@ def _by_name(taken: PythonSignature, given: Sequence[str]) -> str | None:
 
 
 def _not_callable(method: FunctionInfo, count: int) -> str | None:
-    """Return why a method cannot be called with so many arguments, None if it can or is not determined."""
+    """Return why a method cannot be called with `count` arguments, None if it can or is not determined."""
     if method.asynchronous:
         return "is `async`, which is never waited for"
     taken = method.signature

@@ -32,7 +32,7 @@ def report_unplannable(library: SkillLibrary, program: Program, problems: Iterab
 
 
 def _has_class_cycle(vocabulary: Vocabulary) -> bool:
-    """Whether a class is below itself, so that there is no hierarchy of types."""
+    """Whether the class hierarchy has a cycle, so that PDDL types cannot be derived."""
     return any(vocabulary.is_a(parent, iri) for iri, term in vocabulary.classes.items() for parent in term.parents)
 
 

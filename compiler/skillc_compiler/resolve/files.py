@@ -62,11 +62,11 @@ class _Reader:
                 yield line, found[0].path
 
     def _find(self, importer: str, wanted: str, library: str) -> tuple[Source, str] | None:
-        beside = posixpath.normpath(posixpath.join(posixpath.dirname(importer), wanted))
-        if importer not in self.own and posixpath.dirname(importer) and beside in self.importable:
-            return self._importable(beside)  # a file of another library means what stands beside it there
-        if library == self.name and beside in self.own:
-            return self.own[beside], library
+        relative = posixpath.normpath(posixpath.join(posixpath.dirname(importer), wanted))
+        if importer not in self.own and posixpath.dirname(importer) and relative in self.importable:
+            return self._importable(relative)  # files of another library import their neighbours there
+        if library == self.name and relative in self.own:
+            return self.own[relative], library
         return self._importable(wanted) if wanted in self.importable else None
 
     def _importable(self, wanted: str) -> tuple[Source, str]:
@@ -76,8 +76,8 @@ class _Reader:
     def _meant(self, file: s.File, line: s.Import, library: str) -> tuple[Source, str] | None:
         """Report a missing file; return the one that is meant, if its name is close to that of one file only."""
         folder = posixpath.dirname(file.path)
-        beside = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
-        candidates = [name for name in (*beside, *self.importable) if name != posixpath.basename(file.path)]
+        relative = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
+        candidates = [name for name in (*relative, *self.importable) if name != posixpath.basename(file.path)]
         wrong = line.path.value
         near = suggest_fix(s.Name(wrong, line.path.span), candidates)
         self.problems.append(

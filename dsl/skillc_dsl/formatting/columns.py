@@ -1,4 +1,4 @@
-"""Lines of a block in columns: cells that are as wide as the widest of their column."""
+"""Aligned columns in the lines of a block: each cell is as wide as the widest of its column."""
 
 from __future__ import annotations
 
@@ -55,6 +55,6 @@ def align_columns(members: Sequence[MemberLine], least: int = 0) -> Iterator[d.D
 
 
 def _texts(member: MemberLine) -> tuple[str, ...]:
-    """Return the texts of all cells, none where one of them has a comment."""
+    """Return the texts of all cells, or none if one of them has a comment."""
     texts = [one_line(cell.content) for cell in member.cells]
     return () if None in texts else tuple(text or "" for text in texts)

@@ -1,4 +1,4 @@
-"""Documents: text with the places where its lines may or must break."""
+"""Documents for layout: text with the places where lines may or must break."""
 
 from __future__ import annotations
 

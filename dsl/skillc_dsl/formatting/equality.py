@@ -1,4 +1,4 @@
-"""Whether two texts say the same: the same tree and the same comments, wherever they stand."""
+"""Whether two texts are equal modulo layout: the same tree and the same comments."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def equal_modulo_layout(left: Source, right: Source) -> bool:
 
 
 def _flat(tree: object) -> list[object]:
-    """Return everything in a tree but places, in order; marks show where its pieces begin and end."""
+    """Return the content of a tree in order, without places; marks delimit its pieces."""
     result: list[object] = []
     pending: list[object] = [tree]
     while pending:

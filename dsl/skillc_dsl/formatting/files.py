@@ -21,7 +21,7 @@ class FileFormatter(MemberFormatter):
     """Makes the document of a file."""
 
     def file(self, tree: Tree[Token]) -> d.Document:
-        """Return a whole file: blank lines stay, and stand around whatever has braces and below the header."""
+        """Return a whole file: blank lines are kept, and added around declarations with braces and below the header."""
         parts: list[d.Document] = []
         before = ""
         for trees in self._paragraphs([child for child in tree.children if isinstance(child, Tree)]):

@@ -1,4 +1,4 @@
-"""The one way a `.skill` file is laid out."""
+"""The formatter of `.skill` files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values, conditions, calls and lists as documents: what stands on one line if it fits, and how it breaks if not."""
+"""Expressions, conditions, calls and lists as documents: on one line if they fit, otherwise with breaks."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def is_token(branch: Branch, kind: str) -> bool:
 
 
 def index_of(children: Sequence[Branch], kind: str) -> int:
-    """Return where the first token of that kind stands among `children`, -1 where there is none."""
+    """Return where the first token of that kind stands among `children`, -1 if there is none."""
     return next((index for index, child in enumerate(children) if is_token(child, kind)), -1)
 
 
@@ -79,7 +79,7 @@ class InlineFormatter:
         return d.concatenate(above, d.DocumentGroup(d.Indent(line)) if listed else line)
 
     def bracketed(self, children: Sequence[Branch], end: str = "") -> d.Document:
-        """Return brackets and what stands between, which has lines of its own where it is too long for one.
+        """Return brackets with their content, which gets its own lines if it is too long for one.
 
         `end` is a mark that the last part has where it breaks.
         """

@@ -1,4 +1,4 @@
-"""Lays a document out in lines (Wadler, A prettier printer, 1998, without laziness: one look ahead for each group)."""
+"""Lays out a document in lines (Wadler, A prettier printer, 1998, without laziness: one look-ahead for each group)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Row:
 
 
 Pending: TypeAlias = tuple[int, bool, d.Document]
-"""A document yet to be laid out: its indentation, whether its lines break, and itself."""
+"""A document to lay out: its indentation, whether its lines break, and the document."""
 
 
 def lay_out(document: d.Document) -> list[Row]:

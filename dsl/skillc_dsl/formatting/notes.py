@@ -1,4 +1,4 @@
-"""Comments and blank lines, each at the token it belongs to."""
+"""Comments and blank lines, each attached to a token."""
 
 from __future__ import annotations
 

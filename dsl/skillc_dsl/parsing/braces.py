@@ -1,4 +1,4 @@
-"""Braces left open, or closed twice: found by the indentation, reported and repaired."""
+"""Missing and superfluous braces: found by the indentation, reported and repaired."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_dsl.source import Span
 
 
 def close_braces(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens with a `}` wherever a declaration leaves a brace open, without any that is one too many."""
+    """Return the tokens with missing `}` added and superfluous ones removed, in each declaration."""
     closed: list[Token] = []
     problems: list[Diagnostic] = []
     for start, end in _regions(tokens):

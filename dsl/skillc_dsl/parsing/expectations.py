@@ -1,4 +1,4 @@
-"""What would fit at a place, in the author's words."""
+"""Descriptions of what fits at a place, in the author's words."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def name_terminals() -> frozenset[str]:
 
 
 def explain_where_it_belongs(token: Token) -> str:
-    """Return help that says where a member belongs, empty for what is no member."""
+    """Return help that says where a member belongs, empty for other constructs."""
     homes = (
         ("a `skill`", "SKILL NAME LBRACE"),
         ("an `impl`", "IMPL NAME OF NAME LBRACE"),

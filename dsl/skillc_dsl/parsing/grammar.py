@@ -1,4 +1,4 @@
-"""The grammar as tables: what fits after what. They are made once and then cached, which is much faster."""
+"""The parser tables of the grammar; they are computed once and then cached."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _tables() -> ParseConf[int]:
 
 
 def shift(stack: Sequence[int], terminal: str) -> list[int] | None:
-    """Return the stack of parser states after `terminal`, or None where it does not fit."""
+    """Return the stack of parser states after `terminal`, or None if it does not fit."""
     tables, result = _tables(), list(stack)
     while True:
         action, target = tables.states[result[-1]].get(terminal, (None, None))

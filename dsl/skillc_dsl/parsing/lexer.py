@@ -1,4 +1,4 @@
-"""From text to tokens; what is not a token is reported and skipped or repaired."""
+"""From text to tokens; other characters are reported and skipped or repaired."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def empty_token_after(last: Token | None, terminal: str) -> Token:
 
 
 def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> None:
-    """Move past what is no token: a text that does not end with its line, or a run of foreign characters."""
+    """Skip characters that form no token: an unterminated text, or a run of unknown characters."""
     counter = state.line_ctr
     start, line, column = counter.char_pos, counter.line, counter.column
     quote = {'"': r'"[^\n]*', "'": r"'[^'\n]*'|'+"}.get(source.text[start])

@@ -1,4 +1,4 @@
-"""How deep a text may be nested: what is deeper is refused here, once, so that no later stage has to count."""
+"""The maximum depth of nesting; deeper parts are reported here once, so that no later stage has to count."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.source import Span
 
 DEEPEST = 64
-"""So many steps, conditions and values may stand in each other."""
+"""The maximum number of nested steps, conditions and values."""
 _NESTED = frozenset(
     (
         *("block", "counted", "timeout", "if_", "while_", "for_", "with_"),

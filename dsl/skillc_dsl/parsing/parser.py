@@ -14,11 +14,11 @@ from skillc_dsl.parsing.token_repairs import repair_tokens
 from skillc_dsl.source import Source
 
 MOST_PROBLEMS = 200
-"""So many syntax errors of one file are shown."""
+"""The maximum number of syntax errors shown for a file."""
 
 
 def parse(source: Source) -> Outcome[s.File]:
-    """Return what could be understood of `source`, with the problems of the rest in the order of the text.
+    """Return the syntax tree of what can be parsed of `source`, with the problems in the order of the text.
 
     Where some bytes are not UTF-8, nothing else is reported; a file that is not text has no declarations.
     """
@@ -43,7 +43,7 @@ def parse(source: Source) -> Outcome[s.File]:
 
 
 def _first(problems: list[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Return the problems, of very many only the first ones."""
+    """Return the problems, or only the first ones if there are many."""
     if len(problems) <= MOST_PROBLEMS:
         return tuple(problems)
     shown, place = problems[:MOST_PROBLEMS], problems[MOST_PROBLEMS].span

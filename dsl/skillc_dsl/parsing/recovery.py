@@ -1,4 +1,4 @@
-"""The parser's loop: it goes on after every fault, with what it understood so far."""
+"""The parser loop: it continues after every syntax error with what it has parsed so far."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from skillc_dsl.parsing.repairs import Fault, repair
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
-"""So many states of the parser are on its stack at most, so that what follows a fault is found quickly."""
+"""The maximum size of the parser stack, so that recovery is fast."""
 MOST_FAULTS = 200
-"""After so many faults a text is none of this language, and what is left of it is not read."""
+"""The number of syntax errors after which the rest of a file is not parsed."""
 _CALM = 2
-"""So many tokens must fit after a fault before the next one is reported."""
+"""The number of tokens that must fit after a syntax error before the next one is reported."""
 
 
 class Recovery:
@@ -42,7 +42,7 @@ class Recovery:
         self._faults = 0
 
     def run(self) -> Tree[Token]:
-        """Return the tree of everything understood."""
+        """Return the tree of everything that was parsed."""
         index, feed = 0, self._state.feed_token
         while self.tokens[index].type != END or not can_continue(self._state.state_stack, END):
             before = self._state.state_stack.copy()
@@ -109,7 +109,7 @@ class Recovery:
             self.problems.append(problem)
 
     def _misfit(self, before: list[int], index: int) -> Diagnostic:
-        """Say what was found and what would fit; a member cut short is reported where it stops."""
+        """Report what was found and what is expected; an incomplete member is reported at its end."""
         token, expected = self.tokens[index], list_fitting_terminals(before)
         span = token_span(token, self.path)
         if token.type == "RBRACE" and END in expected:
@@ -158,7 +158,7 @@ class Recovery:
         self._drop(outer)
 
     def _last(self) -> Token:
-        """Return the last token of what was understood."""
+        """Return the last token that was parsed."""
         last: Token | Tree[Token] = self._state.value_stack[-1]
         while isinstance(last, Tree):
             last = last.children[-1]

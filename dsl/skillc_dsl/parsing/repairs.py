@@ -1,4 +1,4 @@
-"""Mistakes that the change of one token repairs, so that the rest of the declaration is understood."""
+"""Repairs of syntax errors by changing one token, so that the rest of the declaration can be parsed."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Fault:
 
 
 def repair(fault: Fault) -> Repair | None:
-    """Return the first change of one token that lets the parser go on, None where none does."""
+    """Return the first change of one token that lets the parser go on, None if none does."""
     attempts: tuple[Callable[[Fault], Iterator[Repair]], ...]
     attempts = (_repeated, _label, _swapped, _keyword, _missing, _superfluous)
     return next((found for attempt in attempts for found in attempt(fault)), None)

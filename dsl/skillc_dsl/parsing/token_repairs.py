@@ -1,4 +1,4 @@
-"""Mistakes that show in neighbouring tokens, reported and repaired before the grammar sees them."""
+"""Mistakes in adjacent tokens, which are reported and repaired before parsing."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _touch(left: Token, right: Token) -> bool:
 
 
 def _unit_length(tokens: tuple[Token, ...], index: int) -> int:
-    """Return how many tokens from `index` make a number with an unknown unit, 0 where there is none.
+    """Return how many tokens from `index` make a number with an unknown unit, 0 if there is none.
 
     `5 furlong`, `5 km/h`, and `5 N/mm`, which reads as the quantity `5 N` divided by `mm`.
     """
@@ -104,7 +104,7 @@ def _doubled(brace: Token, path: str) -> Diagnostic:
 
 
 def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
-    """Whether a word and a `:` that is no label stand here, as in `speed:0.5 m/s` or `arm : ArmDevice`."""
+    """Whether a word and a `:` that do not form a label are here, as in `speed:0.5 m/s` or `arm : ArmDevice`."""
     if index + 2 >= len(tokens) or tokens[index + 1].type != "COLON":
         return False
     return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line
@@ -129,7 +129,7 @@ def report_missing_space(label: Span, value: str) -> Diagnostic:
 
 
 def match_foreign_comparison(tokens: Sequence[Token], index: int) -> int:
-    """Return how many tokens from `index` make a comparison of another language, 0 where there is none."""
+    """Return how many tokens from `index` make a comparison of another language, 0 if there is none."""
     first, second = tokens[index], tokens[min(index + 1, len(tokens) - 1)]
     if first in MEANT:
         return 1

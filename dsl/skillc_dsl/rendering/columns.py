@@ -1,4 +1,4 @@
-"""How wide text is in a terminal: tabs, wide and combining characters, lines longer than the page."""
+"""The width of text in a terminal: tabs, wide and combining characters, lines longer than the page."""
 
 from __future__ import annotations
 

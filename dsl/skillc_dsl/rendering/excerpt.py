@@ -98,7 +98,7 @@ def _edges(line: DisplayLine, span: Span, length: int) -> tuple[int, int]:
 
 
 def _row(mark: Underline, start: int, end: int, shown: Window, page: ExcerptLayout) -> Iterator[str]:
-    """Yield the carets of a mark, with its message beside them or, where there is no room, below."""
+    """Yield the carets of a mark, with its message beside them or, if there is no room, below."""
     indent = min(max(0, start - shown.shift), page.room - 1)
     sign = "-" if mark.kind == "label" else "^"
     carets = sign * max(1, min(end, shown.end) - shown.shift - indent)

@@ -69,7 +69,7 @@ class WaitUntil:
 
 @dataclass(frozen=True, slots=True)
 class If:
-    """`if condition { } else { }`; `orelse` is None where there is no `else`."""
+    """`if condition { } else { }`; `orelse` is None if there is no `else`."""
 
     condition: Condition
     text: str

@@ -26,7 +26,7 @@ class ListOf:
 
 @dataclass(frozen=True, slots=True)
 class OfDimension:
-    """The type `Vector of Length`; what else stands before `of` is no type."""
+    """The type `Vector of Length`; anything else before `of` is not a type."""
 
     of: Name
     dimension: Name

@@ -87,16 +87,16 @@ def children_of_type(children: Iterable[Child], kind: type[T]) -> tuple[T, ...]:
 
 
 def first_of_type(children: Iterable[Child], kind: type[T]) -> T | None:
-    """Return the first child of one kind, None where there is none."""
+    """Return the first child of one kind, None if there is none."""
     return next((child for child in children if isinstance(child, kind)), None)
 
 
 def find_part(children: Iterable[Child], rule: str) -> Part | None:
-    """Return the part made by `rule`, None where it was not written."""
+    """Return the part made by `rule`, None if it was not written."""
     return next((child for child in children if isinstance(child, Part) and child.rule == rule), None)
 
 
 def keyword_at(children: Sequence[Child], index: int) -> str:
-    """Return the word at `index`, empty where no token stands there."""
+    """Return the word at `index`, empty if there is none."""
     child = children[index] if index < len(children) else None
     return child.value if isinstance(child, Token) else ""

@@ -16,7 +16,7 @@ _QUANTITY = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)")
 
 
 class ValueBuilder(TreeBuilder):
-    """Names, types and values; a condition in parentheses passes through where it may yet be one."""
+    """Names, types and values; a condition in parentheses is passed on where a condition may follow."""
 
     def name(self, children: list[Token]) -> s.Name:
         """`contain`, `skiros:contain`"""
