@@ -7,7 +7,7 @@ from pathlib import Path
 import pyoxigraph as ox
 import pytest
 
-from skillc_runtime.store import facts_folder as base
+from skillc_runtime.store import facts_folder
 from skillc_runtime.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
 from skillc_runtime.store.opening import open_store
 from skillc_runtime.world.state.transactions import StoreError
@@ -111,7 +111,7 @@ def test_damaged_facts_are_told_and_can_be_filled_anew(tmp_path: Path) -> None:
 def test_facts_that_say_nothing_of_themselves_are_damaged(tmp_path: Path) -> None:
     ox.Store(str(tmp_path / "facts")).flush()
     with pytest.raises(StoreError, match=r"sequence> is missing"):
-        base.read(tmp_path / "facts")
+        facts_folder.read(tmp_path / "facts")
 
 
 def test_a_store_in_use_is_not_reset(tmp_path: Path) -> None:

@@ -97,7 +97,7 @@ def test_undoing_leads_back_through_every_version(seed: int) -> None:
     for version in reversed(versions):
         event = model.undo()
         assert everything(event.after) == everything(version)
-    with pytest.raises(WorldError, match="nothing to take back"):
+    with pytest.raises(WorldError, match="nothing to undo"):
         model.undo()
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from skillc_runtime.store import facts_folder as base
+from skillc_runtime.store import facts_folder
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.journal import JournalEntry, TransactionJournal
 from skillc_runtime.store.store import StoredWorld
@@ -56,7 +56,7 @@ class DiskStore:
 
     def read(self) -> StoredWorld:
         """Return the current facts."""
-        stored = base.read(self._facts)
+        stored = facts_folder.read(self._facts)
         self._journal.start_after(stored.sequence)
         entries = self._journal.since(stored.sequence)
         if not entries:
@@ -100,7 +100,7 @@ class DiskStore:
         with self._journal.locked():
             if self._facts.exists():
                 return False
-            base.create(self._facts, triples, 1, origin)
+            facts_folder.create(self._facts, triples, 1, origin)
         self._journal.start_after(1)
         return True
 
@@ -119,13 +119,13 @@ class DiskStore:
         if not (self._journal.writable and self._facts.exists()):
             return
         with contextlib.suppress(StoreError, OSError):
-            before = base.sequence(self._facts)
+            before = facts_folder.sequence(self._facts)
             self._journal.start_after(before)
             entries = self._journal.since(before)
             if entries:
                 net = _net_changes(entries)
                 removed, added = ([t for t, present in net.items() if present is wanted] for wanted in (False, True))
-                base.advance(self._facts, removed, added, before, entries[-1].sequence)
+                facts_folder.advance(self._facts, removed, added, before, entries[-1].sequence)
             self._journal.clear()
 
 

@@ -102,12 +102,12 @@ class WorldModel:
                 raise WorldError("a transaction is open: end it first")
             self.follow()
             if not self._past:
-                raise WorldError("there is nothing to take back: nothing was written here since others wrote")
+                raise WorldError("there is nothing to undo: nothing was written here since others wrote")
             last = self._past[-1]
             named = {individual for change in last.changes for individual in named_individuals(change)}
             event = self._check(changes_between(self._state, last.before, named), origin, None)
             if not self._store.append(event, self._sequence):
-                raise WorldError("others wrote to the world meanwhile: nothing was taken back")
+                raise WorldError("others wrote to the world meanwhile: nothing was undone")
             self._advance(event)
             self._past.pop()
             self.ledger.drop_last()
