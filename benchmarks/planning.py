@@ -23,7 +23,7 @@ from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Solved
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW
-from skillc_runtime.planning.problem.pose import Posed, pose_problem
+from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.state.bulk import FactTables, build_world_state
 from skillc_runtime.world.state.world_state import WorldState
@@ -122,7 +122,7 @@ def _triples(state: WorldState) -> int:
     return len(state.individuals) + links + values
 
 
-def prove(near: Posed, state: WorldState) -> None:
+def prove(near: PosedProblem, state: WorldState) -> None:
     """Find the bound on all plans of the scene."""
     bound = relax_scene(near, state)
     assert bound is not None and isinstance(list_planners()[0].plan(bound, 30.0), Solved)

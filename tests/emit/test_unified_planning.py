@@ -12,7 +12,7 @@ from skillc.services.reporting import Silent
 from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Plan, Solved
-from skillc_runtime.planning.problem.pose import Posed, pose_problem
+from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 
@@ -34,7 +34,7 @@ def loaded(task: str) -> LoadedTask:
 
 
 @cache
-def posed(task: str) -> Posed:
+def posed(task: str) -> PosedProblem:
     aim = loaded(task).assignment.objective
     assert isinstance(aim, AchieveGoal)
     return pose_problem(loaded(task).library, loaded(task).assignment.state, aim.goal)

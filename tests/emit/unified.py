@@ -20,7 +20,7 @@ from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_t
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import InitialState
-from skillc_runtime.planning.problem.pose import Posed
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -39,14 +39,14 @@ def temporal(problem: Problem) -> Any:
     return _read(temporal_text(problem.domain), temporal_problem_text(problem))
 
 
-def takes(posed: Posed, plan: Plan) -> bool:
+def takes(posed: PosedProblem, plan: Plan) -> bool:
     """Whether its validator accepts the steps as a plan for the classical problem."""
     problem = classical(posed.problem)
     steps = SequentialPlan([instance(problem, posed.problem, step) for step in plan.steps])
     return bool(SequentialPlanValidator().validate(problem, steps))
 
 
-def takes_in_time(posed: Posed, plan: Plan) -> bool:
+def takes_in_time(posed: PosedProblem, plan: Plan) -> bool:
     """Whether its validator accepts the steps, one after the other, as a plan for the temporal problem."""
     problem = temporal(posed.problem)
     timed, now = [], 0.0
@@ -68,7 +68,7 @@ def instance(problem: Any, posed: Problem, step: Step) -> ActionInstance:
     )
 
 
-def disagreements(posed: Posed, state: WorldState, depth: int = 2) -> tuple[list[str], int]:
+def disagreements(posed: PosedProblem, state: WorldState, depth: int = 2) -> tuple[list[str], int]:
     """Return where simulating the problem and the world model differ within so many steps, and the steps tried."""
     problem = classical(posed.problem)
     simulator = UPSequentialSimulator(problem, error_on_failed_checks=False)
@@ -115,7 +115,7 @@ def _instances(action: Action, problem: Problem) -> Iterator[Step]:
         yield Step(action.skill, dict(zip(action.binds, iris, strict=True)))
 
 
-def _facts(posed: Posed, facts: Iterator[tuple[str, ...]]) -> frozenset[tuple[str, ...]]:
+def _facts(posed: PosedProblem, facts: Iterator[tuple[str, ...]]) -> frozenset[tuple[str, ...]]:
     """Return those facts that skills change; the sides of a symmetric relation in order, as either says the same."""
     relations = posed.library.vocabulary.relations
     found = set()
@@ -128,7 +128,7 @@ def _facts(posed: Posed, facts: Iterator[tuple[str, ...]]) -> frozenset[tuple[st
     return frozenset(found)
 
 
-def _initial(posed: Posed, world: WorldState) -> Iterator[tuple[str, ...]]:
+def _initial(posed: PosedProblem, world: WorldState) -> Iterator[tuple[str, ...]]:
     problem = posed.problem
     for each in InitialState(problem.domain, world, problem.objects, problem.names).atoms():
         yield each.predicate, *each.terms

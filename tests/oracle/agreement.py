@@ -12,7 +12,7 @@ from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Ex
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
-from skillc_runtime.planning.problem.pose import Posed, pose_problem
+from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.search.grounding import GroundAction, Grounding
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -44,7 +44,7 @@ def _after(action: GroundAction, before: Set[Atom]) -> Set[Atom]:
     return (before - gone) | {each.atom for each in fired if each.positive}
 
 
-def _differences(posed: Posed, atoms: Set[Atom], after: WorldState) -> Iterator[str]:
+def _differences(posed: PosedProblem, atoms: Set[Atom], after: WorldState) -> Iterator[str]:
     """Yield what a condition would read otherwise: a relation that follows, a value of a property."""
     closure, problem = after.vocabulary.closure, posed.problem
     predicates = problem.domain.predicates

@@ -22,7 +22,7 @@ from skillc_runtime.planning.plan import (
 )
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
-from skillc_runtime.planning.problem.pose import GoalError, Posed, already_holds, pose_problem
+from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds, pose_problem
 from skillc_runtime.planning.unsolvability import explain_unsolvable
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state.world_state import WorldState
@@ -51,16 +51,16 @@ def solve(
     end = time.monotonic() + deadline_s
     chosen = tuple(list_planners() if planners is None else planners)
 
-    def pose(size: AbstractionSize | None) -> Posed:
+    def pose(size: AbstractionSize | None) -> PosedProblem:
         return pose_problem(library, state, goal, without, size)
 
-    def answer(posed: Posed, seconds: float) -> PlanResult:
+    def answer(posed: PosedProblem, seconds: float) -> PlanResult:
         return _plan_and_validate(chosen, posed, state, goal, seconds)
 
     def search(problem: Problem, seconds: float) -> PlanResult:
         return chosen[0].plan(problem, seconds)
 
-    def explain(posed: Posed) -> str:
+    def explain(posed: PosedProblem) -> str:
         return explain_unsolvable(posed, goal, state)
 
     try:
@@ -72,7 +72,7 @@ def solve(
 
 
 def _plan_and_validate(
-    planners: Sequence[Planner], posed: Posed, state: WorldState, goal: Condition, deadline_s: float
+    planners: Sequence[Planner], posed: PosedProblem, state: WorldState, goal: Condition, deadline_s: float
 ) -> PlanResult:
     end = time.monotonic() + deadline_s
     failures: list[str] = []
@@ -86,7 +86,7 @@ def _plan_and_validate(
     return GaveUp("; ".join(failures))
 
 
-def _validate(result: PlanResult, posed: Posed, state: WorldState, goal: Condition) -> PlanResult:
+def _validate(result: PlanResult, posed: PosedProblem, state: WorldState, goal: Condition) -> PlanResult:
     if not isinstance(result, Solved):
         return result
     try:

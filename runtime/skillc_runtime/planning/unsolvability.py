@@ -9,7 +9,7 @@ from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import Action, GuardFact, Meaning
 from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
 from skillc_runtime.planning.formula_text import FormulaFormatter
-from skillc_runtime.planning.problem.pose import Posed
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -21,7 +21,7 @@ EXPLANATION_S = 5.0
 """The time limit for an explanation; a large scene may need more, and then gets a general one."""
 
 
-def explain_unsolvable(posed: Posed, goal: Condition, state: WorldState) -> str:
+def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) -> str:
     """Return why a problem has no plan, as far as reachability without deletions shows."""
     try:
         reasons = tuple(_Explanation(posed, state).explain_goal(goal))
@@ -33,7 +33,7 @@ def explain_unsolvable(posed: Posed, goal: Condition, state: WorldState) -> str:
 
 
 class _Explanation:
-    def __init__(self, posed: Posed, state: WorldState) -> None:
+    def __init__(self, posed: PosedProblem, state: WorldState) -> None:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
         self._state, self._iris = state, posed.problem.names
         skipped = any(each.kind == "skills" for each in posed.restricted)
@@ -137,7 +137,7 @@ def _unify(atom: Atom, wanted: Formula, action: Action) -> dict[str, str] | None
     return {term: name for term, name in values.items() if term in parameters}
 
 
-def _describe_left_out(posed: Posed) -> Iterator[str]:
+def _describe_left_out(posed: PosedProblem) -> Iterator[str]:
     """Yield the skills and steps that may help but were left out, with the reasons."""
     for each in posed.restricted:
         if each.kind == "skills":

@@ -75,7 +75,7 @@ def _draw_surface(axes: Axes, drawing: WipingDrawing, longest: float) -> None:
     )
     for path, colour, width, label in (
         (drawing.tool, TOOL, 0.8, "tool"),
-        (drawing.lanes, LANES, 1.2, "lanes asked for"),
+        (drawing.lanes, LANES, 1.2, "commanded lanes"),
     ):
         axes.plot(*path.T[list(order)], color=colour, linewidth=width, label=label)
     axes.plot([], [], color=UNWIPED, marker="s", markeredgecolor=LANES, linestyle="", label="not wiped")
@@ -102,7 +102,7 @@ def _draw_force(axes: Axes, drawing: WipingDrawing) -> None:
     first = float(contacts[0] if contacts.size else drawing.contact_time[0]) - BEFORE_CONTACT_S
     axes.axvspan(drawing.time[0], drawing.time[-1], color=WIPING, linewidth=0, label="wiping")
     axes.plot(drawing.contact_time, drawing.force, color=TOOL, linewidth=0.6, label="measured")
-    axes.axhline(drawing.force_n, color=TARGET, linewidth=1.2, linestyle=":", label=f"asked for, {drawing.force_n:g} N")
+    axes.axhline(drawing.force_n, color=TARGET, linewidth=1.2, linestyle=":", label=f"commanded, {drawing.force_n:g} N")
     axes.set(xlabel="time from the first lane, s", ylabel="normal force, N", xlim=(first, drawing.time[-1]))
     axes.set_ylim(bottom=0)
     _set_title(axes, "Force on the surface")

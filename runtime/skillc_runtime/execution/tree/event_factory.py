@@ -58,7 +58,7 @@ def make_choice_event(
 def _highlights(
     declared: Sequence[tuple[Phase, str, str]], bindings: Mapping[str, LabelledValue]
 ) -> tuple[Highlight, ...]:
-    """Return what there is to see of the individuals that a primitive is bound to."""
+    """Return the highlights of the individuals that a primitive is bound to."""
     found = ((when, bindings.get(parameter), word) for when, parameter, word in declared)
     return tuple(Highlight(when, what, word) for when, what, word in found if isinstance(what, LabelledIri))
 

@@ -33,7 +33,7 @@ from skillc_model.pddl.names import fresh
 from skillc_model.pddl.problem import CostValue, Problem
 from skillc_runtime.planning.abstraction.relaxation import DomainRelaxation, NotRelaxable
 from skillc_runtime.planning.problem.initial_state import TooManyValues, evaluate_duration_s
-from skillc_runtime.planning.problem.pose import Posed
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -43,7 +43,7 @@ from skillc_runtime.world.state.world_state import WorldState
 MAX_TUPLES = 100_000
 
 
-def relax_scene(posed: Posed, state: WorldState) -> Problem | None:
+def relax_scene(posed: PosedProblem, state: WorldState) -> Problem | None:
     """Return the abstract problem, whose shortest plan is no longer than any plan of the whole scene.
 
     The IRI of an abstract object is the first of its members'. None if the problem is not narrowed, if the goal is
@@ -60,7 +60,7 @@ def relax_scene(posed: Posed, state: WorldState) -> Problem | None:
 
 
 class _Abstraction:
-    def __init__(self, posed: Posed, state: WorldState) -> None:
+    def __init__(self, posed: PosedProblem, state: WorldState) -> None:
         self._posed, self._state = posed, state
         taken = {*posed.problem.names, *posed.problem.domain.names}
         self._abstract = tuple(Typed(fresh(f"other-{type_}", taken), type_) for type_ in sorted(posed.others))

@@ -17,7 +17,7 @@ from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
-from skillc_runtime.planning.problem.pose import Posed
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.world.state.world_state import WorldState
 
 STAGE_SHARE = 0.5
@@ -26,10 +26,10 @@ STAGE_SHARE = 0.5
 BOUND_S = 2.0
 """The time limit for proving that a plan for a part of the scene is optimal for the whole scene."""
 
-Pose: TypeAlias = Callable[[AbstractionSize | None], Posed]
-Answer: TypeAlias = Callable[[Posed, float], PlanResult]
+Pose: TypeAlias = Callable[[AbstractionSize | None], PosedProblem]
+Answer: TypeAlias = Callable[[PosedProblem, float], PlanResult]
 Search: TypeAlias = Callable[[Problem, float], PlanResult]
-Explain: TypeAlias = Callable[[Posed], str]
+Explain: TypeAlias = Callable[[PosedProblem], str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ def plan_in_stages(
         size = size.wider()
 
 
-def _plan_whole_scene(best: Solved | None, posed: Posed, stages: PlanningStages, end: float) -> PlanResult:
+def _plan_whole_scene(best: Solved | None, posed: PosedProblem, stages: PlanningStages, end: float) -> PlanResult:
     """Return the answer for the whole scene, or the best answer for a part if there is none in time."""
     answer = stages.answer(posed, _time_left_s(end))
     match answer:
@@ -94,7 +94,7 @@ def _plan_whole_scene(best: Solved | None, posed: Posed, stages: PlanningStages,
             assert_never(answer)
 
 
-def _limit_claims(solved: Solved, posed: Posed) -> Solved:
+def _limit_claims(solved: Solved, posed: PosedProblem) -> Solved:
     """Return a plan without claims about the skills and steps that were left out; an empty plan is always optimal."""
     if not posed.restricted or not solved.plan.steps:
         return solved
@@ -103,12 +103,12 @@ def _limit_claims(solved: Solved, posed: Posed) -> Solved:
     return replace(solved, at_least_s=None)
 
 
-def _no_plan(why: str, posed: Posed) -> Unsolvable | GaveUp:
+def _no_plan(why: str, posed: PosedProblem) -> Unsolvable | GaveUp:
     """Return that there is no plan; this is a proof only if no skill or step was left out."""
     return GaveUp(why) if posed.restricted else Unsolvable(why)
 
 
-def _rate(solved: Solved, posed: Posed, stages: PlanningStages, state: WorldState, end: float) -> Solved:
+def _rate(solved: Solved, posed: PosedProblem, stages: PlanningStages, state: WorldState, end: float) -> Solved:
     """Return a plan of a narrowed problem, rated for the whole scene."""
     found = replace(solved, left_out=posed.left_out, at_least_s=None)
     if solved.optimal != "proven":
@@ -120,7 +120,7 @@ def _rate(solved: Solved, posed: Posed, stages: PlanningStages, state: WorldStat
     return replace(found, optimal="optimal for the filtered problem", at_least_s=least_s or None)
 
 
-def _explain_unreachable(posed: Posed, stages: PlanningStages, state: WorldState, end: float) -> str | None:
+def _explain_unreachable(posed: PosedProblem, stages: PlanningStages, state: WorldState, end: float) -> str | None:
     """Return why the whole scene has no plan; None if it may have one."""
     relaxed = relax_scene(posed, state)
     if relaxed is None or not isinstance(stages.search(relaxed, STAGE_SHARE * _time_left_s(end)), Unsolvable):
@@ -128,7 +128,9 @@ def _explain_unreachable(posed: Posed, stages: PlanningStages, state: WorldState
     return stages.explain(replace(posed, problem=relaxed))
 
 
-def _search_lower_bound(posed: Posed, stages: PlanningStages, state: WorldState, end: float) -> PlanResult | None:
+def _search_lower_bound(
+    posed: PosedProblem, stages: PlanningStages, state: WorldState, end: float
+) -> PlanResult | None:
     problem = relax_scene(posed, state)
     return None if problem is None else stages.search(problem, min(BOUND_S, _time_left_s(end)))
 

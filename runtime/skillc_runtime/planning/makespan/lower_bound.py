@@ -14,7 +14,7 @@ from skillc_model.pddl.names import fresh
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Planner, Solved
-from skillc_runtime.planning.problem.pose import Posed
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.schedule import Schedule
 from skillc_runtime.planning.search.h_max import critical_path_s
 
@@ -23,7 +23,7 @@ CRITICAL_PATH_SHARE = 0.5
 """The share of the time for the critical path; the rest is for the devices."""
 
 
-def makespan_lower_bound_s(posed: Posed, schedule: Schedule, planner: Planner, deadline_s: float) -> float:
+def makespan_lower_bound_s(posed: PosedProblem, schedule: Schedule, planner: Planner, deadline_s: float) -> float:
     """Return a time in s that every plan takes at least; the search for a better bound stops if `schedule` meets it.
 
     0 for a problem that leaves out something that may matter, or whose durations are estimates.

@@ -16,7 +16,7 @@ from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
-from skillc_runtime.planning.problem.pose import Posed, pose_problem
+from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
@@ -58,7 +58,7 @@ def minimise_makespan(
     """Return a plan with times from `state` to the goal, which was simulated in the world model.
 
     The plan with the least work is scheduled. If its makespan cannot be proven to be minimal, the scheduler searches
-    for a shorter one; without a scheduler, or if it fails, the note of the answer says so.
+    for a shorter one; without a scheduler, or if it fails, the note of the answer has the reason.
     """
     problem = MakespanProblem(library, state, goal, tuple(without), time.monotonic() + deadline_s)
     least_work = solve(library, state, goal, planners.for_work, LEAST_WORK_SHARE * deadline_s, without)
@@ -97,7 +97,7 @@ def _schedule_empty_plan(solved: Solved, problem: MakespanProblem) -> Scheduled:
 
 
 def _improve(
-    first: Scheduled | GaveUp, scheduler: Scheduler | None, posed: Posed, problem: MakespanProblem
+    first: Scheduled | GaveUp, scheduler: Scheduler | None, posed: PosedProblem, problem: MakespanProblem
 ) -> Scheduled | GaveUp:
     """Return what the scheduler finds if its makespan is shorter, else the first schedule with a note."""
     if scheduler is None:

@@ -42,7 +42,7 @@ class GoalError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Posed:
+class PosedProblem:
     """A problem, its library (with the classes that the scene defines), and what the problem leaves open or out.
 
     `undecided` are static conditions that cannot be evaluated for some individuals and count as false for them;
@@ -91,7 +91,7 @@ def pose_problem(
     goal: Condition,
     without: Sequence[Step] = (),
     size: AbstractionSize | None = None,
-) -> Posed:
+) -> PosedProblem:
     """Return the problem of reaching the goal from a version of the world without the steps in `without`.
 
     Irrelevant skills and individuals are left out, and skills that planners cannot use; with a `size` also individuals
@@ -134,7 +134,7 @@ def pose_problem(
     )
     problem = replace(problem, domain=replace(domain, scale=common_scale(durations(problem))))
     assumptions = (*_describe_unknown_durations(initial, problem), *_describe_estimates(domain, state.vocabulary))
-    return Posed(
+    return PosedProblem(
         problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _has_wildcard(goal)
     )
 
