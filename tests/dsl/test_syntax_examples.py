@@ -82,9 +82,9 @@ def test_a_skill() -> None:
     assert requirements[4].text == "not gripper contain _"
     assert shape(requirements[5].condition) == (
         "Compare",
-        ("Member", ("Reference", "arm"), "deviceState"),
+        ("Member", ("NameReference", "arm"), "deviceState"),
         "!=",
-        ("Reference", "Fault"),
+        ("NameReference", "Fault"),
     )
 
 
@@ -99,9 +99,9 @@ def test_an_implementation() -> None:
     move, with_, *_ = body.node.children
     assert isinstance(move, s.CallSkill)
     assert [shape(a) for a in move.arguments] == [
-        ("Argument", "arm", ("Reference", "arm")),
-        ("Argument", "target", ("Reference", "above")),
-        ("Argument", "speed", ("Reference", "speed")),
+        ("Argument", "arm", ("NameReference", "arm")),
+        ("Argument", "target", ("NameReference", "above")),
+        ("Argument", "speed", ("NameReference", "speed")),
     ]
     assert isinstance(with_, s.With)
     assert with_.call.skill.text == "Compliance"
@@ -138,7 +138,7 @@ def test_the_patterns_of_verify() -> None:
         for line in ("never A outside B", "A before B", "after A eventually B", "never force > 25 N")
         for member in implementation(f"verify {line}")
     ]
-    force = ("Compare", ("Reference", "force"), ">", ("Quantity", 25.0, "N"))
+    force = ("Compare", ("NameReference", "force"), ">", ("Quantity", 25.0, "N"))
     assert found == [
         ("Verify", "outside", ("Event", "A"), ("Event", "B")),
         ("Verify", "before", ("Event", "A"), ("Event", "B")),
@@ -148,7 +148,7 @@ def test_the_patterns_of_verify() -> None:
 
 
 ONE, TWO, THREE = (("Number", float(digit), digit) for digit in "123")
-A, B, C = (("Bare", ("Reference", name)) for name in "abc")
+A, B, C = (("Bare", ("NameReference", name)) for name in "abc")
 
 
 @pytest.mark.parametrize(
@@ -159,9 +159,9 @@ A, B, C = (("Bare", ("Reference", name)) for name in "abc")
         ("a or b and c", ("Or", (A, ("And", (B, C))))),
         ("a implies b implies c", ("Implies", A, ("Implies", B, C))),
         ("not a or b", ("Or", (("Not", A), B))),
-        ("_ contain a", ("Relation", ("Anything",), "contain", ("Reference", "a"))),
-        ("a has b", ("Has", ("Reference", "a"), "b")),
-        ("a is lab:B-1", ("Is", ("Reference", "a"), "lab:B-1")),
+        ("_ contain a", ("Relation", ("Anything",), "contain", ("NameReference", "a"))),
+        ("a has b", ("Has", ("NameReference", "a"), "b")),
+        ("a is lab:B-1", ("Is", ("NameReference", "a"), "lab:B-1")),
         ("given a", ("Given", "a")),
         ("exists x: C (a)", ("Quantified", "exists", "x", "C", A)),
     ],
@@ -176,12 +176,12 @@ def test_conditions(text: str, expected: object) -> None:
         ("1 + 2 * 3", ("Arithmetic", "+", ONE, ("Arithmetic", "*", TWO, THREE))),
         ("1 - 2 - 3", ("Arithmetic", "-", ("Arithmetic", "-", ONE, TWO), THREE)),
         ("1 - (2 - 3)", ("Arithmetic", "-", ONE, ("Arithmetic", "-", TWO, THREE))),
-        ("a - 5 N", ("Arithmetic", "-", ("Reference", "a"), ("Quantity", 5.0, "N"))),
-        ("a-5 N", ("Arithmetic", "-", ("Reference", "a"), ("Quantity", 5.0, "N"))),
+        ("a - 5 N", ("Arithmetic", "-", ("NameReference", "a"), ("Quantity", 5.0, "N"))),
+        ("a-5 N", ("Arithmetic", "-", ("NameReference", "a"), ("Quantity", 5.0, "N"))),
         ("-1.5e-3 m", ("Quantity", -0.0015, "m")),
         ("2.0", ("Number", 2.0, "2.0")),
-        ("8 N/area", ("Arithmetic", "/", ("Quantity", 8.0, "N"), ("Reference", "area"))),
-        ("f(a, 1).x", ("Member", ("Apply", "f", (("Reference", "a"), ("Number", 1.0, "1"))), "x")),
+        ("8 N/area", ("Arithmetic", "/", ("Quantity", 8.0, "N"), ("NameReference", "area"))),
+        ("f(a, 1).x", ("Member", ("Apply", "f", (("NameReference", "a"), ("Number", 1.0, "1"))), "x")),
         ('"a # b"', ("Text", "a # b")),
     ],
 )  # fmt: skip
@@ -207,7 +207,7 @@ def test_words_with_one_place_are_names_elsewhere(word: str) -> None:
 
 @pytest.mark.parametrize("word", ["never", "after", "until", "sensed", "check", "wait", "range", "any"])
 def test_words_with_one_place_are_relations_elsewhere(word: str) -> None:
-    assert shape(condition(f"a {word} b")) == ("Relation", ("Reference", "a"), word, ("Reference", "b"))
+    assert shape(condition(f"a {word} b")) == ("Relation", ("NameReference", "a"), word, ("NameReference", "b"))
 
 
 def test_every_place_holds_what_it_names() -> None:

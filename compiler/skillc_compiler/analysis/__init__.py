@@ -1,5 +1,7 @@
 """Symbolic execution of compound bodies: what is known at each node, for every way in which its children can end.
 
+Start with `proof`.
+
 A state (`state`) is partial knowledge: relations, values and other conditions that are known to hold or not to hold.
 Everything else is open. Names are symbolic individuals. Two names may denote the same individual unless their classes
 are disjoint or a condition tells them apart (`alias_types`). A write removes all knowledge that it may have made untrue
@@ -21,5 +23,5 @@ it is false on every path. Holds of called skills, which depend on the outside w
 false.
 
 A proof is valid for executions in which only the body changes the facts it uses, and in which no primitive fails by a
-program error. Start with `proof`; the checks report its `findings`; `verify_monitor` decides `verify` lines.
+program error. The checks report its `findings`; `verify_monitor` decides `verify` lines.
 """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.state import IndividualTerm, State
 from skillc_model.conditions import Individual, IsA, Same, Variable
 from skillc_rdf.vocabulary.types import THING, Vocabulary
@@ -17,7 +17,7 @@ class AliasTypes:
     """The class of each name, as far as known. A name with ANY_PREFIX is any individual of the class after it."""
 
     vocabulary: Vocabulary
-    axioms: RelationAxioms
+    axioms: CanonicalAxioms
     classes: dict[str, str] = field(default_factory=dict)
 
     def class_of(self, thing: IndividualTerm) -> str:

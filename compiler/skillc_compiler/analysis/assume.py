@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from skillc_compiler.analysis.alias_types import AliasTypes
-from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.evaluate import canonical_condition, evaluate
 from skillc_compiler.analysis.state import IndividualTerm, Side, State
 from skillc_model.conditions import And, Anything, Condition, Holds, Individual, Not, Or, Same, Variable
@@ -80,7 +80,7 @@ def _assume_relation(types: AliasTypes, state: State, fact: Holds, holds: bool) 
     return state.replace(facts={**state.facts, **found}, possible={**state.possible, **alone})
 
 
-def single_values(axioms: RelationAxioms, facts: Iterable[Condition]) -> dict[Side, frozenset[IndividualTerm]]:
+def single_values(axioms: CanonicalAxioms, facts: Iterable[Condition]) -> dict[Side, frozenset[IndividualTerm]]:
     """Return the only individuals on the sides of single-valued relations, given that these facts hold."""
     alone: dict[Side, frozenset[IndividualTerm]] = {}
     for fact in facts:

@@ -10,7 +10,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True)
-class RelationAxioms:
+class CanonicalAxioms:
     """The axioms of all relations, by canonical IRI.
 
     `canonical[r]` is the canonical name of `r`, and whether `r` reads it backwards. `implied[r]` are the relations that
@@ -30,7 +30,7 @@ class RelationAxioms:
     affected: Mapping[str, frozenset[str]]
 
 
-def build_axioms(vocabulary: Vocabulary) -> RelationAxioms:
+def build_axioms(vocabulary: Vocabulary) -> CanonicalAxioms:
     """Return the axioms of all relations of a vocabulary."""
     relations, closure = vocabulary.relations, vocabulary.closure
     name = {iri: closure.canonical(iri) for iri in relations}
@@ -44,7 +44,7 @@ def build_axioms(vocabulary: Vocabulary) -> RelationAxioms:
     single_subject = {iri for iri in bases if Directed(iri) in turned or Directed(iri, True) in straight}
     implied = {iri: closure.canonical_implied[iri] for iri in bases}
     sources = {iri: closure.canonical_sources[iri] for iri in bases}
-    return RelationAxioms(
+    return CanonicalAxioms(
         name,
         implied,
         sources,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.findings import ParallelConflict
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.writes import PropertyWrite, RelationWrite, Write
@@ -17,7 +17,7 @@ from skillc_rdf.vocabulary.types import local_name
 
 
 def find_parallel_conflicts(
-    program: Program, summaries: WriteSummaries, axioms: RelationAxioms, body: TypedNode
+    program: Program, summaries: WriteSummaries, axioms: CanonicalAxioms, body: TypedNode
 ) -> Iterator[ParallelConflict]:
     """Yield the first two conflicting calls of each pair of children of a `par`."""
     for node in nodes_in(body):
@@ -27,7 +27,7 @@ def find_parallel_conflicts(
 
 
 def _first_conflict(
-    program: Program, summaries: WriteSummaries, axioms: RelationAxioms, one: TypedNode, other: TypedNode
+    program: Program, summaries: WriteSummaries, axioms: CanonicalAxioms, one: TypedNode, other: TypedNode
 ) -> Iterator[ParallelConflict]:
     for first in calls_in(one):
         for second in calls_in(other):
@@ -58,11 +58,11 @@ def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> fro
     return frozenset(value for value in values if isinstance(value, Variable | Individual))
 
 
-def _conflicts(axioms: RelationAxioms, ours: frozenset[Write], theirs: frozenset[Write]) -> list[str]:
+def _conflicts(axioms: CanonicalAxioms, ours: frozenset[Write], theirs: frozenset[Write]) -> list[str]:
     return sorted({fact for one in ours for other in theirs for fact in _conflict(axioms, one, other)})
 
 
-def _conflict(axioms: RelationAxioms, one: Write, other: Write) -> Iterator[str]:
+def _conflict(axioms: CanonicalAxioms, one: Write, other: Write) -> Iterator[str]:
     match one, other:
         case RelationWrite(), RelationWrite() if one.relation == other.relation:
             same = (_same(one.subject, other.subject), _same(one.object, other.object))

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.alias_types import AliasTypes
-from skillc_compiler.analysis.axioms import RelationAxioms, build_axioms
+from skillc_compiler.analysis.axioms import CanonicalAxioms, build_axioms
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
@@ -69,7 +69,7 @@ class Prover:
     proofs: dict[str, Proof] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self._axioms: RelationAxioms = build_axioms(self.program.vocabulary)
+        self._axioms: CanonicalAxioms = build_axioms(self.program.vocabulary)
         self.summaries = WriteSummaries(self.program, self._axioms)
         self.understood = Understood(self.program, self._axioms)
         self._busy: set[str] = set()

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from skillc_compiler.analysis.alias_types import AliasTypes, any_individual
 from skillc_compiler.analysis.apply_effects import apply_effects
-from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.binding import class_of, definite_effects
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
@@ -31,7 +31,7 @@ from skillc_rdf.vocabulary.types import THING
 class WriteSummaries:
     """The possible writes of each skill and node, computed once; recursion adds nothing."""
 
-    def __init__(self, program: Program, axioms: RelationAxioms) -> None:
+    def __init__(self, program: Program, axioms: CanonicalAxioms) -> None:
         self._program = program
         self._axioms = axioms
         self._whole: dict[str, frozenset[Write]] = {}

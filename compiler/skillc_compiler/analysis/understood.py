@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.assume import assume
-from skillc_compiler.analysis.axioms import RelationAxioms
+from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UnassignedRead
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.state import State
@@ -32,7 +32,7 @@ from skillc_model.reading import walk
 class Understood:
     """Stores for each skill whether its description has no unresolved part."""
 
-    def __init__(self, program: Program, axioms: RelationAxioms) -> None:
+    def __init__(self, program: Program, axioms: CanonicalAxioms) -> None:
         self._program = program
         self._axioms = axioms
         self._skills: dict[str, bool] = {}

@@ -123,8 +123,8 @@ def _typed(parts: Sequence[Expression], of: Group) -> Iterator[tuple[s.Name, s.N
     yield from ((_name(variable), s.Name("Thing", variable.span)) for variable in waiting)
 
 
-def _reference(word: Word) -> s.Reference:
-    return s.Reference(_name(word), word.span)
+def _reference(word: Word) -> s.NameReference:
+    return s.NameReference(_name(word), word.span)
 
 
 def _name(word: Word) -> s.Name:

@@ -63,7 +63,7 @@ class Values:
                 return
             case s.Quantity(value=value, unit=unit, span=span):
                 yield Occurrence(span, QuantitySymbol(value, unit))
-            case s.Reference(name=name):
+            case s.NameReference(name=name):
                 yield from self.reference(known, name)
             case s.Member(of=of, property=name):
                 yield from self.value(known, of)
@@ -134,7 +134,7 @@ class Values:
     def _compared(self, known: Locals, written: s.Value) -> Iterator[Occurrence]:
         """Yield what stands on a side of a comparison; a bare name may be a value of the other side's property."""
         match written:
-            case s.Reference(name=s.Name(text=text, span=Span() as span)) if text not in known and ":" not in text:
+            case s.NameReference(name=s.Name(text=text, span=Span() as span)) if text not in known and ":" not in text:
                 yield Occurrence(span, ChoiceSymbol(text))
             case _:
                 yield from self.value(known, written)

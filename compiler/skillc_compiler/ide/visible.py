@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.resolve.declarations import (
     Bare,
-    Declarations,
+    FileDeclarations,
     collect_declarations,
     merge_imported,
     prefixes_in,
@@ -60,7 +60,9 @@ def visible_in(program: Program, base: Vocabulary) -> dict[str, Visible]:
     return {unit.file.path: _visible(unit, declared, program.vocabulary, base) for unit in program.files}
 
 
-def _visible(unit: ParsedFile, declared: Mapping[str, Declarations], whole: Vocabulary, base: Vocabulary) -> Visible:
+def _visible(
+    unit: ParsedFile, declared: Mapping[str, FileDeclarations], whole: Vocabulary, base: Vocabulary
+) -> Visible:
     here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports if path in declared)]
     return Visible(
         bare=merge_imported(bare_terms(base, used_vocabularies(unit.file, base)), here),

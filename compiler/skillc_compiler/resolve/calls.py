@@ -34,7 +34,7 @@ def _arguments(context: FileContext, scope: Scope, written: s.CallSkill, skill: 
 
 
 def _is_shorthand(argument: s.Argument) -> bool:
-    return isinstance(argument.value, s.Reference) and argument.value.span == argument.name.span
+    return isinstance(argument.value, s.NameReference) and argument.value.span == argument.name.span
 
 
 def _report_argument(

@@ -146,7 +146,7 @@ def _all_terms(*sides: TypedExpression) -> bool:
 
 def _resolve_sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
     """Resolve both sides; the side with the property first, as it determines the values that a bare name may be."""
-    if isinstance(written.left, s.Reference) and isinstance(written.right, s.Member):
+    if isinstance(written.left, s.NameReference) and isinstance(written.right, s.Member):
         right = resolve_value(context, scope, written.right)
         return _resolve_other_side(context, scope, written.left, right), right
     left = resolve_value(context, scope, written.left)
@@ -158,7 +158,7 @@ def _resolve_other_side(
 ) -> TypedExpression:
     """Resolve the side that is compared with `known`; beside an unknown type, a bare name may be anything."""
     match written:
-        case s.Reference(name=s.Name(text=text), span=span) if known.type == UNKNOWN and ":" not in text:
+        case s.NameReference(name=s.Name(text=text), span=span) if known.type == UNKNOWN and ":" not in text:
             if text not in scope.variables:
                 return TypedExpression(VariableTerm(text), UNKNOWN, span)
         case _:

@@ -20,7 +20,7 @@ Bare: TypeAlias = dict[Kind, dict[str, tuple[str, ...]]]
 
 
 @dataclass
-class Declarations:
+class FileDeclarations:
     """The declarations of one file: bare names of terms with their IRIs, functions and skills."""
 
     terms: dict[Kind, dict[str, str]] = field(default_factory=lambda: {kind: {} for kind in KINDS})
@@ -54,13 +54,13 @@ def library_prefix(library: str, taken: Mapping[str, str]) -> str:
     return name if taken.get(name, library_namespace(library)) == library_namespace(library) else f"{name}_library"
 
 
-def collect_declarations(files: Sequence[ParsedFile], vocabulary: Vocabulary) -> dict[str, Declarations]:
+def collect_declarations(files: Sequence[ParsedFile], vocabulary: Vocabulary) -> dict[str, FileDeclarations]:
     """Return the declarations of each file, by path.
 
     A term whose bare name is visible where it is declared is that term, with additions; otherwise it is new. A
     qualified name determines the term; if its prefix is unknown, it counts as a bare name.
     """
-    found: dict[str, Declarations] = {}
+    found: dict[str, FileDeclarations] = {}
     bare = bare_names_in(files, vocabulary)
     for unit in files:
         found[unit.file.path] = _declarations_in(unit, bare[unit.file.path], found, vocabulary)
@@ -90,7 +90,7 @@ def used_vocabularies(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
     )
 
 
-def merge_imported(bare: Bare, imported: Iterable[Declarations]) -> Bare:
+def merge_imported(bare: Bare, imported: Iterable[FileDeclarations]) -> Bare:
     """Return the terms that bare names denote when those of other files are added."""
     merged: dict[Kind, dict[str, set[str]]] = {kind: defaultdict(set) for kind in KINDS}
     for kind in KINDS:
@@ -103,11 +103,11 @@ def merge_imported(bare: Bare, imported: Iterable[Declarations]) -> Bare:
 
 
 def _declarations_in(
-    unit: ParsedFile, bare: Bare, others: Mapping[str, Declarations], vocabulary: Vocabulary
-) -> Declarations:
+    unit: ParsedFile, bare: Bare, others: Mapping[str, FileDeclarations], vocabulary: Vocabulary
+) -> FileDeclarations:
     known = merge_imported(bare, (others[path] for _, path in unit.imports if path in others))
     prefixes = prefixes_in(unit.file, vocabulary)
-    declared = Declarations()
+    declared = FileDeclarations()
     for declaration in unit.file.declarations:
         match declaration:
             case s.ClassDeclaration() | s.RelationDeclaration() | s.PropertyDeclaration():

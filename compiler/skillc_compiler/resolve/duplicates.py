@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from skillc_compiler.program.typed import ParsedFile
-from skillc_compiler.resolve.declarations import Declarations
+from skillc_compiler.resolve.declarations import FileDeclarations
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
 from skillc_dsl.source import Span
 
 
 def remove_duplicates(
-    files: Sequence[ParsedFile], declared: Mapping[str, Declarations]
+    files: Sequence[ParsedFile], declared: Mapping[str, FileDeclarations]
 ) -> Outcome[tuple[ParsedFile, ...]]:
     """Return the files with the first skill, implementation and task of each name; report the others.
 
@@ -30,7 +30,7 @@ def remove_duplicates(
 
 
 def _first_declarations(
-    file: s.File, declared: Declarations, first: dict[tuple[str, ...], Span], problems: list[Diagnostic]
+    file: s.File, declared: FileDeclarations, first: dict[tuple[str, ...], Span], problems: list[Diagnostic]
 ) -> Iterator[s.Declaration]:
     """Yield the declarations that stay; the place of each is added to `first`."""
     second_skills: set[str] = set()
@@ -61,7 +61,7 @@ def _problem(kind: str, name: s.Name, first: Span) -> Diagnostic:
     )
 
 
-def _identity(declaration: s.Declaration, declared: Declarations) -> tuple[str, ...]:
+def _identity(declaration: s.Declaration, declared: FileDeclarations) -> tuple[str, ...]:
     name = declaration.name.text
     match declaration:
         case s.ClassDeclaration():

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
 from skillc_compiler.resolve.declarations import (
-    Declarations,
+    FileDeclarations,
     bare_names_in,
     collect_declarations,
     merge_imported,
@@ -59,7 +59,7 @@ def resolve_program(
     return Outcome(program, (*_headers(files, base), *repeats.diagnostics, *problems))
 
 
-def _names(files: Sequence[ParsedFile], declared: Mapping[str, Declarations], base: Vocabulary) -> dict[str, Names]:
+def _names(files: Sequence[ParsedFile], declared: Mapping[str, FileDeclarations], base: Vocabulary) -> dict[str, Names]:
     known = _known(declared, base)
     homes = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
     bare, found = bare_names_in(files, base), {}
@@ -78,7 +78,7 @@ def _names(files: Sequence[ParsedFile], declared: Mapping[str, Declarations], ba
     return found
 
 
-def _known(declared: Mapping[str, Declarations], base: Vocabulary) -> dict[Kind, set[str]]:
+def _known(declared: Mapping[str, FileDeclarations], base: Vocabulary) -> dict[Kind, set[str]]:
     known: dict[Kind, set[str]] = {
         "class": set(base.classes),
         "relation": set(base.relations),
@@ -92,7 +92,7 @@ def _known(declared: Mapping[str, Declarations], base: Vocabulary) -> dict[Kind,
 
 def _make_functions_visible(
     files: Sequence[ParsedFile],
-    declared: Mapping[str, Declarations],
+    declared: Mapping[str, FileDeclarations],
     names: Mapping[str, Names],
     vocabulary: Vocabulary,
 ) -> None:

@@ -28,7 +28,7 @@ def _event(context: FileContext, scope: Scope, written: s.Event) -> Event | None
         case s.Name() as name:
             skill = context.names.look_up_skill(name)
             return Event(written.span, skill=skill) if skill is not None else None
-        case s.Compare(left=s.Reference(name=name), operator=operator, right=right) if _is_force(scope, name):
+        case s.Compare(left=s.NameReference(name=name), operator=operator, right=right) if _is_force(scope, name):
             limit = resolve_value(context, scope, right, ExpectedType(Measure(FORCE)))
             if not fits(context.vocabulary, limit.type, Measure(FORCE)):
                 message = f"this is {describe_type(limit.type)}, where a Force is expected"

@@ -8,7 +8,7 @@ from typing import TypeVar
 import msgspec
 
 from skillc_compiler.program.typed import ParsedFile, start_position
-from skillc_compiler.resolve.declarations import Declarations, library_namespace, library_prefix, term_kind
+from skillc_compiler.resolve.declarations import FileDeclarations, library_namespace, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.type_names import BUILT_IN, resolve_type
 from skillc_dsl import syntax as s
@@ -22,7 +22,7 @@ Term = TypeVar("Term", ClassTerm, RelationTerm, PropertyTerm)
 def extend_vocabulary(
     vocabulary: Vocabulary,
     files: Sequence[ParsedFile],
-    declared: Mapping[str, Declarations],
+    declared: Mapping[str, FileDeclarations],
     names: Mapping[str, Names],
 ) -> Vocabulary:
     """Return the vocabulary with everything that the files declare; problems are added to the files' names."""
@@ -56,14 +56,14 @@ def extend_vocabulary(
     )
 
 
-def _declared_iri(kind: Kind, name: s.Name, here: Declarations, names: Names) -> str:
+def _declared_iri(kind: Kind, name: s.Name, here: FileDeclarations, names: Names) -> str:
     """Return the IRI under which a term is declared; report an unknown prefix."""
     if ":" in name.text:
         names.look_up_individual(name)
     return here.terms[kind][name.text]
 
 
-def _report_extended(unit: ParsedFile, here: Declarations, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def _report_extended(unit: ParsedFile, here: FileDeclarations, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
     """Report the first declaration of each bare name that adds to a term of a vocabulary instead of making a new one.
 
     A property of another type is reported elsewhere.
@@ -173,7 +173,7 @@ def _complete_inverses(relations: Mapping[str, RelationTerm]) -> dict[str, Relat
 
 
 def _prefixes(
-    vocabulary: Vocabulary, files: Sequence[ParsedFile], declared: Mapping[str, Declarations]
+    vocabulary: Vocabulary, files: Sequence[ParsedFile], declared: Mapping[str, FileDeclarations]
 ) -> dict[str, str]:
     prefixes = dict(vocabulary.prefixes)
     for unit in files:

@@ -53,7 +53,7 @@ def resolve_value(
             return TypedExpression(Literal(text), TEXT, span)
         case s.Boolean(value=truth, span=span):
             return TypedExpression(Literal(truth), BOOL, span)
-        case s.Reference():
+        case s.NameReference():
             return _resolve_reference(context, scope, written, wanted)
         case s.Member():
             return _resolve_member(context, scope, written)
@@ -66,7 +66,7 @@ def resolve_value(
 
 
 def _resolve_reference(
-    context: FileContext, scope: Scope, written: s.Reference, wanted: ExpectedType
+    context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType
 ) -> TypedExpression:
     text, span = written.name.text, written.span
     if ":" in text:
@@ -95,7 +95,7 @@ def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> 
     context.report_unknown("unknown-value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
 
 
-def _unknown_name(context: FileContext, scope: Scope, written: s.Reference, wanted: ExpectedType) -> None:
+def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType) -> None:
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
     context.report_unknown(
         "unknown-parameter",
@@ -106,7 +106,7 @@ def _unknown_name(context: FileContext, scope: Scope, written: s.Reference, want
     )
 
 
-def _resolve_individual(context: FileContext, written: s.Reference, wanted: ExpectedType) -> TypedExpression:
+def _resolve_individual(context: FileContext, written: s.NameReference, wanted: ExpectedType) -> TypedExpression:
     iri = context.names.look_up_individual(written.name)
     if iri is None:
         return TypedExpression(Individual(written.name.text), UNKNOWN, written.span)
@@ -122,7 +122,7 @@ def _resolve_individual(context: FileContext, written: s.Reference, wanted: Expe
     return TypedExpression(Individual(iri), _class_of(context, written, iri, wanted), written.span)
 
 
-def _class_of(context: FileContext, written: s.Reference, iri: str, wanted: ExpectedType) -> Type:
+def _class_of(context: FileContext, written: s.NameReference, iri: str, wanted: ExpectedType) -> Type:
     """Return the type of an individual; one that the scene does not have is reported."""
     known = context.individuals
     if known is None:

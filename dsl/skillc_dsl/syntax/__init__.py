@@ -64,10 +64,10 @@ from skillc_dsl.syntax.values import Boolean as Boolean
 from skillc_dsl.syntax.values import ListOf as ListOf
 from skillc_dsl.syntax.values import Member as Member
 from skillc_dsl.syntax.values import Name as Name
+from skillc_dsl.syntax.values import NameReference as NameReference
 from skillc_dsl.syntax.values import Number as Number
 from skillc_dsl.syntax.values import OfDimension as OfDimension
 from skillc_dsl.syntax.values import Quantity as Quantity
-from skillc_dsl.syntax.values import Reference as Reference
 from skillc_dsl.syntax.values import Text as Text
 from skillc_dsl.syntax.values import TypeName as TypeName
 from skillc_dsl.syntax.values import Value as Value

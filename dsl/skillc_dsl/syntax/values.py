@@ -71,7 +71,7 @@ class Boolean:
 
 
 @dataclass(frozen=True, slots=True)
-class Reference:
+class NameReference:
     """A name where a value is expected: a parameter, a let, an individual or an enumeration value."""
 
     name: Name
@@ -106,4 +106,4 @@ class Arithmetic:
     span: Span
 
 
-Value: TypeAlias = Quantity | Number | Text | Boolean | Reference | Member | Apply | Arithmetic
+Value: TypeAlias = Quantity | Number | Text | Boolean | NameReference | Member | Apply | Arithmetic

@@ -105,7 +105,7 @@ class MemberBuilder(NodeBuilder):
     def _event(self, child: Child) -> s.Event:
         condition = self.condition(child)
         match condition:
-            case s.Bare(value=s.Reference(name=name)):
+            case s.Bare(value=s.NameReference(name=name)):
                 return s.Event(name, condition.span)
             case _:
                 return s.Event(condition, condition.span)

@@ -104,7 +104,7 @@ class NodeBuilder(ConditionBuilder):
         """`name: value`, `name`"""
         span = self.over(children)
         if isinstance(children[0], s.Name):
-            return s.Argument(children[0], s.Reference(children[0], span), span)
+            return s.Argument(children[0], s.NameReference(children[0], span), span)
         return s.Argument(self.label(children[0]), self.value(children[1]), span)
 
     def with_(self, children: list[Child]) -> s.With:

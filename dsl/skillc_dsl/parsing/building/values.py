@@ -83,9 +83,9 @@ class ValueBuilder(TreeBuilder):
         """`true`, `false`"""
         return s.Boolean(children[0].value == "true", self.place(children[0]))
 
-    def reference(self, children: list[s.Name]) -> s.Reference:
+    def reference(self, children: list[s.Name]) -> s.NameReference:
         """A name as a value."""
-        return s.Reference(children[0], children[0].span)
+        return s.NameReference(children[0], children[0].span)
 
     def member(self, children: list[Child]) -> s.Member:
         """`of.property`"""
