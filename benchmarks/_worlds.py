@@ -70,7 +70,7 @@ def scene(objects: int) -> Iterator[str]:
 
 def measured(objects: int) -> dict[str, float]:
     """Return what was measured, by name with its unit; processor time, the best of several where it is short."""
-    vocabulary = libraries.vocabulary()
+    vocabulary = libraries.load_vocabulary()
     load_sheets(vocabulary)
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.ttl")

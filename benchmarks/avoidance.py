@@ -31,7 +31,7 @@ REPEATS = 200
 def situation(scene: str) -> tuple[CollisionChecker, Array, JointSpace]:
     """Return what an arm with a pillar before it can touch, its home posture, and what is known of it."""
     vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
-    state = load_scene(catalogue.scene(scene), vocabulary)
+    state = load_scene(catalogue.scene_path(scene), vocabulary)
     arm = min(state.instances(ARM_DEVICE))
     pillar = BoxObstacle("pillar", PoseKey((*PILLARS[scene], 0.0), (1.0, 0.0, 0.0, 0.0)), (0.06, 0.06, 0.55))
     around = read_scenery(state, pose(state, arm))

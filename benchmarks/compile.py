@@ -19,7 +19,7 @@ from pathlib import Path
 from time import process_time
 from typing import TypeVar
 
-from skillc.services.libraries import vocabulary
+from skillc.services.libraries import load_vocabulary
 from skillc.services.library_files import SHIPPED
 from skillc_compiler.checks import load_checks
 from skillc_compiler.lower.library import lower_program
@@ -60,7 +60,7 @@ def _renamed(declared: re.Pattern[str], word: str, number: int) -> str:
 def main() -> None:
     """Print one line for each stage."""
     sources = generated(int(sys.argv[1]) if len(sys.argv) > 1 else 10_000)
-    terms = vocabulary()
+    terms = load_vocabulary()
     bare = min(_seconds(lambda: _parse(sources))[0] for _ in range(3))
     lines = sum(source.text.count("\n") for source in sources)
     print(f"{lines} lines in {len(sources)} files")
@@ -113,7 +113,7 @@ def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
     """Yield the seconds of each stage, one after the other, and of the checks that take longest."""
     seconds, files = _seconds(lambda: read_sources(sources, {}, "generated"))
     yield "read", seconds
-    seconds, program = _seconds(lambda: resolve_program(files.value, vocabulary(), "generated", {}))
+    seconds, program = _seconds(lambda: resolve_program(files.value, load_vocabulary(), "generated", {}))
     yield "resolve", seconds
     found = [(_seconds(lambda one=one: list(one.check(program.value)))[0], one.__name__) for one in load_checks()]
     yield "check", sum(seconds for seconds, _ in found)

@@ -40,7 +40,7 @@ REPEATS, BURST = 200, 20
 def moving(scene: str) -> tuple[SimulatedCell, str]:
     """Return a cell whose arm is on its way along a line, very slowly, and that arm."""
     vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
-    cell = SimulatedCell(WorldModel(load_scene(catalogue.scene(scene), vocabulary)), seed=0)
+    cell = SimulatedCell(WorldModel(load_scene(catalogue.scene_path(scene), vocabulary)), seed=0)
     name = next(iter(cell.arms))
     start = cell.arm(name).motion.stopping_pose()
     goal = Pose(start.position + np.array([0.0, 0.0, 0.1]), start.rotation)
@@ -122,7 +122,7 @@ def whole(library_name: str, task: str) -> tuple[float, float]:
     goal, scene = library.tasks[task].goal, library.tasks[task].scene
     assert goal is not None
     assert scene is not None
-    state = load_scene(catalogue.scene(scene), library.vocabulary)
+    state = load_scene(catalogue.scene_path(scene), library.vocabulary)
     prepared = prepare_task(Assignment(task, state, AchieveGoal(goal)), library)
     assert isinstance(prepared, PreparedTask), prepared
     cell = TimedCell(WorldModel(state), seed=0)

@@ -17,11 +17,11 @@ from time import process_time
 
 from compile import generated
 
-from skillc.lsp import problems
+from skillc.lsp import diagnostics as problems
 from skillc.lsp.libraries import Libraries
 from skillc_compiler.ide import highlighting
 from skillc_compiler.ide.completion import complete
-from skillc_compiler.ide.hover import hover
+from skillc_compiler.ide.descriptions import find_hover
 from skillc_dsl.parsing.grammar import load_parser
 
 EDITS = 15
@@ -58,11 +58,11 @@ def measure(text: str, file: Path) -> None:
 
     def told() -> None:
         view = libraries.view(uri)
-        problems.by_uri(libraries, view.root, view.analysis, "utf-16")
+        problems.diagnostics_by_uri(libraries, view.root, view.analysis, "utf-16")
 
     def coloured() -> None:
         view = libraries.view(uri)
-        highlighting.highlighted(view.analysis, view.path)
+        highlighting.highlight_words(view.analysis, view.path)
 
     middle = text[: text.index("target: above")].count("\n") + 1
     bare = median(_seconds(lambda: load_parser().parse(text)) for _ in range(EDITS))
@@ -70,7 +70,7 @@ def measure(text: str, file: Path) -> None:
         ("problems after an edit", told),
         ("colours, then", coloured),
         ("completion, then", lambda: complete(libraries.view(uri).analysis, "all.skill", middle, 16)),
-        ("hover, then", lambda: hover(libraries.view(uri).analysis, "all.skill", middle, 10)),
+        ("hover, then", lambda: find_hover(libraries.view(uri).analysis, "all.skill", middle, 10)),
     ]
     taken: dict[str, list[float]] = {name: [] for name, _ in answers}
     for _ in range(EDITS + 1):

@@ -35,7 +35,7 @@ def experiment(task: str) -> Experiment:
     library = libraries.compile_library(find_library(SHIPPED / "contact")).value
     scene = library.tasks[task].scene
     assert scene is not None
-    return Experiment(codec.dumps(library), task, catalogue.scene(scene), "none")
+    return Experiment(codec.dumps(library), task, catalogue.scene_path(scene), "none")
 
 
 def run(tried: Experiment, jobs: int, count: int) -> Series:

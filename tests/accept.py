@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 from docs.manual import MANUAL, manual
-from skillc_compiler.emit.artifacts import artifacts
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.emit.write import write
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
@@ -33,7 +33,7 @@ def built(case: Path) -> dict[str, str]:
     errors = [each for each in (*vocabulary.diagnostics, *outcome.diagnostics) if each.severity == "error"]
     if errors:
         raise ValueError("\n".join(f"{each.span.path}:{each.span.line}: {each.message}" for each in errors))
-    return artifacts(outcome.value)
+    return make_artifacts(outcome.value)
 
 
 def expected(case: Path) -> dict[str, str]:

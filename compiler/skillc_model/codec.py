@@ -6,14 +6,14 @@ import msgspec
 
 from skillc_model.skills import FORMAT, SkillLibrary
 
-AGAIN = "make it anew with `skillc compile`"
+COMPILE_AGAIN = "make it anew with `skillc compile`"
 
 
 class LibraryError(ValueError):
     """A text that is not a library this version can load; the message says where and what to do."""
 
 
-class _Head(msgspec.Struct):
+class _Header(msgspec.Struct):
     """What every format of a library has."""
 
     format: int
@@ -27,9 +27,9 @@ def dumps(library: SkillLibrary) -> bytes:
 def loads(text: bytes, name: str) -> SkillLibrary:
     """Read a library. `name` is what an error calls the text; LibraryError for anything but a whole library."""
     try:
-        found = msgspec.json.decode(text, type=_Head).format
+        found = msgspec.json.decode(text, type=_Header).format
         if found != FORMAT:
-            raise LibraryError(f"{name} has format {found}, this skillc reads {FORMAT}; {AGAIN}")
+            raise LibraryError(f"{name} has format {found}, this skillc reads {FORMAT}; {COMPILE_AGAIN}")
         return msgspec.json.decode(text, type=SkillLibrary)
     except msgspec.DecodeError as error:
-        raise LibraryError(f"{name} is not a compiled library ({error}); {AGAIN}") from error
+        raise LibraryError(f"{name} is not a compiled library ({error}); {COMPILE_AGAIN}") from error

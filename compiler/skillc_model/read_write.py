@@ -23,8 +23,8 @@ from skillc_model.conditions import (
     Retract,
     Variable,
 )
-from skillc_model.reading import walk
 from skillc_model.skills import Implementation, Post, Skill, SkillLibrary
+from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
@@ -81,7 +81,7 @@ class ReadWriteSet:
 
 
 @dataclass(frozen=True, slots=True)
-class Unique:
+class UniqueSide:
     """A relation that follows from an asserted one and lets one thing stand on the other side of `side` only.
 
     `side` is 0 for its subject and 1 for its object; `flipped` says that it follows from object to subject.
@@ -176,13 +176,13 @@ def terms_written_by(effect: Effect, vocabulary: Vocabulary) -> frozenset[str]:
             assert_never(effect)
 
 
-def unique_sides(relation: str, vocabulary: Vocabulary) -> tuple[Unique, ...]:
+def unique_sides(relation: str, vocabulary: Vocabulary) -> tuple[UniqueSide, ...]:
     """Return what asserting the relation may retract."""
-    found: list[Unique] = []
+    found: list[UniqueSide] = []
     for iri, flipped in vocabulary.closure.implied.get(relation, ()):
         term = vocabulary.relations[iri]
-        found += [Unique(iri, flipped, 0)] if term.functional else []
-        found += [Unique(iri, flipped, 1)] if term.inverse_functional else []
+        found += [UniqueSide(iri, flipped, 0)] if term.functional else []
+        found += [UniqueSide(iri, flipped, 1)] if term.inverse_functional else []
     return tuple(found)
 
 

@@ -35,7 +35,7 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.reading import free_variables, walk
+from skillc_model.traversal import free_variables, walk
 
 S = TypeVar("S", bound=msgspec.Struct)
 T = TypeVar("T", bound=Condition | Effect | Expression | Term)
@@ -58,7 +58,7 @@ def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
     return msgspec.structs.replace(item, **changes) if changes else item
 
 
-def has(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
+def contains_kind(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
     """Whether anything of these kinds occurs in the condition."""
     return any(isinstance(each, kinds) for each in walk(item))
 
@@ -107,22 +107,22 @@ def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
     return msgspec.structs.replace(item, variable=new, body=body)
 
 
-def decided(condition: Condition, given: Mapping[str, bool]) -> Condition:
+def decide_given(condition: Condition, given: Mapping[str, bool]) -> Condition:
     """Return the condition with every `given` answered and what is then certain taken out."""
     match condition:
         case Given(parameter=name):
             return ALWAYS if given[name] else NEVER
         case Not(body=body):
-            inner = decided(body, given)
+            inner = decide_given(body, given)
             return NEVER if inner == ALWAYS else ALWAYS if inner == NEVER else Not(inner)
         case And(parts=parts):
-            kept = tuple(each for each in (decided(part, given) for part in parts) if each != ALWAYS)
+            kept = tuple(each for each in (decide_given(part, given) for part in parts) if each != ALWAYS)
             return NEVER if NEVER in kept else kept[0] if len(kept) == 1 else And(kept)
         case Or(parts=parts):
-            kept = tuple(each for each in (decided(part, given) for part in parts) if each != NEVER)
+            kept = tuple(each for each in (decide_given(part, given) for part in parts) if each != NEVER)
             return ALWAYS if ALWAYS in kept else kept[0] if len(kept) == 1 else Or(kept)
         case Exists() | Forall():
-            return msgspec.structs.replace(condition, body=decided(condition.body, given))
+            return msgspec.structs.replace(condition, body=decide_given(condition.body, given))
         case Holds() | Compare() | Same() | HasProperty() | IsA():
             return condition
         case _:
@@ -158,6 +158,6 @@ def _applied(operator: str, a: float, b: float) -> float | None:
     return {"+": a + b, "-": a - b, "*": a * b}[operator]
 
 
-def is_plain(condition: Condition) -> bool:
+def is_plain_fact(condition: Condition) -> bool:
     """Whether a fact about variables alone, which a predicate can say: a relation, identity or class."""
-    return isinstance(condition, Holds | Same | IsA) and not has(condition, Individual, Anything)
+    return isinstance(condition, Holds | Same | IsA) and not contains_kind(condition, Individual, Anything)

@@ -1,7 +1,7 @@
-"""Finds the packaged files: vocabularies, data sheets, scenes and models; and those in folders of the user's.
+"""Finds the packaged files (vocabularies, data sheets, scenes, models), and those in the user's ontology folders.
 
-Such a folder is laid out like this package: data sheets stand in `robots`, `grippers`, `tools` and `fixtures`, models
-beside them. Whatever else is in it are vocabularies.
+A user's folder has the layout of this package: data sheets in `robots`, `grippers`, `tools` and `fixtures`, models
+beside them. All other ontology files in it are vocabularies.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ ROOT = Path(__file__).parent
 SHEET_FOLDERS = ("robots", "grippers", "tools", "fixtures")
 VOCABULARY_FOLDERS = ("vocabulary", *SHEET_FOLDERS)
 ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld")
-"""What the names of files end in that may be vocabularies."""
+"""The suffixes of files that may be vocabularies."""
 VARIABLE = "SKILLC_ONTOLOGY"
-"""The environment variable with the user's folders, separated as in PATH."""
+"""The environment variable that lists the user's folders, separated as in PATH."""
 
 
 def vocabulary_files() -> tuple[tuple[str, str], ...]:
@@ -24,18 +24,20 @@ def vocabulary_files() -> tuple[tuple[str, str], ...]:
     return tuple((str(path.relative_to(ROOT)), path.read_text("utf-8")) for path in sorted(_vocabulary_paths()))
 
 
-def folders() -> tuple[Path, ...]:
-    """Return the folders of the user's, each once."""
+def user_folders() -> tuple[Path, ...]:
+    """Return the user's ontology folders, each once."""
     named = os.environ.get(VARIABLE, "").split(os.pathsep)
     return tuple(dict.fromkeys(Path(name) for name in named if name))
 
 
-def own_files() -> tuple[tuple[str, Path], ...]:
-    """Return every file in the user's folders that may be a vocabulary, by the name of its folder and the path in it.
+def user_files() -> tuple[tuple[str, Path], ...]:
+    """Return every file in the user's folders that may be a vocabulary, by `folder/path`.
 
-    Hidden folders and models, which are XML too, are left out.
+    Hidden folders and models, which are XML too, are skipped.
     """
-    found = ((folder, path) for folder in folders() for path in sorted(folder.rglob("*")) if path.suffix in ENDINGS)
+    found = (
+        (folder, path) for folder in user_folders() for path in sorted(folder.rglob("*")) if path.suffix in ENDINGS
+    )
     below = ((folder, path, path.relative_to(folder)) for folder, path in found)
     return tuple(
         (f"{folder.resolve().name}/{inner.as_posix()}", path)
@@ -45,36 +47,38 @@ def own_files() -> tuple[tuple[str, Path], ...]:
 
 
 def sheet_files() -> tuple[tuple[str, str], ...]:
-    """Return what every world begins with: the packaged files, and the Turtle beside models of the user's."""
-    own = (path for folder in folders() for name in SHEET_FOLDERS for path in sorted((folder / name).glob("*.ttl")))
+    """Return the documents that are part of every world: the packaged files and the user's data sheets."""
+    own = (
+        path for folder in user_folders() for name in SHEET_FOLDERS for path in sorted((folder / name).glob("*.ttl"))
+    )
     return (*vocabulary_files(), *((str(path), path.read_text("utf-8", errors="replace")) for path in own))
 
 
-def scenes() -> tuple[str, ...]:
-    """Return the names of the shipped scenes, with their ending."""
+def scene_names() -> tuple[str, ...]:
+    """Return the names of the shipped scenes, with their suffix."""
     return tuple(sorted(path.name for path in (ROOT / "scenes").glob("*.ttl")))
 
 
-def scene(name: str) -> Path:
-    """Return the path of a shipped scene, with or without `.ttl`; FileNotFoundError lists those there are."""
+def scene_path(name: str) -> Path:
+    """Return the path of a shipped scene, with or without `.ttl`; FileNotFoundError lists the shipped scenes."""
     file = name if name.endswith(".ttl") else f"{name}.ttl"
-    if file not in scenes():
-        raise FileNotFoundError(f"there is no scene {name}; there is {', '.join(scenes())}")
+    if file not in scene_names():
+        raise FileNotFoundError(f"there is no scene {name}; the shipped scenes are {', '.join(scene_names())}")
     return ROOT / "scenes" / file
 
 
-def model(path: str) -> Path:
+def model_path(path: str) -> Path:
     """Return the path of a model that a data sheet names (`robots/ur5e.xml`); FileNotFoundError if there is none."""
-    places = (ROOT, *folders())
+    places = (ROOT, *user_folders())
     found = next((place / path for place in places if (place / path).is_file()), None)
     if found is None:
         raise FileNotFoundError(f"there is no model {path} in the ontology")
     return found
 
 
-def own_models() -> tuple[Path, ...]:
-    """Return the files in the user's folders that data sheets there may name as models."""
-    places = (folder / name for folder in folders() for name in SHEET_FOLDERS)
+def user_models() -> tuple[Path, ...]:
+    """Return the model files in the user's folders."""
+    places = (folder / name for folder in user_folders() for name in SHEET_FOLDERS)
     return tuple(path for place in places for path in sorted(place.glob("*.xml")))
 
 
@@ -84,7 +88,7 @@ def _vocabulary_paths() -> Iterator[Path]:
 
 
 def _is_model(path: Path) -> bool:
-    """Whether a file is a model of MuJoCo's."""
+    """Whether a file is a MuJoCo model."""
     if path.suffix != ".xml" or not path.is_file():
         return False
     with path.open("rb") as file:

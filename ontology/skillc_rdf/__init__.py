@@ -1,4 +1,4 @@
-"""RDF with source positions: Turtle is read, edited and written with the place of each term; vocabularies are loaded.
+"""RDF with source positions: `turtle` parses and edits documents, `vocabulary` loads ontologies into terms.
 
 Start at `turtle.parser.parse` for documents and at `vocabulary.load` for vocabularies.
 """

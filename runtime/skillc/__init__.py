@@ -1,4 +1,4 @@
-"""What people start: `cli` is the command line, `lsp` the language server, `services` what both of them do.
+"""The programs that people start: `cli` is the command line, `lsp` the language server, `services` what both share.
 
-Start reading at `cli.main`, then one command in `cli.commands` and the service that it calls.
+Start at `cli.main`, then read one command in `cli.commands` and the service that it calls.
 """

@@ -1,4 +1,4 @@
-"""`python -m skillc` is the command `skillc`."""
+"""`python -m skillc` runs the command `skillc`."""
 
 from skillc.cli.main import main
 

@@ -42,7 +42,7 @@ impl looking of Look { run python "lab_primitives.look:Look" }
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(check_cache, "installation", lambda: ("this one",))
+    monkeypatch.setattr(check_cache, "describe_installation", lambda: ("this one",))
     return tmp_path / "cache" / "skillc" / "checks"
 
 
@@ -54,7 +54,7 @@ def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     python.mkdir(parents=True)
     (folder / "tasks.skill").write_text(TASK, encoding="utf-8")
     (folder / "mine.skill").write_text(MINE, encoding="utf-8")
-    (folder / "scene.ttl").write_text(catalogue.scene("iiwa_table").read_text("utf-8"), encoding="utf-8")
+    (folder / "scene.ttl").write_text(catalogue.scene_path("iiwa_table").read_text("utf-8"), encoding="utf-8")
     (python / "__init__.py").touch()
     (python / "look.py").write_text("class Look:\n    def __init__(self, cell, board): ...\n", encoding="utf-8")
     monkeypatch.syspath_prepend(str(python.parent))
@@ -150,14 +150,14 @@ def test_another_state_of_the_installation_is_another_digest(tmp_path: Path, mon
     module.write_text("a = 1\n", encoding="utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
     monkeypatch.setattr(check_cache, "PACKAGES", ("some_package",))
-    states = [tuple(check_cache.installation())]
-    assert tuple(check_cache.installation()) == states[0]
+    states = [tuple(check_cache.describe_installation())]
+    assert tuple(check_cache.describe_installation()) == states[0]
     module.write_text("a = 12\n", encoding="utf-8")
-    states.append(tuple(check_cache.installation()))
+    states.append(tuple(check_cache.describe_installation()))
     (package / "inner" / "added.py").touch()
-    states.append(tuple(check_cache.installation()))
+    states.append(tuple(check_cache.describe_installation()))
     (tmp_path / "another_package").mkdir()
-    states.append(tuple(check_cache.installation()))
+    states.append(tuple(check_cache.describe_installation()))
     assert len(set(states)) == 4
 
 

@@ -98,7 +98,7 @@ def test_a_full_disk_loses_nothing(library: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(os, "fsync", full) if step == "fsync" else monkeypatch.setattr(Path, "replace", full)
     result = check("--fix", "--no-cache")
     assert result.exit_code == 1
-    assert result.stderr == "error: rest.skill cannot be written: No space left on device; it is left as it was\n"
+    assert result.stderr == "error: rest.skill cannot be written: No space left on device; it is unchanged\n"
     assert [(file.name, file.read_text("utf-8")) for file in library.iterdir()] == [("rest.skill", BROKEN)]
 
 
@@ -121,13 +121,13 @@ def test_a_file_that_was_changed_meanwhile_is_left_alone(library: Path, monkeypa
     monkeypatch.setattr(fixing, "write_fixes", late)
     result = check("--fix")
     assert (result.exit_code, (library / "rest.skill").read_text("utf-8")) == (1, "# new\n")
-    assert "was changed by someone else" in result.stderr
+    assert "was changed by another program" in result.stderr
 
 
 def test_scenes_are_fixed_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     scene = Path("own.ttl")
-    right = catalogue.scene("iiwa_table").read_text("utf-8")
+    right = catalogue.scene_path("iiwa_table").read_text("utf-8")
     scene.write_text(right.replace("skiros:Weight 0.12", 'skiros:Weight "0.12"'), encoding="utf-8")
     task = 'use wiping\nimport "wiping/tasks.skill"\nprefix lab: <http://example.org/lab#>\n'
     task += 'task own { scene "own.ttl" goal lab:Table-1.isClean == true }\n'

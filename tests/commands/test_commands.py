@@ -40,7 +40,7 @@ def library(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def scene(tmp_path: Path) -> Path:
-    return Path(shutil.copy(catalogue.scene("iiwa_table.ttl"), tmp_path / "scene.ttl"))
+    return Path(shutil.copy(catalogue.scene_path("iiwa_table.ttl"), tmp_path / "scene.ttl"))
 
 
 def edited(scene: Path, old: str, new: str) -> Path:

@@ -34,7 +34,7 @@ def test_the_files_of_the_current_folder_are_written_and_named(folder: Path) -> 
     assert (result.exit_code, result.stdout, result.stderr) == (0, "", "formatted wild.skill\n")
     assert (folder / "wild.skill").read_text() == TAME
     assert (folder / "inner" / "tame.skill").stat().st_ino == inode
-    assert run().stderr == "2 files formatted already\n"
+    assert run().stderr == "2 files already formatted\n"
     assert sorted(path.name for path in folder.iterdir()) == ["inner", "wild.skill"]
 
 
@@ -101,7 +101,7 @@ def test_nothing_is_lost_when_a_file_cannot_be_written(folder: Path, monkeypatch
         (["missing.skill"], "there is no file or folder missing.skill"),
         (["wiping"], "there is no file or folder wiping"),
         (["-", "wild.skill"], "must be the only path"),
-        (["wild.skill", "--stdin-filename", "a.skill"], "must be the only path"),
+        (["wild.skill", "--stdin-filename", "a.skill"], "requires `-` as the only path"),
     ],
 )
 def test_a_wrong_command_line(folder: Path, arguments: list[str], words: str) -> None:

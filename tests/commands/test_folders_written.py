@@ -34,7 +34,7 @@ def test_a_new_library_is_whole_or_not_there(name: str, tmp_path: Path, monkeypa
         patch.setattr(Path, "write_text", fills_up)
         failed = CliRunner().invoke(skillc, ["new", name])
     assert failed.exit_code == 1
-    assert failed.stderr == f"error: cannot make {name}: No space left on device; nothing was written\n"
+    assert failed.stderr == f"error: cannot create {name}: No space left on device; nothing was written\n"
     assert list(tmp_path.iterdir()) == []
     again = CliRunner().invoke(skillc, ["new", name])
     assert again.exit_code == 0

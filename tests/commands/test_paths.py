@@ -14,7 +14,7 @@ LONG = "x" * 300
 SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
 ODD = {
     "pipe": "pipe is not a regular file",
-    "circle": "circle is a link that leads nowhere",
+    "circle": "circle is a broken link",
     "folder": "folder is a folder",
     LONG: "cannot be opened: File name too long",
     "nowhere": "there is no file nowhere",

@@ -76,7 +76,7 @@ def test_what_no_editor_sends_is_refused_in_words(place: Path, given: bytes) -> 
 def test_json_that_is_no_message_is_left_out(place: Path) -> None:
     code, said = ended(place, "skillc lsp > out", NO_MESSAGE)
     assert (code, said) == (1, "")
-    assert "is no JSON-RPC message" in (place / "out").read_text()
+    assert "is not a JSON-RPC message" in (place / "out").read_text()
 
 
 @pytest.mark.parametrize(("output", "said"), [("> /dev/full", FULL), (">&-", CLOSED)])

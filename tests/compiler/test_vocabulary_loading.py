@@ -7,7 +7,7 @@ from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.vocabulary.load import load
-from skillc_rdf.vocabulary.positions import positions
+from skillc_rdf.vocabulary.positions import find_subjects
 from skillc_rdf.vocabulary.types import (
     Bounds,
     DirectionType,
@@ -146,7 +146,7 @@ ex:Longer a o:C .''' .  ex:F ex:p 1.5 , 2. ex:G a [ a o:C ; ex:q ( ex:H ex:I ) ]
 ex:F a o:C.
 \tex:M\,n <http://www.w3.org/1999/02/22-rdf-syntax-ns#type> o:C .
 """.replace("\\t", "\t")
-    places = positions([Source("terms.ttl", turtle)])
+    places = find_subjects([Source("terms.ttl", turtle)])
     assert {iri.removeprefix("http://e/#"): (at.line, at.column) for iri, at in places.items()} == {
         "A": (3, 1),
         "F": (8, 1),
@@ -165,7 +165,7 @@ def test_places_are_those_of_a_whole_parser() -> None:
             if statement.predicate.endswith("#type") and isinstance(statement.subject, ox.NamedNode):
                 place = statement.subject_place
                 declared.setdefault(statement.subject.value, (place.path, place.line, place.column))
-    found = {iri: (at.path, at.line, at.column) for iri, at in positions(shipped).items()}
+    found = {iri: (at.path, at.line, at.column) for iri, at in find_subjects(shipped).items()}
     assert len(declared) > 150
     assert declared.items() <= found.items()
 

@@ -37,6 +37,6 @@ def test_example_is_laid_out_as_the_formatter_does(text: str) -> None:
 def test_example_compiles(text: str) -> None:
     shelf = find_library(SHIPPED / "wiping")
     neighbours = shelf.importable | {source.path: source for source in shelf.sources}
-    outcome = pipeline.compile([Source("example.skill", text)], libraries.vocabulary(), neighbours, "example")
+    outcome = pipeline.compile([Source("example.skill", text)], libraries.load_vocabulary(), neighbours, "example")
     unexpected = [each for each in outcome.diagnostics if each.name != "no-implementation"]
     assert not unexpected, render(unexpected, {})

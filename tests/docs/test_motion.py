@@ -15,7 +15,7 @@ ROW = re.compile(r"^\| `(Overlay\w+)` \| `([\w/.]+)` \|[^|]*\| (.*) \|$", re.MUL
 
 def test_the_facts_of_the_page_are_in_the_vocabulary() -> None:
     named = {SKILLC + name for name in re.findall(r"skillc:([a-z]\w+)", PAGE)}
-    vocabulary = libraries.vocabulary()
+    vocabulary = libraries.load_vocabulary()
     assert len(named) > 7
     assert named <= vocabulary.properties.keys() | vocabulary.relations.keys()
 

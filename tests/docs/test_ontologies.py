@@ -43,7 +43,7 @@ def test_each_construct_has_the_effect_that_the_table_says(construct: str) -> No
 
 def test_the_commands_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    shutil.copy(catalogue.scene("iiwa_table"), "cell.ttl")
+    shutil.copy(catalogue.scene_path("iiwa_table"), "cell.ttl")
     (commands,) = (block.text for block in blocks(PAGE) if block.language == "sh")
     ran = 0
     for line in commands.splitlines():

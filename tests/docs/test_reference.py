@@ -13,7 +13,7 @@ from skillc_compiler.manual import load_pages
 from skillc_dsl.parsing.grammar import fixed_texts
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
-from skillc_model.words import SI_UNITS
+from skillc_model.format_type import SI_UNITS
 
 REFERENCE = ROOT / "docs/language.md"
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

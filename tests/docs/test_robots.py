@@ -22,7 +22,7 @@ CODE = ("runtime", "compiler", "dsl", "ontology")
 
 
 def test_the_table_says_what_the_sheets_say() -> None:
-    state = load_scene(catalogue.scene("iiwa_table"), libraries.vocabulary())
+    state = load_scene(catalogue.scene_path("iiwa_table"), libraries.load_vocabulary())
     rows = ROW.findall(PAGE.read_text("utf-8"))
     assert {model for _, model, _, _ in rows} == {
         path.relative_to(catalogue.ROOT).as_posix()
@@ -40,7 +40,7 @@ def _limits(sheet: DataSheet, model: str) -> str:
     if model.startswith("grippers/"):
         opening, force = sheet.number("maxOpening"), sheet.number("maxForce")
         return f"opens to {1000 * opening:.0f} mm, grasps with up to {force:.0f} N"
-    joints = mujoco.MjModel.from_xml_path(str(catalogue.model(model))).njnt
+    joints = mujoco.MjModel.from_xml_path(str(catalogue.model_path(model))).njnt
     return f"{joints} joints, reach {sheet.number('reach'):g} m, skills push up to {sheet.number('forceLimit'):.0f} N"
 
 
@@ -55,7 +55,7 @@ def test_no_code_and_no_skill_knows_the_last_arm_by_name() -> None:
 def follow(folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> Reader:
     monkeypatch.chdir(folder)
     (folder / "own/robots").mkdir(parents=True)
-    shutil.copy(catalogue.scene("panda_desk"), folder / "cell.ttl")
+    shutil.copy(catalogue.scene_path("panda_desk"), folder / "cell.ttl")
     reader = Reader(monkeypatch, everything)
     reader.follow(PAGE)
     return reader
@@ -63,7 +63,9 @@ def follow(folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> R
 
 def test_an_arm_is_added_by_two_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert follow(tmp_path, monkeypatch, everything=False).done == 2
-    before, after = (path.read_text("utf-8").splitlines() for path in (catalogue.scene("panda_desk"), Path("cell.ttl")))
+    before, after = (
+        path.read_text("utf-8").splitlines() for path in (catalogue.scene_path("panda_desk"), Path("cell.ttl"))
+    )
     assert sum(one != other for one, other in zip(before, after, strict=True)) == 2, "two lines of the scene differ"
 
 

@@ -18,7 +18,7 @@ def test_the_properties_of_the_page_are_in_the_vocabulary() -> None:
     for prefix, namespace in (("skillc", SKILLC), ("contact", CONTACT)):
         named = set(re.findall(rf"{prefix}:(\w+)", PAGE))
         assert len(named) > 4
-        assert {namespace + name for name in named} <= libraries.vocabulary().properties.keys()
+        assert {namespace + name for name in named} <= libraries.load_vocabulary().properties.keys()
 
 
 def test_the_page_has_every_metric_with_its_target_and_every_disturbance() -> None:

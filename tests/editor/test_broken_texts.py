@@ -10,15 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from skillc.lsp.files import importable
-from skillc.services.libraries import vocabulary
+from skillc.lsp.files import importable_files
+from skillc.services.libraries import load_vocabulary
 from skillc.services.library_files import SHIPPED
 from skillc_compiler.ide import highlighting, outline
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
-from skillc_compiler.ide.calls import signature
+from skillc_compiler.ide.calls import find_signature
 from skillc_compiler.ide.completion import complete
-from skillc_compiler.ide.hover import hover
-from skillc_compiler.ide.places import definition, references
+from skillc_compiler.ide.descriptions import find_hover
+from skillc_compiler.ide.places import find_definitions, find_references
 from skillc_compiler.ide.rename import rename
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
@@ -37,7 +37,9 @@ def broken(text: str, chance: random.Random) -> str:
 
 def understood(text: str) -> Analysis:
     """Analyse a text as the only file of a library."""
-    return analyse(Library("l", {"a.skill": Source("a.skill", text)}, importable(), vocabulary()), remembered)
+    return analyse(
+        Library("l", {"a.skill": Source("a.skill", text)}, importable_files(), load_vocabulary()), remembered
+    )
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -48,9 +50,9 @@ def test_every_place_of_a_broken_file_has_answers(name: str) -> None:
         chance = random.Random(f"{name} {seed}")
         text = broken(broken(whole, chance), chance)
         analysis = understood(text)
-        covered = highlighting.highlighted(analysis, "a.skill")
+        covered = highlighting.highlight_words(analysis, "a.skill")
         assert all(one.span < other.span for one, other in pairwise(covered))
-        folds = outline.folds(Source("a.skill", text), analysis.program.files[0].file)
+        folds = outline.find_folds(Source("a.skill", text), analysis.program.files[0].file)
         assert all(fold.first < fold.last for fold in folds)
         for _ in range(12):
             asked += ask_at_any_place(analysis, text, chance)
@@ -65,11 +67,11 @@ def ask_at_any_place(analysis: Analysis, text: str, chance: random.Random) -> in
     found = complete(analysis, *place, ["scene.ttl"], ["unused-let"])
     assert found.replaced.end_column == place[2]
     assert len({(offer.text, offer.kind) for offer in found.offers}) == len(found.offers)
-    told = hover(analysis, *place)
+    told = find_hover(analysis, *place)
     assert told is None or told.markdown
-    signature(analysis, *place)
-    declared = definition(analysis, *place)
-    named = references(analysis, *place, declarations=True)
+    find_signature(analysis, *place)
+    declared = find_definitions(analysis, *place)
+    named = find_references(analysis, *place, declarations=True)
     assert not declared or not named or set(named) >= {span for span in declared if span.path == "a.skill"}
     if chance.random() < 0.05:
         rename(analysis, *place, "renamed", remembered)

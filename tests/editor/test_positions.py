@@ -8,7 +8,7 @@ import pytest
 from lsprotocol import types
 
 from editor.desk import Desk
-from skillc.lsp.positions import Lines, column, units
+from skillc.lsp.positions import PositionConverter, column_at, count_units
 from skillc_dsl.source import Span
 
 UTF_8, UTF_16, UTF_32 = (kind.value for kind in types.PositionEncodingKind)
@@ -29,24 +29,24 @@ skill Überfahren {{
 @pytest.mark.parametrize("line", SAMPLES)
 def test_columns_go_there_and_back(line: str, encoding: str) -> None:
     for index in range(len(line) + 1):
-        assert column(line, units(line[:index], encoding), encoding) == index + 1
-    assert column(line, units(line, encoding) + 7, encoding) == len(line) + 1
+        assert column_at(line, count_units(line[:index], encoding), encoding) == index + 1
+    assert column_at(line, count_units(line, encoding) + 7, encoding) == len(line) + 1
 
 
 def test_units_are_those_of_the_codecs() -> None:
     for line in SAMPLES:
-        assert units(line, UTF_8) == len(line.encode())
-        assert units(line, UTF_16) == len(line.encode("utf-16-le")) // 2
-        assert units(line, UTF_32) == len(line)
+        assert count_units(line, UTF_8) == len(line.encode())
+        assert count_units(line, UTF_16) == len(line.encode("utf-16-le")) // 2
+        assert count_units(line, UTF_32) == len(line)
     assert sys.maxunicode > 0xFFFF
 
 
 def test_a_place_inside_a_letter_is_after_it() -> None:
-    assert column("🦾x", 1, UTF_16) == 2
+    assert column_at("🦾x", 1, UTF_16) == 2
 
 
 def test_a_span_beyond_the_text_is_at_its_line() -> None:
-    lines = Lines({"a": "x"}, UTF_16)
+    lines = PositionConverter({"a": "x"}, UTF_16)
     assert lines.range(Span("a", 3, 9, 3, 12)) == types.Range(types.Position(2, 0), types.Position(2, 0))
     assert lines.range(Span("nowhere", 1, 1, 1, 1)) == types.Range(types.Position(0, 0), types.Position(0, 0))
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from lsprotocol import types
 
+from skillc.lsp.diagnostics import diagnostics_by_uri
 from skillc.lsp.libraries import Libraries
-from skillc.lsp.problems import by_uri
 from skillc.services import library_checks
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_ontology import catalogue
@@ -58,7 +58,7 @@ def test_what_keeps_tasks_from_being_done_is_told_as_by_check(tmp_path: Path) ->
         'task go {\n    scene "cell.ttl"\n    goal  lab:Table-1.isClean == true\n}\n'
         'task look {\n    scene "cell.ttl"\n    do    Wipe(surface: lab:Table-1)\n}\n'
     )
-    (tmp_path / "cell.ttl").write_text(catalogue.scene("iiwa_table").read_text("utf-8"), "utf-8")
+    (tmp_path / "cell.ttl").write_text(catalogue.scene_path("iiwa_table").read_text("utf-8"), "utf-8")
     checked = library_checks.check_library(find_library(tmp_path), None)
     assert {d.name for d in checked} == {"unreachable-goal", "no-answer"}
     libraries = Libraries((tmp_path,))
@@ -78,7 +78,7 @@ def test_columns_in_scenes_are_those_of_check(tmp_path: Path) -> None:
     libraries = Libraries((tmp_path,))
     libraries.write(file.as_uri(), file.read_text("utf-8"))
     view = libraries.view(file.as_uri())
-    (told,) = by_uri(libraries, view.root, view.analysis, "utf-16")[scene.as_uri()]
+    (told,) = diagnostics_by_uri(libraries, view.root, view.analysis, "utf-16")[scene.as_uri()]
     assert told.range == types.Range(types.Position(1, 15), types.Position(1, 30))
 
 

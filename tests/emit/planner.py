@@ -8,7 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.text import domain_text, problem_text
+from skillc_model.pddl.text import format_domain, format_problem
 
 
 def search_binary() -> Path | None:
@@ -24,8 +24,8 @@ def solve(problem: Problem, folder: Path) -> list[str]:
     """Return the optimal plan's steps as `name argument ..`; fails the test unless lmcut proves it, without axioms."""
     binary = search_binary()
     assert binary is not None
-    (folder / "domain.pddl").write_text(domain_text(problem.domain))
-    (folder / "problem.pddl").write_text(problem_text(problem))
+    (folder / "domain.pddl").write_text(format_domain(problem.domain))
+    (folder / "problem.pddl").write_text(format_problem(problem))
     translate = [sys.executable, "-m", "fast_downward.translate", "--sas-file", "o.sas", "domain.pddl", "problem.pddl"]
     told = subprocess.run(translate, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
     assert told.returncode == 0, told.stdout[-500:] + told.stderr[-500:]

@@ -16,7 +16,7 @@ from skillc_model.conditions import (
     Retract,
     Variable,
 )
-from skillc_model.pddl.names import pddl_names
+from skillc_model.pddl.names import assign_names
 from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import (
     ClassTerm,
@@ -234,7 +234,9 @@ def library(*skills: Skill, implementations: tuple[Implementation, ...] = ()) ->
         skills={each.name: each for each in skills},
         implementations={f"{each.skill}.{each.name}": each for each in (*implementations, *plain)},
     )
-    return SkillLibrary(**{name: getattr(bare, name) for name in bare.__struct_fields__} | {"names": pddl_names(bare)})
+    return SkillLibrary(
+        **{name: getattr(bare, name) for name in bare.__struct_fields__} | {"names": assign_names(bare)}
+    )
 
 
 def wiping() -> SkillLibrary:

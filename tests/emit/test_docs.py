@@ -7,7 +7,7 @@ import pytest
 
 from emit.samples import HERE, holds, wiping
 from skillc_compiler.emit import docs
-from skillc_compiler.emit.quantities import quantity_texts
+from skillc_compiler.emit.docs import format_quantities
 from skillc_model.skills import Task
 from skillc_rdf.vocabulary.types import NumberType
 
@@ -26,7 +26,7 @@ from skillc_rdf.vocabulary.types import NumberType
 def test_values_of_a_parameter_share_a_readable_unit(
     dimension: str, values: tuple[float | None, ...], texts: tuple[str, ...]
 ) -> None:
-    assert quantity_texts(values, NumberType(dimension)) == texts
+    assert format_quantities(values, NumberType(dimension)) == texts
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from rdflib import OWL, RDF, RDFS, XSD, Graph, Literal, Namespace, URIRef
 from accept import built, cases
 from emit.samples import BASE, WIPE, holds, implementation, library, need, wiping
 from skillc_compiler.emit import owl
-from skillc_compiler.emit.owl.turtle import Iri, turtle
+from skillc_compiler.emit.owl.turtle import IriNode, format_turtle
 from skillc_model.skills import Requirement, SkillLibrary
 
 SAMPLE = Namespace("https://w3id.org/skillc/library/sample#")
@@ -146,11 +146,11 @@ values = st.text() | st.booleans() | st.integers() | st.floats(allow_nan=False, 
 @given(st.lists(st.tuples(locals_, values), max_size=6))
 def test_what_is_written_is_read_back(pairs: list[tuple[str, str | bool | int | float]]) -> None:
     base = "http://example.org/x#"
-    text = turtle({"x": base}, [(base + name, base + "value", value) for name, value in pairs])
+    text = format_turtle({"x": base}, [(base + name, base + "value", value) for name, value in pairs])
     read = {(str(subject), type(value.value), value.value) for subject, _, value in Graph().parse(data=text)}
     assert read == {(base + name, type(value), value) for name, value in pairs}
 
 
 def test_the_order_of_statements_does_not_matter() -> None:
-    made = [(f"http://x/{a}", f"http://y/{b}", Iri(f"http://z/{c}")) for a in "ab" for b in "ab" for c in "ab"]
-    assert turtle({}, made) == turtle({}, reversed(made)) == turtle({}, [*made, *made])
+    made = [(f"http://x/{a}", f"http://y/{b}", IriNode(f"http://z/{c}")) for a in "ab" for b in "ab" for c in "ab"]
+    assert format_turtle({}, made) == format_turtle({}, reversed(made)) == format_turtle({}, [*made, *made])

@@ -44,8 +44,8 @@ from skillc_model.pddl.formulas import (
     disjunction,
 )
 from skillc_model.pddl.goals import ground_goal
-from skillc_model.pddl.planning import planning_domain
-from skillc_model.pddl.prepare import prepared
+from skillc_model.pddl.planning import make_planning_domain
+from skillc_model.pddl.prepare import remove_axioms
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import Post, Skill
 
@@ -73,13 +73,13 @@ def varied(skill: Skill, **changes: object) -> Skill:
 
 
 def action(skill: Skill, *others: Skill) -> Action:
-    domain = planning_domain(library(skill, *others))
+    domain = make_planning_domain(library(skill, *others))
     assert not domain.excluded
     return next(each for each in domain.actions if each.skill == skill.name)
 
 
 def reason(skill: Skill, *others: Skill) -> str:
-    domain = planning_domain(library(skill, *others))
+    domain = make_planning_domain(library(skill, *others))
     return next(each.reason for each in domain.excluded if each.skill == skill.name)
 
 
@@ -90,7 +90,7 @@ def with_pre(skill: Skill, condition: Condition) -> Skill:
 @needs_planner
 def test_the_planner_fetches_the_eraser_and_wipes(tmp_path: Path) -> None:
     goal = Atom("is-clean", ("board",))
-    plan = solve(prepared(problem(planning_domain(samples.wiping()), goal)), tmp_path)
+    plan = solve(remove_axioms(problem(make_planning_domain(samples.wiping()), goal)), tmp_path)
     assert plan == [
         "drive ur store dock",
         "pick arm-1 felt ur wsg store",
@@ -102,7 +102,7 @@ def test_the_planner_fetches_the_eraser_and_wipes(tmp_path: Path) -> None:
 @needs_planner
 def test_a_disjunctive_goal_is_reached_by_its_cheapest_case(tmp_path: Path) -> None:
     made = samples.wiping()
-    domain = planning_domain(made)
+    domain = make_planning_domain(made)
     wanted = Or(
         (
             Holds(Individual(iri("ur")), iri("at"), Individual(iri("wall"))),
@@ -111,7 +111,7 @@ def test_a_disjunctive_goal_is_reached_by_its_cheapest_case(tmp_path: Path) -> N
     )
     objects = {iri(name): Typed(name, type_) for name, type_ in OBJECTS.items()}
     goal = ground_goal(wanted, made, domain, objects, lambda _: (), lambda _: False)
-    assert solve(prepared(problem(domain, goal)), tmp_path) == ["drive ur wall dock", "reach-goal"]
+    assert solve(remove_axioms(problem(domain, goal)), tmp_path) == ["drive ur wall dock", "reach-goal"]
 
 
 def test_the_former_value_is_deleted_plainly_where_the_precondition_names_it() -> None:
@@ -154,7 +154,7 @@ def test_a_condition_on_a_relation_reads_its_changing_subrelations() -> None:
     assert {each.predicate for each in reads[0].parts} == {"has-a", "has-gripper"}  # type: ignore[union-attr]
     no_arm = conjuncts(action(with_pre(DRIVE, holds("robot hasA to")), mount).precondition)
     assert no_arm[0] == Atom("has-a", ("?robot", "?to"))
-    domain = planning_domain(library(mount))
+    domain = make_planning_domain(library(mount))
     assert domain.predicate["has-a"].meaning == RelationFact(iri("hasA"), ((iri("hasGripper"), False),))
 
 
@@ -182,7 +182,7 @@ def test_an_enumerated_property_has_a_predicate_per_value() -> None:
 
 
 def test_what_nothing_changes_becomes_a_guard_with_defaults_put_in() -> None:
-    domain = planning_domain(library(PICK))
+    domain = make_planning_domain(library(PICK))
     meaning = domain.predicate["guard-pick-light"].meaning
     assert isinstance(meaning, GuardFact)
     assert meaning.variables == ("object",)
@@ -197,7 +197,7 @@ def test_an_unset_optional_parameter_counts_as_not_given() -> None:
         parameters=(*PICK.parameters[:-1], unset),
         pre=(*PICK.pre[:-1], need("light", Or((Not(Given("limit")), light)))),
     )
-    assert [each.name for each in planning_domain(library(guarded)).predicates if "light" in each.name] == []
+    assert [each.name for each in make_planning_domain(library(guarded)).predicates if "light" in each.name] == []
     unguarded = varied(guarded, pre=(*PICK.pre[:-1], need("light", light)))
     assert "reads `limit`" in reason(unguarded)
 
@@ -205,7 +205,7 @@ def test_an_unset_optional_parameter_counts_as_not_given() -> None:
 def test_implementations_stand_in_the_precondition_by_their_types_and_conditions() -> None:
     two = varied(WIPE, implementations=("lanes", "spot"))
     free = need("spotless", Not(holds("gripper contain _")), "not gripper contain _")
-    made = planning_domain(
+    made = make_planning_domain(
         library(
             two,
             implementations=(
@@ -217,7 +217,7 @@ def test_implementations_stand_in_the_precondition_by_their_types_and_conditions
     choice = conjuncts(made.action["wipe"].precondition)[-1]
     assert Atom("is-compliant-arm", ("?arm",)) in choice.parts  # type: ignore[union-attr]
     without_demands = library(two)
-    assert planning_domain(without_demands).action["wipe"].precondition == action(WIPE).precondition
+    assert make_planning_domain(without_demands).action["wipe"].precondition == action(WIPE).precondition
 
 
 def test_a_class_with_several_parents_is_a_type_below_one_and_a_predicate_for_the_other() -> None:
@@ -231,12 +231,12 @@ def test_a_class_with_several_parents_is_a_type_below_one_and_a_predicate_for_th
     made = action(carry)
     assert made.parameters[0].type == "item"
     assert made.precondition == Atom("is-holder", ("?holder",))
-    assert planning_domain(library(carry)).type_of([iri("Robot"), iri("Device")]) == "robot"
+    assert make_planning_domain(library(carry)).type_of([iri("Robot"), iri("Device")]) == "robot"
 
 
 def test_individuals_of_several_classes_widen_the_types_of_parameters() -> None:
     both = frozenset({iri("Surface"), iri("Place")})
-    domain = planning_domain(library(DRIVE), [both])
+    domain = make_planning_domain(library(DRIVE), [both])
     place_or_surface = domain.type_of(both)
     drive = domain.action["drive"]
     assert all(domain.is_a(place_or_surface, each.type) for each in drive.parameters if each.name != "?robot")
@@ -270,18 +270,18 @@ def test_a_measured_number_is_not_taken_for_static(condition: Condition) -> None
     measured = Post(label="m", condition=condition, effects=(), sensed=True, text="m", source=samples.HERE)
     weigh = varied(WIPE, name="Weigh", post=(*WIPE.post, measured))
     assert "`core:weight`" in reason(PICK, weigh)
-    assert planning_domain(library(PICK)).excluded == ()
+    assert make_planning_domain(library(PICK)).excluded == ()
 
 
 def test_skills_kept_out_of_planning_are_not_listed() -> None:
-    domain = planning_domain(library(varied(PICK, planned=False), DRIVE))
+    domain = make_planning_domain(library(varied(PICK, planned=False), DRIVE))
     assert [each.skill for each in domain.actions] == ["Drive"]
     assert domain.excluded == ()
 
 
 def test_forall_is_written_out_for_the_objects() -> None:
-    before = problem(planning_domain(library(PICK)), TRUE)
-    after = prepared(before)
+    before = problem(make_planning_domain(library(PICK)), TRUE)
+    after = remove_axioms(before)
     empty = {
         each.body.terms[1]
         for each in conjuncts(after.domain.action["pick"].precondition)
@@ -293,7 +293,7 @@ def test_forall_is_written_out_for_the_objects() -> None:
 
 def test_what_nothing_changes_is_settled_where_forall_is_written_out() -> None:
     """A planner multiplies out what would be left of each object, so that a few of them are a million cases."""
-    domain = planning_domain(library(PICK))
+    domain = make_planning_domain(library(PICK))
     pick, place = domain.action["pick"], Typed("?place", "place")
     fixed = Predicate("is-fixed", (place,), ClassFact("fixed"), False)
     at_place = Atom("core-at", (pick.parameters[0].name, place.name))
@@ -302,13 +302,13 @@ def test_what_nothing_changes_is_settled_where_forall_is_written_out() -> None:
     before = problem(replace(domain, predicates=(*domain.predicates, fixed), actions=actions), TRUE)
     for fixed_ones in ((), ("dock",), ("dock", "wall")):
         facts = tuple(Atom("is-fixed", (name,)) for name in fixed_ones)
-        after = prepared(replace(before, init=(*before.init, *facts))).domain.action["pick"].precondition
+        after = remove_axioms(replace(before, init=(*before.init, *facts))).domain.action["pick"].precondition
         assert after == conjunction(Atom("core-at", (at_place.terms[0], name)) for name in fixed_ones)
 
 
 def test_goals_are_ground_and_settle_what_never_changes() -> None:
     made = samples.wiping()
-    domain = planning_domain(made)
+    domain = make_planning_domain(made)
     objects = {iri(name): Typed(name, type_) for name, type_ in OBJECTS.items()}
     places = [iri("store"), iri("wall")]
 
@@ -351,13 +351,13 @@ def test_what_an_axiom_forbids_is_ruled_out_before() -> None:
 
 def test_posts_that_exclude_each_other_are_left_out_as_impossible() -> None:
     torn = varied(DRIVE, post=(*DRIVE.post, post("away", "robot at to", positive=False)))
-    (left_out,) = planning_domain(library(torn)).excluded
+    (left_out,) = make_planning_domain(library(torn)).excluded
     assert left_out.impossible and left_out.reason == "its postconditions contradict each other or an axiom"
 
 
 def test_the_same_condition_on_other_things_is_another_guard() -> None:
     heavy = Compare(read("x", "weight"), ">=", Literal(1.0))
     each = [Exists("x", iri(cls), And((holds("robot at to"), heavy))) for cls in ("Product", "Surface")]
-    domain = planning_domain(library(with_pre(DRIVE, And(tuple(each)))))
+    domain = make_planning_domain(library(with_pre(DRIVE, And(tuple(each)))))
     guards = [each for each in domain.predicates if isinstance(each.meaning, GuardFact)]
     assert sorted(each.parameters[0].type for each in guards) == ["product", "surface"]

@@ -7,10 +7,10 @@ from importlib.resources import files
 from pathlib import Path
 
 from peers.comparing import differences_of
-from skillc_compiler.emit.artifacts import artifacts
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
-from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.skills import SkillLibrary
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_rdf.vocabulary.load import load
@@ -26,12 +26,12 @@ def wiping() -> SkillLibrary:
 
 
 def test_every_planned_skill_can_be_planned_with() -> None:
-    domain = planning_domain(wiping())
+    domain = make_planning_domain(wiping())
     assert domain.excluded == ()
     assert {each.skill for each in domain.actions} == {each.name for each in wiping().skills.values() if each.planned}
 
 
 def test_the_trees_keep_the_rules_of_the_format_and_run_in_the_library() -> None:
-    trees = {path: text for path, text in artifacts(wiping()).items() if path.endswith(".xml")}
+    trees = {path: text for path, text in make_artifacts(wiping()).items() if path.endswith(".xml")}
     assert "trees/Wipe.xml" in trees
     assert [words for path, text in trees.items() for words in differences_of(path, text)] == []

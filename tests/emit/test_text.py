@@ -25,12 +25,12 @@ from emit.samples import (
     wiping,
 )
 from skillc_compiler.emit import pddl
-from skillc_compiler.emit.pddl import DomainRefused, read_back
+from skillc_compiler.emit.pddl import InvalidDomain, read_back
 from skillc_model.conditions import Arithmetic, Compare, Literal, Variable
 from skillc_model.pddl.domain import ComputedCost
-from skillc_model.pddl.names import KEYWORDS, object_names
-from skillc_model.pddl.planning import planning_domain
-from skillc_model.pddl.text import domain_text, temporal_text
+from skillc_model.pddl.names import KEYWORDS, assign_object_names
+from skillc_model.pddl.planning import make_planning_domain
+from skillc_model.pddl.text import format_domain, format_temporal_domain
 from skillc_model.skills import Compound, Skill, SkillLibrary
 from skillc_model.tree import Call, Sequence
 
@@ -38,7 +38,7 @@ from skillc_model.tree import Call, Sequence
 @given(st.sets(st.text(min_size=1, max_size=6), max_size=8))
 def test_names_are_legal_unique_and_lead_back(locals_: set[str]) -> None:
     iris = {BASE + each for each in locals_}
-    names = object_names(iris, vocabulary(), {"taken"})
+    names = assign_object_names(iris, vocabulary(), {"taken"})
     assert set(names.values()) == iris
     assert len(names) == len(iris)
     assert all(re.fullmatch(r"[a-z][a-z0-9-]*", name) for name in names)
@@ -46,15 +46,15 @@ def test_names_are_legal_unique_and_lead_back(locals_: set[str]) -> None:
 
 
 def test_names_that_only_case_tells_apart_are_kept_apart() -> None:
-    names = object_names([f"{BASE}Ur5", f"{BASE}ur5", f"{BASE}UR5"], vocabulary(), ())
+    names = assign_object_names([f"{BASE}Ur5", f"{BASE}ur5", f"{BASE}UR5"], vocabulary(), ())
     assert len(names) == 3
 
 
 def test_a_duration_that_depends_on_things_is_a_static_function() -> None:
     seconds = Arithmetic("/", read("from", "weight"), Literal(0.5))
-    domain = planning_domain(library(msgspec.structs.replace(DRIVE, duration=seconds)))
+    domain = make_planning_domain(library(msgspec.structs.replace(DRIVE, duration=seconds)))
     assert domain.action["drive"].cost == ComputedCost("cost-drive", ("?from",))
-    text = domain_text(domain)
+    text = format_domain(domain)
     assert "(cost-drive ?from - place) - number" in text
     assert "(increase (total-cost) (cost-drive ?from))" in text
     assert ":numeric-fluents" not in text
@@ -62,11 +62,11 @@ def test_a_duration_that_depends_on_things_is_a_static_function() -> None:
 
 
 def test_a_domain_that_is_not_pddl_is_our_mistake_and_told() -> None:
-    text = domain_text(planning_domain(wiping()))
+    text = format_domain(make_planning_domain(wiping()))
     read_back(text, {"drive", "pick", "wipe"})
-    with pytest.raises(DomainRefused, match="not PDDL"):
+    with pytest.raises(InvalidDomain, match="not PDDL"):
         read_back(text.replace("(:predicates", "(:predicate"), {"drive", "pick", "wipe"})
-    with pytest.raises(DomainRefused, match="lost an action"):
+    with pytest.raises(InvalidDomain, match="lost an action"):
         read_back(text, {"drive", "pick", "wipe", "fly"})
 
 
@@ -84,27 +84,27 @@ def test_a_domain_that_is_not_pddl_is_our_mistake_and_told() -> None:
     ],
 )
 def test_types_that_are_no_hierarchy_are_our_mistake_and_told(types: str, told: str) -> None:
-    text = domain_text(planning_domain(wiping()))
+    text = format_domain(make_planning_domain(wiping()))
     before, end, after = text.partition("\n  )\n")
     assert before.rpartition("(:")[2].startswith("types")
-    with pytest.raises(DomainRefused, match=told):
+    with pytest.raises(InvalidDomain, match=told):
         read_back(f"{before}\n    {types}{end}{after}", {"drive", "pick", "wipe"})
 
 
 def test_a_type_that_is_not_declared_is_found_with_any_hierarchy() -> None:
-    text = domain_text(planning_domain(wiping()))
-    with pytest.raises(DomainRefused, match="not PDDL"):
+    text = format_domain(make_planning_domain(wiping()))
+    with pytest.raises(InvalidDomain, match="not PDDL"):
         read_back(text.replace("- place)", "- places)", 1), {"drive", "pick", "wipe"})
 
 
 def test_a_deep_hierarchy_of_types_is_read_back() -> None:
     deep = "".join(f"    t{number + 1} - t{number}\n" for number in range(2000))
-    text = domain_text(planning_domain(wiping()))
+    text = format_domain(make_planning_domain(wiping()))
     read_back(text.replace("thing - object\n", f"thing - object\n    t0 - thing\n{deep}"), {"drive", "pick", "wipe"})
 
 
 def test_reading_back_leaves_tracebacks_long() -> None:
-    with pytest.raises(DomainRefused) as refused:
+    with pytest.raises(InvalidDomain) as refused:
         read_back("(define", set())
     assert traceback.extract_tb(refused.value.__traceback__)
 
@@ -115,12 +115,12 @@ def test_a_library_without_planned_skills_is_a_domain_without_actions() -> None:
 
 
 def test_what_was_left_out_is_listed_with_place_and_reason() -> None:
-    text = domain_text(planning_domain(library(msgspec.structs.replace(PICK, post=()), DRIVE)))
+    text = format_domain(make_planning_domain(library(msgspec.structs.replace(PICK, post=()), DRIVE)))
     assert "; left out: Pick (sample.skill:1): it changes nothing that a planner can see" in text
 
 
 def test_hold_conditions_hold_over_all_and_devices_are_locked() -> None:
-    text = temporal_text(planning_domain(wiping()))
+    text = format_temporal_domain(make_planning_domain(wiping()))
     pick = text[text.index("(:durative-action pick") : text.index("(:durative-action wipe")]
     assert "(over all (guard-pick-ready ?arm))" in pick
     assert "(at start (not (idle ?arm)))" in pick
@@ -139,10 +139,10 @@ def test_an_action_locks_the_devices_of_the_skills_it_calls() -> None:
     outer = msgspec.structs.replace(nothing, name="Outer", implementations=("all",))
     call = Call("Wipe", None, {"surface": Variable("surface"), "arm": here}, None, HERE)
     around = msgspec.structs.replace(implementation(outer, "all"), body=Compound(call))
-    made = planning_domain(library(move, grip, nothing, outer, implementations=(lanes, around)))
+    made = make_planning_domain(library(move, grip, nothing, outer, implementations=(lanes, around)))
     assert made.action["wipe"].uses == ("?arm", "?gripper")
     assert made.action["outer"].uses == ("?arm",)
-    text = temporal_text(made)
+    text = format_temporal_domain(made)
     outer_text = text[text.index("(:durative-action outer") : text.index("(:durative-action wipe")]
     assert [outer_text.count(each) for each in ("(at start (not (idle ?arm)))", "(at end (idle ?arm))")] == [1, 1]
 
@@ -155,7 +155,7 @@ def skill_using(name: str, uses: tuple[str, ...]) -> Skill:
 
 
 def test_where_nothing_is_locked_nothing_is_said_of_it() -> None:
-    assert "idle" not in temporal_text(planning_domain(library(msgspec.structs.replace(WIPE, uses=()))))
+    assert "idle" not in format_temporal_domain(make_planning_domain(library(msgspec.structs.replace(WIPE, uses=()))))
 
 
 def test_a_guard_says_which_condition_it_stands_for() -> None:
@@ -171,10 +171,10 @@ def test_values_that_nothing_reads_are_left_out_of_the_file_and_kept_for_goals()
     assert "is-clean-false" in pddl.emit(reading)["domain.pddl"]
     assert "is-clean-false" not in pddl.emit(wiping())["domain.pddl"]
     assert "(is-clean ?surface)" in pddl.emit(wiping())["domain.pddl"]
-    assert "is-clean-false" in planning_domain(wiping()).predicate
+    assert "is-clean-false" in make_planning_domain(wiping()).predicate
 
 
 def test_the_table_of_names_may_come_with_the_library() -> None:
     made = wiping()
     bare = SkillLibrary(**{name: getattr(made, name) for name in made.__struct_fields__} | {"names": {}})
-    assert planning_domain(bare) == planning_domain(made)
+    assert make_planning_domain(bare) == make_planning_domain(made)

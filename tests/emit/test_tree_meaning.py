@@ -15,8 +15,8 @@ from skillc_compiler.emit import bt
 from skillc_compiler.emit.bt.calls import may_break_hold
 from skillc_model import tree
 from skillc_model.conditions import Condition
-from skillc_model.reading import walk
 from skillc_model.skills import Compound, SkillLibrary, Task
+from skillc_model.traversal import walk
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.changes import SetProperty

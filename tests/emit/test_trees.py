@@ -16,9 +16,9 @@ from emit.samples import HERE, PICK, WIPE, holds, implementation, library, need,
 from emit.tree_rules import Reader, broken_rules
 from peers.comparing import differences_of
 from skillc_compiler.emit import bt
-from skillc_compiler.emit.bt.names import Names, entry, given, port
-from skillc_compiler.emit.bt.ports import plain_value
-from skillc_compiler.emit.bt.rules import TreeRefused, verified
+from skillc_compiler.emit.bt.names import NodeIds, entry_name, given_port, port_name
+from skillc_compiler.emit.bt.ports import format_plain_value
+from skillc_compiler.emit.bt.rules import InvalidTree, check_file
 from skillc_model.codec import loads
 from skillc_model.conditions import Literal, Variable
 from skillc_model.skills import Compound, Primitive, Skill, SkillLibrary
@@ -77,10 +77,10 @@ def test_the_rules_notice_what_breaks_them(words: str) -> None:
 @pytest.mark.parametrize("words", BREAKING)
 def test_what_breaks_a_rule_is_not_written(words: str) -> None:
     text = FILES["control/trees/Tour.xml"].replace('<Sleep msec="1500" />', "<AlwaysSuccess />")
-    verified(fromstring(text))
+    check_file(fromstring(text))
     harmless = words == "Tour hides the default of a port"
-    with nullcontext() if harmless else pytest.raises(TreeRefused):
-        verified(fromstring(text.replace(*BREAKING[words])))
+    with nullcontext() if harmless else pytest.raises(InvalidTree):
+        check_file(fromstring(text.replace(*BREAKING[words])))
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -166,10 +166,10 @@ def test_no_file_for_skills_that_are_single_actions() -> None:
 
 
 def test_names_of_nodes_stay_apart_from_each_other_and_from_built_in_ones() -> None:
-    names = Names()
+    names = NodeIds()
     chosen = [names.of("Sequence"), names.of("a_b"), names.of("a", "b"), names.of("", "a", "b"), names.of("a_b")]
     assert chosen == ["Sequence_2", "a_b", "a_b_2", "a_b_3", "a_b"]
-    assert (port("name"), port("name_"), port("arm"), port("ä"), port("_a")) == (
+    assert (port_name("name"), port_name("name_"), port_name("arm"), port_name("ä"), port_name("_a")) == (
         "name_",
         "name__",
         "arm",
@@ -184,10 +184,10 @@ some_names = st.from_regex(rf"[^\W\d]\w{{0,5}}|{ODD}", fullmatch=True)
 
 @hypothesis_given(st.sets(some_names, min_size=2, max_size=30))
 def test_no_two_names_have_one_port(written: set[str]) -> None:
-    ports = {port(each) for each in written}
+    ports = {port_name(each) for each in written}
     assert len(ports) == len(written)
     assert all(re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", each) and each not in ("ID", "name") for each in ports)
-    made = {entry("a", 1), given("a"), given("name")}
+    made = {entry_name("a", 1), given_port("a"), given_port("name")}
     assert not made & ports
 
 
@@ -202,8 +202,8 @@ TAKEN_AS_WRITTEN = (
 
 
 def test_text_that_a_port_would_take_for_something_else_is_computed() -> None:
-    assert [each for each in TAKEN_OTHERWISE if plain_value(Literal(each), "std::string") is not None] == []
-    assert [plain_value(Literal(each), "std::string") for each in TAKEN_AS_WRITTEN] == list(TAKEN_AS_WRITTEN)
+    assert [each for each in TAKEN_OTHERWISE if format_plain_value(Literal(each), "std::string") is not None] == []
+    assert [format_plain_value(Literal(each), "std::string") for each in TAKEN_AS_WRITTEN] == list(TAKEN_AS_WRITTEN)
 
 
 @pytest.mark.parametrize(
@@ -222,4 +222,4 @@ def test_text_that_a_port_would_take_for_something_else_is_computed() -> None:
     ],
 )
 def test_a_number_is_written_as_the_type_of_its_port_is(value: float, type_: str, written: str | None) -> None:
-    assert plain_value(Literal(value), type_) == written
+    assert format_plain_value(Literal(value), type_) == written

@@ -8,7 +8,7 @@ from types import ModuleType
 
 import pytest
 
-from skillc.services.reporting import Silent
+from skillc.services.reporting import SilentReporter
 from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Plan, Solved
@@ -29,7 +29,7 @@ def unified() -> ModuleType:
 
 @cache
 def loaded(task: str) -> LoadedTask:
-    with load_task(TaskRequest(task), Silent()) as found:
+    with load_task(TaskRequest(task), SilentReporter()) as found:
         return found
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from emit.samples import wiping
-from skillc_compiler.emit.artifacts import artifacts
-from skillc_compiler.emit.headers import headed
+from skillc_compiler.emit.artifacts import make_artifacts
+from skillc_compiler.emit.headers import add_header
 from skillc_compiler.emit.write import EmitError, write
 
 
@@ -19,14 +19,14 @@ def files(folder: Path) -> dict[str, str]:
 
 
 def test_what_is_written_can_be_read(tmp_path: Path) -> None:
-    made = artifacts(wiping())
+    made = make_artifacts(wiping())
     paths = write(made, tmp_path / "build")
     assert files(tmp_path / "build") == made
     assert sorted(paths) == sorted(tmp_path / "build" / path for path in made)
 
 
 def test_what_is_no_longer_made_is_removed_only_if_it_is_ours(tmp_path: Path) -> None:
-    ours = headed("trees/Old.xml", "<root/>\n", wiping())
+    ours = add_header("trees/Old.xml", "<root/>\n", wiping())
     write({"trees/Old.xml": ours, "trees/New.xml": ours}, tmp_path)
     (tmp_path / "notes.md").write_text("# my notes\n")
     (tmp_path / "trees/Mine.xml").write_text("<root/>\n")

@@ -16,7 +16,7 @@ from unified_planning.shortcuts import get_environment
 from skillc_model.conditions import And
 from skillc_model.pddl.domain import Action, RelationFact
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
+from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import InitialState
@@ -31,12 +31,12 @@ GAP_S = 0.01
 
 def classical(problem: Problem) -> Any:
     """Return the problem as unified-planning reads it from the classical domain."""
-    return _read(domain_text(problem.domain), problem_text(problem))
+    return _read(format_domain(problem.domain), format_problem(problem))
 
 
 def temporal(problem: Problem) -> Any:
     """Return the problem as unified-planning reads it from the temporal domain."""
-    return _read(temporal_text(problem.domain), temporal_problem_text(problem))
+    return _read(format_temporal_domain(problem.domain), format_temporal_problem(problem))
 
 
 def takes(posed: PosedProblem, plan: Plan) -> bool:

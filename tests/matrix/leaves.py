@@ -10,8 +10,8 @@ import msgspec
 from emit.bt_parts import Blackboard, Outcome
 from emit.bt_parts import Stage as Leaves
 from skillc_model.conditions import Arithmetic, Condition, Expression, IsA, Literal, Variable
-from skillc_model.reading import walk
 from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_model.traversal import walk
 from skillc_model.tree import Call, Check, ForEach, If, Timeout, Wait, WaitUntil, While
 from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation

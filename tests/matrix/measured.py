@@ -17,7 +17,7 @@ from skillc_compiler.emit import bt, owl
 from skillc_compiler.emit.owl.words import library_base
 from skillc_model.codec import dumps, loads
 from skillc_model.conditions import And
-from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.skills import SkillLibrary
 from skillc_model.tree import Node
 from skillc_runtime.execution.tree.run import TreeRun
@@ -70,7 +70,7 @@ def in_owl(library: SkillLibrary) -> str:
 
 def in_pddl(library: SkillLibrary) -> str:
     """Compare applicability and effects of every planned step with the world model; say what is left out and why."""
-    excluded = [each.reason for each in planning_domain(library).excluded]
+    excluded = [each.reason for each in make_planning_domain(library).excluded]
     posed = pose_problem(library, scene(library), And(()))
     if not posed.problem.domain.actions:
         return f"left out: {excluded[0]}" if excluded else "not planned"

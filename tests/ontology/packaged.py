@@ -10,7 +10,7 @@ from rdflib import Graph, Namespace
 from skillc_ontology import catalogue
 
 FILES = sorted(catalogue.ROOT.glob("**/*.ttl"))
-SCENES = catalogue.scenes()
+SCENES = catalogue.scene_names()
 
 SKILLC = Namespace("https://w3id.org/skillc/core#")
 SKIROS = Namespace("http://rvmi.aau.dk/ontologies/skiros.owl#")
@@ -33,4 +33,4 @@ def vocabulary() -> Graph:
 
 def with_scene(scene: str) -> Graph:
     """A new graph with a scene and everything it speaks of."""
-    return (vocabulary() + Graph()).parse(catalogue.scene(scene))
+    return (vocabulary() + Graph()).parse(catalogue.scene_path(scene))

@@ -15,9 +15,9 @@ from oracle.vocabularies import Author
 from oracle.well_typed import mistakes
 from skillc_model.conditions import And
 from skillc_model.pddl.formulas import FALSE
-from skillc_model.pddl.planning import planning_domain
-from skillc_model.pddl.pruning import pruned
-from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
+from skillc_model.pddl.planning import make_planning_domain
+from skillc_model.pddl.pruning import prune_unread_values
+from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import GoalError, pose_problem
@@ -78,16 +78,16 @@ def test_a_step_works_for_the_planner_where_it_works_in_the_world(seed: int) -> 
 @pytest.mark.parametrize("seed", range(3000, 3000 + (EXAMPLES or 20)))
 def test_all_that_is_printed_is_well_typed(seed: int) -> None:
     drawn = Author(seed).drawn()
-    alone = pruned(planning_domain(drawn.library))
-    assert mistakes(domain_text(alone)) + mistakes(temporal_text(alone)) == []
+    alone = prune_unread_values(make_planning_domain(drawn.library))
+    assert mistakes(format_domain(alone)) + mistakes(format_temporal_domain(alone)) == []
     for goal in (And(()), drawn.goal):
         try:
             problem = pose_problem(drawn.library, drawn.state, goal).problem
         except GoalError:
             continue
         if problem.goal != FALSE:
-            assert mistakes(domain_text(problem.domain), problem_text(problem)) == []
-            assert mistakes(temporal_text(problem.domain), temporal_problem_text(problem)) == []
+            assert mistakes(format_domain(problem.domain), format_problem(problem)) == []
+            assert mistakes(format_temporal_domain(problem.domain), format_temporal_problem(problem)) == []
 
 
 def test_the_type_checker_finds_mistakes() -> None:

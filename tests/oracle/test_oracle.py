@@ -14,7 +14,7 @@ from oracle.drawing import CROWD, Dice
 from oracle.forced import TooManyStates, cheapest
 from oracle.text import Contradictory
 from skillc_model.conditions import And, Condition
-from skillc_model.pddl.complement import complemented
+from skillc_model.pddl.complement import add_complements
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Planner, PlanResult, Solved, Unsolvable
@@ -111,4 +111,4 @@ def test_nothing_wrong_is_said_of_a_scene_from_a_part_of_it(seed: int) -> None:
 def test_saying_what_is_not_true_changes_nothing(seed: int) -> None:
     skills, state, goal = drawn(Dice(seed))
     problem = pose_problem(skills, state, goal).problem
-    assert cost_of(AStar().plan(complemented(problem), LONG_S)) == cost_of(AStar().plan(problem, LONG_S))
+    assert cost_of(AStar().plan(add_complements(problem), LONG_S)) == cost_of(AStar().plan(problem, LONG_S))

@@ -26,7 +26,7 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.pddl.names import pddl_names
+from skillc_model.pddl.names import assign_names
 from skillc_model.skills import Implementation, Parameter, Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import (
     ClassTerm,
@@ -99,7 +99,7 @@ class Author:
             skills={each.name: each for each in skills},
             implementations={f"{each.skill}.{each.name}": each for each in ways},
         )
-        library = msgspec.structs.replace(plain, names=pddl_names(plain))
+        library = msgspec.structs.replace(plain, names=assign_names(plain))
         state = self._scene()
         return Drawn(library, state, self._goal(library, state))
 

@@ -9,7 +9,7 @@ import pytest
 from emit.tree_rules import Reader
 from peers.comparing import differences
 from skillc_compiler.emit import bt
-from skillc_compiler.emit.bt import depth as bt_depth
+from skillc_compiler.emit import bt as bt_depth
 from skillc_compiler.emit.bt.names import BUILT_IN
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source

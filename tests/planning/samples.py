@@ -19,7 +19,7 @@ from skillc_model.conditions import (
     Retract,
     Variable,
 )
-from skillc_model.pddl.names import pddl_names
+from skillc_model.pddl.names import assign_names
 from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.state.changes import SetProperty
@@ -69,7 +69,7 @@ def library(*skills: Skill, vocabulary: Vocabulary = VOCABULARY) -> SkillLibrary
         skills={each.name: each for each in skills},
         implementations={f"{each.name}.plain": implementation(each) for each in skills},
     )
-    return msgspec.structs.replace(plain, names=pddl_names(plain))
+    return msgspec.structs.replace(plain, names=assign_names(plain))
 
 
 def implementation(of: Skill) -> Implementation:

@@ -7,7 +7,7 @@ import pytest
 
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library
 from skillc_model.conditions import Forall, Holds, Individual, Not, PropertyOf, Variable
-from skillc_model.pddl.complement import complemented
+from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import Negation, Universal, conjuncts
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
@@ -126,7 +126,7 @@ def test_a_problem_that_is_too_large_is_given_up_in_time() -> None:
 
 def test_what_is_denied_of_all_things_gets_a_predicate_and_the_plan_stays() -> None:
     problem = pose_problem(WIPING, CROWD, CLEANED).problem
-    said = complemented(problem)
+    said = add_complements(problem)
     denied = [each for each in conjuncts(problem.domain.action["pick"].precondition) if isinstance(each, Universal)]
     assert len(denied) == 1 and isinstance(denied[0].body, Negation)
     assert not any(

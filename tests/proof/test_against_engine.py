@@ -34,8 +34,8 @@ from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.source import Source
 from skillc_model import tree
 from skillc_model.conditions import Condition, Holds, Individual, Variable
-from skillc_model.reading import free_variables
 from skillc_model.skills import SkillLibrary
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Position, Vocabulary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status

@@ -2,8 +2,8 @@
 
 import pytest
 
-from skillc.services.libraries import vocabulary
-from skillc_compiler.emit.artifacts import artifacts
+from skillc.services.libraries import load_vocabulary
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl.parsing.nesting import DEEPEST
 from skillc_dsl.source import Source
@@ -27,6 +27,6 @@ HEADS = ("par all { wait 1 s ", "reactive seq { wait 1 s ", "retry 3 { wait 1 s 
 @pytest.mark.parametrize("head", HEADS)
 def test_nested_nodes_are_proved_and_compiled(head: str) -> None:
     body = head * DEEPEST + "Wipe(board)" + " }" * DEEPEST
-    outcome = compile([Source("a.skill", LIBRARY.format(body=body))], vocabulary(), {}, "own")
+    outcome = compile([Source("a.skill", LIBRARY.format(body=body))], load_vocabulary(), {}, "own")
     assert [each for each in outcome.diagnostics if each.severity == "error"] == []
-    assert artifacts(outcome.value)
+    assert make_artifacts(outcome.value)

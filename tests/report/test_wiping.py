@@ -10,7 +10,7 @@ from typing import Any
 
 import skillc_runtime
 import skillc_skills
-from skillc_model.words import SI_UNITS
+from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings

@@ -17,7 +17,7 @@ EXPECTED = re.compile(r'#! ([a-z-]+) "((?:[^"\\]|\\.)*)"?')
 
 
 def problems(path: Path) -> tuple[Diagnostic, ...]:
-    return read_scene(path, libraries.vocabulary()).problems
+    return read_scene(path, libraries.load_vocabulary()).problems
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
@@ -32,9 +32,9 @@ def test_case(path: Path) -> None:
         assert any(words in text for text in told), (line, words, told)
 
 
-@pytest.mark.parametrize("name", catalogue.scenes())
+@pytest.mark.parametrize("name", catalogue.scene_names())
 def test_shipped_scenes_have_no_problems(name: str) -> None:
-    assert problems(catalogue.scene(name)) == ()
+    assert problems(catalogue.scene_path(name)) == ()
 
 
 def test_the_other_statement_is_shown_beside_the_one_that_breaks_an_axiom() -> None:

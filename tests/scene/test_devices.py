@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from skillc.services import library_checks
-from skillc.services.check_cache import digest_of
+from skillc.services.check_cache import compute_digest
 from skillc.services.library_files import find_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 
-SCENE = catalogue.scene("iiwa_table").read_text("utf-8")
+SCENE = catalogue.scene_path("iiwa_table").read_text("utf-8")
 OWN = """
 lab:own-home a skillc:Posture ; skillc:postureName "home" ; skillc:jointValues "0.0 0.35 0.0 -1.75 0.0 1.04 0.0" .
 lab:own-sheet a skillc:ArmSheet ; skillc:model "robots/iiwa14.xml" ; skillc:reach 0.82 ; skillc:shoulderHeight 0.36 ;
@@ -99,10 +99,10 @@ def test_what_was_found_does_not_hold_once_a_model_has_changed(tmp_path: Path, m
     monkeypatch.setenv(catalogue.VARIABLE, str(own))
     sheet = OWN.replace("robots/iiwa14.xml", "robots/mine.xml")
     (missing,) = told(library, "lab:own-sheet", sheet)
-    before = digest_of(find_library(library), library / "s.ttl")
-    (own / "robots" / "mine.xml").write_text(catalogue.model("robots/iiwa14.xml").read_text("utf-8"), "utf-8")
+    before = compute_digest(find_library(library), library / "s.ttl")
+    (own / "robots" / "mine.xml").write_text(catalogue.model_path("robots/iiwa14.xml").read_text("utf-8"), "utf-8")
     assert "no model robots/mine.xml" in missing.message
-    assert digest_of(find_library(library), library / "s.ttl") != before
+    assert compute_digest(find_library(library), library / "s.ttl") != before
     assert told(library, "lab:own-sheet", sheet) == []
 
 

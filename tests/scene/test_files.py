@@ -12,7 +12,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 
-TEXT = catalogue.scene("iiwa_table").read_bytes()
+TEXT = catalogue.scene_path("iiwa_table").read_bytes()
 LABEL = b'"rough table"'
 LABEL_LINE = TEXT[: TEXT.index(LABEL)].count(b"\n") + 1
 
@@ -20,7 +20,7 @@ LABEL_LINE = TEXT[: TEXT.index(LABEL)].count(b"\n") + 1
 def problems(path: Path, content: bytes) -> tuple[Diagnostic, ...]:
     path.write_bytes(content)
     try:
-        load_scene(path, libraries.vocabulary())
+        load_scene(path, libraries.load_vocabulary())
     except SceneError as error:
         return error.problems
     return ()
@@ -57,4 +57,4 @@ def test_columns_count_characters_behind_a_mark_and_before_a_carriage_return(tmp
 
 def test_a_folder_is_no_scene(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="cannot read"):
-        load_scene(tmp_path, libraries.vocabulary())
+        load_scene(tmp_path, libraries.load_vocabulary())

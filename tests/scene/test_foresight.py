@@ -55,7 +55,7 @@ LINE = HEAD.count("\n") + 3
 
 def checked(folder: Path, member: str, more: str = "", controller: str = "impedance") -> list[Diagnostic]:
     """Check a library with one task, whose goal or body is on the line LINE, in a shipped scene with more in it."""
-    scene = catalogue.scene("iiwa_table").read_text("utf-8").replace('"impedance"', f'"{controller}"')
+    scene = catalogue.scene_path("iiwa_table").read_text("utf-8").replace('"impedance"', f'"{controller}"')
     (folder / "s.ttl").write_text(scene + more, "utf-8")
     (folder / "t.skill").write_text(f'{HEAD}task t {{\n    scene "s.ttl"\n    {member}\n}}\n', "utf-8")
     found = library_checks.check_library(find_library(folder), None)

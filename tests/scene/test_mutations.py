@@ -34,10 +34,12 @@ def is_near(mutant: Mutant, problem: Diagnostic) -> bool:
 def test_a_changed_token_is_told_beside_it_and_once() -> None:
     illegal = single = 0
     for name in ("iiwa_table", "ur5e_whiteboard"):
-        text = catalogue.scene(name).read_text("utf-8")
+        text = catalogue.scene_path(name).read_text("utf-8")
         meant = graph(text)
         for mutant in mutants(text, range(SEEDS)):
-            problems = read_documents([Document("scene.ttl", mutant.text), *SHEETS], libraries.vocabulary()).problems
+            problems = read_documents(
+                [Document("scene.ttl", mutant.text), *SHEETS], libraries.load_vocabulary()
+            ).problems
             said = graph(mutant.text)
             if said is None:
                 assert any(is_near(mutant, problem) for problem in problems), mutant

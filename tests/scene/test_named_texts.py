@@ -131,14 +131,14 @@ def test_in_a_scene_a_misspelt_posture_is_an_error_once_where_it_is_written(
 
 
 def test_the_postures_of_a_scene_count(tmp_path: Path) -> None:
-    (tmp_path / "s.ttl").write_text(catalogue.scene("iiwa_table").read_text("utf-8") + REST, "utf-8")
+    (tmp_path / "s.ttl").write_text(catalogue.scene_path("iiwa_table").read_text("utf-8") + REST, "utf-8")
     assert told(tmp_path, HEAD % ("home", "rest", "rest") + TASK % ("s.ttl", "Fold(arm: lab:Iiwa-1)")) == []
     assert told(tmp_path, HEAD % ("home", "rest", "rest"), "--scene", str(tmp_path / "s.ttl")) == []
     assert len(told(tmp_path, HEAD % ("home", "rest", "rest"))) == 2
 
 
 def test_only_the_postures_of_the_arm_that_moves_count(tmp_path: Path) -> None:
-    (tmp_path / "s.ttl").write_text(catalogue.scene("two_robots").read_text("utf-8") + REST_OF_UR, "utf-8")
+    (tmp_path / "s.ttl").write_text(catalogue.scene_path("two_robots").read_text("utf-8") + REST_OF_UR, "utf-8")
     both = 'seq { TakePosture(arm: lab:Ur5e-1, posture: "rest")  TakePosture(arm: lab:Iiwa-1, posture: "rest") }'
     message = 'lab:Iiwa-1 has no skillc:postureName "rest"; it has "home"'
     assert [each[:2] for each in told(tmp_path, HEAD % (("home",) * 3) + TASK % ("s.ttl", both))] == [

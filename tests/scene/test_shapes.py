@@ -37,7 +37,7 @@ SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files
 
 @cache
 def shape_graph() -> Graph:
-    return Graph().parse(data=format_shapes(libraries.vocabulary()), format="turtle")
+    return Graph().parse(data=format_shapes(libraries.load_vocabulary()), format="turtle")
 
 
 @cache
@@ -56,7 +56,7 @@ def conforms(scene: Graph) -> bool:
 def names(scene: Graph) -> set[str]:
     """Return the names of the problems that skillc finds."""
     document = Document("scene.ttl", scene.serialize(format="turtle"))
-    return {problem.name for problem in read_documents([document, *SHEETS], libraries.vocabulary()).problems}
+    return {problem.name for problem in read_documents([document, *SHEETS], libraries.load_vocabulary()).problems}
 
 
 def mutated(graph: Graph, random: Random) -> None:
@@ -74,10 +74,10 @@ def mutated(graph: Graph, random: Random) -> None:
 
 
 def scene(name: str) -> Graph:
-    return Graph().parse(data=catalogue.scene(name).read_text("utf-8"), format="turtle")
+    return Graph().parse(data=catalogue.scene_path(name).read_text("utf-8"), format="turtle")
 
 
-@pytest.mark.parametrize("name", catalogue.scenes())
+@pytest.mark.parametrize("name", catalogue.scene_names())
 def test_shipped_scenes_conform(name: str) -> None:
     assert conforms(scene(name))
 

@@ -18,7 +18,7 @@ from skillc_rdf.turtle.statements import Parsed
 
 SEEDS = int(os.environ.get("TURTLE_SEEDS", "30"))
 FILES = [("everything", EVERYTHING), *catalogue.vocabulary_files()]
-FILES += [(name, catalogue.scene(name).read_text("utf-8")) for name in catalogue.scenes()]
+FILES += [(name, catalogue.scene_path(name).read_text("utf-8")) for name in catalogue.scene_names()]
 CHARACTERS = ".;,[]()<>\"'\\@^_:#a1 \n%{}|`\x00\x7fé\u2028"
 PREFIXES = "@prefix : <http://e.org/> .\n@prefix lab: <http://e.org/lab#> .\n"
 KNOWN = {"skiros": "http://rvmi.aau.dk/ontologies/skiros.owl#"}
@@ -92,39 +92,39 @@ MISTAKES = [
     (":x a :Y ;\n  :p 1\n:z a :Y .", 4, "a `.` is missing after `1`", ":x a :Y ;\n  :p 1 .\n:z a :Y ."),
     (":x a :Y\n  :p 1 .", 3, "a `;` is missing after `:Y`", ":x a :Y ;\n  :p 1 ."),
     (":x :p :y :z .", 3, "a `,` is missing after `:y`", ":x :p :y , :z ."),
-    (":x a :Y ;\n\n:z a :Y .", 3, "begins another", ":x a :Y .\n\n:z a :Y ."),
-    (":x a :Y .\n  :p 1 ; :q 2 .", 3, "it goes on behind", ":x a :Y ;\n  :p 1 ; :q 2 ."),
+    (":x a :Y ;\n\n:z a :Y .", 3, "begins a new statement", ":x a :Y .\n\n:z a :Y ."),
+    (":x a :Y .\n  :p 1 ; :q 2 .", 3, "the statement continues after", ":x a :Y ;\n  :p 1 ; :q 2 ."),
     (":x a :Y ; :p .", 3, "`:p` has no value", None),
     (":x a .", 3, "`a` has no value", None),
-    (":x :p 1, .", 3, "after this `,` a value is missing", None),
-    (":x :p 3 N .", 3, "`N` stands behind the number 3", None),
-    (":x :p tru .", 3, "`tru` is no value", ":x :p true ."),
-    (":x :p True .", 3, "`True` is no value", ":x :p true ."),
+    (":x :p 1, .", 3, "a value is missing after this `,`", None),
+    (":x :p 3 N .", 3, "unexpected `N` after the number 3", None),
+    (":x :p tru .", 3, "`tru` is not a value", ":x :p true ."),
+    (":x :p True .", 3, "`True` is not a value", ":x :p true ."),
     (":x :p Y . :Y a :Z .", 3, "`Y` has no prefix", ":x :p :Y . :Y a :Z ."),
     (':x :p "open .\n:z a :Y .', 3, "has no closing quote", None),
     (':x :p """open .\n:z a :Y .', 3, "has no closing quote", None),
     (":x :p <http://open .\n:z a :Y .", 3, "has no `>`", None),
-    (":x :p http://e.org/y .", 3, "`http://e.org/y` is no name", None),
+    (":x :p http://e.org/y .", 3, "`http://e.org/y` is not a name", None),
     (":x :p [ a :Y .\n:z a :Y .", 3, "the `[` that begins here has no `]`", None),
     (":x :p ( 1 2 .\n:z a :Y .", 3, "the `(` that begins here has no `)`", None),
-    (":x a :Y . .", 3, "no statement that this `.` could end", None),
-    ("// a comment\n:x a :Y .", 3, "`//` is no Turtle", None),
-    (':x :p "a\\qb" .', 3, "has `\\q`, which is no escape", None),
-    (':x :p "a"@e-n .', 3, "is no language", None),
+    (":x a :Y . .", 3, "this `.` ends no statement", None),
+    ("// a comment\n:x a :Y .", 3, "`//` is not Turtle", None),
+    (':x :p "a\\qb" .', 3, "has `\\q`, which is not an escape", None),
+    (':x :p "a"@e-n .', 3, "is not a language tag", None),
     (':x :p "a"^^ .', 3, "a datatype is missing", None),
-    ("@prefix lab2 <http://e.org/> .", 3, "this is no declaration of a prefix", None),
+    ("@prefix lab2 <http://e.org/> .", 3, "this is not a valid declaration of a prefix", None),
     ("@prefx l: <http://e.org/> .", 3, "there is no `@prefx`", None),
     (
         "l: <http://e.org/> .\nl:x a :Y .",
         3,
-        "before this `@prefix` is missing",
+        "`@prefix` is missing before this",
         "@prefix l: <http://e.org/> .\nl:x a :Y .",
     ),
     ("@prefix l: <http://e.org/>\nl:x a :Y .", 3, "a `.` is missing", "@prefix l: <http://e.org/> .\nl:x a :Y ."),
-    ("PREFIX l: <http://e.org/> .\nl:x a :Y .", 3, "is not ended by a `.`", None),
+    ("PREFIX l: <http://e.org/> .\nl:x a :Y .", 3, "does not end with a `.`", None),
     (":x a labb:Y . :y a lab:Z .", 3, "the prefix `labb:` is not declared", ":x a lab:Y . :y a lab:Z ."),
     (":x a skiros:Y, skiros:Z .", 3, "the prefix `skiros:` is not declared", None),
-    (":x .", 3, "nothing is said of `:x`", None),
+    (":x .", 3, "nothing is stated about `:x`", None),
     (":x :p " + "[ :p " * 120 + "1" + " ]" * 120 + " .", 3, "nested too deeply", None),
 ]
 

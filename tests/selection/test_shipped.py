@@ -35,7 +35,7 @@ def library() -> SkillLibrary:
 @cache
 def scene() -> WorldState:
     """Return the world of the iiwa."""
-    return load_scene(catalogue.scene("iiwa_table"), library().vocabulary)
+    return load_scene(catalogue.scene_path("iiwa_table"), library().vocabulary)
 
 
 def call(skill: str, **arguments: str) -> tree.Call:

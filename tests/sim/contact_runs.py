@@ -67,7 +67,7 @@ def run(
     task = library().tasks[name]
     assert task.scene is not None
     assert task.goal is not None
-    state = load_scene(catalogue.scene(task.scene), library().vocabulary)
+    state = load_scene(catalogue.scene_path(task.scene), library().vocabulary)
     prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library())
     assert isinstance(prepared, PreparedTask), prepared
     if once:

@@ -34,7 +34,7 @@ BY_SPEED = 'lab:Ur5e-1 skiros:CompliantController "forward_dynamics_velocity"'
 def test_the_targets_are_met(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("tasks.skill").write_text(TASK)
-    shutil.copy(catalogue.scene("ur5e_whiteboard"), "cell.ttl")
+    shutil.copy(catalogue.scene_path("ur5e_whiteboard"), "cell.ttl")
     told = CliRunner().invoke(skillc, ["world", "cell.ttl", "--edit", BY_SPEED])
     assert told.exit_code == 0, told.output
     assert '"forward_dynamics_velocity"' in Path("cell.ttl").read_text()

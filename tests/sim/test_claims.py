@@ -56,7 +56,7 @@ def library() -> SkillLibrary:
 def scene(task: str) -> WorldState:
     file = library().tasks[task].scene
     assert file is not None
-    return load_scene(catalogue.scene(file), library().vocabulary)
+    return load_scene(catalogue.scene_path(file), library().vocabulary)
 
 
 def wiped(task: str, real: Reality = draw_variation) -> Execution:

@@ -45,7 +45,7 @@ def wiped(name: str) -> WipingResult:
     library = without_overlay()
     task = library.tasks[name]
     assert task.scene is not None and task.goal is not None
-    state = load_scene(catalogue.scene(task.scene), library.vocabulary)
+    state = load_scene(catalogue.scene_path(task.scene), library.vocabulary)
     prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library)
     assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed=1), ChoiceListener()

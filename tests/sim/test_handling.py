@@ -47,7 +47,7 @@ lab:Cell-placing a skiros:PlacingPose ;
 def test_pick_and_place_moves_the_object_and_the_world_model_knows(tmp_path: Path) -> None:
     (tmp_path / "tidy.skill").write_text(TASK, encoding="utf-8")
     scene = tmp_path / "scene.ttl"
-    scene.write_text(catalogue.scene("iiwa_table").read_text(encoding="utf-8") + PLACING, encoding="utf-8")
+    scene.write_text(catalogue.scene_path("iiwa_table").read_text(encoding="utf-8") + PLACING, encoding="utf-8")
     outcome = libraries.compile_library(find_library(tmp_path))
     assert outcome.ok, outcome.diagnostics
     state = load_scene(scene, outcome.value.vocabulary)

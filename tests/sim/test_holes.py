@@ -60,7 +60,7 @@ def test_all_that_is_to_be_wiped_is_wiped_and_no_hole_is_touched(changes: list[C
     task = library().tasks["clean_around"]
     assert task.scene is not None
     assert task.goal is not None
-    state = load_scene(catalogue.scene(task.scene), library().vocabulary).with_changes(changes)
+    state = load_scene(catalogue.scene_path(task.scene), library().vocabulary).with_changes(changes)
     prepared = prepare_task(Assignment("clean_around", state, AchieveGoal(task.goal)), library())
     assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed), ChoiceListener()

@@ -36,7 +36,7 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[NodeOutcome]]]:
     """Run a task; return its result and the steps of each robot's arm in order."""
     task = library().tasks[name]
     assert task.scene is not None and task.goal is not None
-    state = load_scene(catalogue.scene(task.scene), library().vocabulary)
+    state = load_scene(catalogue.scene_path(task.scene), library().vocabulary)
     prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library())
     assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed=4), ChoiceListener()

@@ -50,7 +50,7 @@ def at_the_eraser(scene: str, seed: int = 0, changes: Sequence[Change] = ()) -> 
 
 @cache
 def world(scene: str) -> WorldState:
-    return load_scene(catalogue.scene(scene), vocabulary())
+    return load_scene(catalogue.scene_path(scene), vocabulary())
 
 
 def cell(scene: str, seed: int = 0) -> SimulatedCell:

@@ -28,7 +28,7 @@ QUARTERS = {"robots/ur5e.xml": 1, "grippers/panda_hand.xml": 2}
 def write_collection(root: Path) -> None:
     """Write every model of the collection, with a tetrahedron on each link."""
     for name, ours in OURS.items():
-        _write_model(root / name, catalogue.model(ours), QUARTERS.get(ours, 0))
+        _write_model(root / name, catalogue.model_path(ours), QUARTERS.get(ours, 0))
 
 
 def tetrahedron(file: Path) -> None:

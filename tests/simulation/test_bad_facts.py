@@ -48,7 +48,7 @@ BUILT = [
 
 
 def changed(scene: str, old: str, new: str, more: str = "") -> Document:
-    text = catalogue.scene(scene).read_text("utf-8")
+    text = catalogue.scene_path(scene).read_text("utf-8")
     assert old in text
     return Document("scene.ttl", text.replace(old, new, 1) + more)
 

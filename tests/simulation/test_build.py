@@ -118,7 +118,7 @@ def test_an_unknown_controller_is_named_with_those_there_are() -> None:
 
 def test_a_plain_surface_with_nothing_but_its_friction_is_simulated(tmp_path: Path) -> None:
     """A surface need not be one to wipe."""
-    text = catalogue.scene("iiwa_table").read_text("utf-8").replace("a wiping:TableTop", "a skillc:Surface")
+    text = catalogue.scene_path("iiwa_table").read_text("utf-8").replace("a wiping:TableTop", "a skillc:Surface")
     scene = tmp_path / "plain.ttl"
     scene.write_text(re.sub(r"wiping:isClean.*\n(.*\n)*", "skillc:friction 0.6 .\n", text), "utf-8")
     built = SimulatedCell(WorldModel(load_scene(scene, vocabulary())), seed=3)

@@ -43,7 +43,7 @@ ARMS = sorted(RANGES)
 
 
 def state() -> WorldState:
-    return load_scene(catalogue.scene("iiwa_table"), vocabulary())
+    return load_scene(catalogue.scene_path("iiwa_table"), vocabulary())
 
 
 def sheet(device: str) -> DataSheet:

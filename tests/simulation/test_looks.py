@@ -36,7 +36,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def seen(scene: str) -> tuple[SceneSpec, Looks]:
-    state = load_scene(catalogue.scene(scene), vocabulary())
+    state = load_scene(catalogue.scene_path(scene), vocabulary())
     facts = read_scene_spec(state)
     return facts, read_looks(state, facts, "menagerie")
 
@@ -140,7 +140,7 @@ def test_a_missing_mesh_is_named(cache: Path) -> None:
 
 
 def test_looks_that_there_are_not_are_told_with_those_there_are() -> None:
-    state = load_scene(catalogue.scene("iiwa_table"), vocabulary())
+    state = load_scene(catalogue.scene_path("iiwa_table"), vocabulary())
     with pytest.raises(LooksError, match="no looks menagery; there are primitive, menagerie"):
         read_looks(state, read_scene_spec(state), "menagery")
     bare = replace(read_scene_spec(state), arms=())

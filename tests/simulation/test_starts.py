@@ -36,7 +36,7 @@ def first_draw(arm: ArmSpec, seed: int) -> tuple[float, ...]:
 
 
 def arm_in(old: str, new: str) -> ArmSpec:
-    text = catalogue.scene("iiwa_table").read_text("utf-8")
+    text = catalogue.scene_path("iiwa_table").read_text("utf-8")
     assert text.count(old) == 1
     return read_scene_spec(
         load_documents([Document("scene.ttl", text.replace(old, new)), *sheet_documents()], vocabulary())

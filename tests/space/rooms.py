@@ -14,7 +14,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 PART = SKIROS + "Part"
-EMPTY = WorldState.empty(libraries.vocabulary())
+EMPTY = WorldState.empty(libraries.load_vocabulary())
 
 
 def lab(name: str) -> str:

@@ -103,7 +103,7 @@ def test_nobody_states_it() -> None:
 
 
 def test_a_scene_that_states_it_is_told_where(tmp_path: object) -> None:
-    text = catalogue.scene("iiwa_table.ttl").read_text("utf-8")
+    text = catalogue.scene_path("iiwa_table.ttl").read_text("utf-8")
     path = tmp_path / "scene.ttl"  # type: ignore[operator]
     path.write_text(text + "lab:Eraser-1 skillc:restsOn lab:SideTable .\n", "utf-8")
     (problem,) = read_scene(path, ROOM.vocabulary).problems
@@ -146,12 +146,12 @@ impl tidy of Tidy {{ {STAND_IN} }}
 
 
 def library(text: str) -> SkillLibrary:
-    outcome = compiled([Source("care.skill", text)], libraries.vocabulary(), {}, "care", {})
+    outcome = compiled([Source("care.skill", text)], libraries.load_vocabulary(), {}, "care", {})
     assert not [each for each in outcome.diagnostics if each.severity == "error"], outcome.diagnostics
     return outcome.value
 
 
-BOARD = load_scene(catalogue.scene("ur5e_whiteboard.ttl"), EMPTY.vocabulary)
+BOARD = load_scene(catalogue.scene_path("ur5e_whiteboard.ttl"), EMPTY.vocabulary)
 CLEAN = Comparison(PropertyOf(i("Whiteboard-1"), "https://w3id.org/skillc/wiping#isClean"), "==", Literal(True))
 
 
@@ -183,7 +183,7 @@ def test_what_reads_a_relation_that_skills_move_is_left_out_of_planning_with_the
 
 
 def found(text: str) -> list[str]:
-    outcome = compiled([Source("care.skill", HEAD + text)], libraries.vocabulary(), {}, "care", {})
+    outcome = compiled([Source("care.skill", HEAD + text)], libraries.load_vocabulary(), {}, "care", {})
     return sorted(each.name for each in outcome.diagnostics if each.name != "unused-use")
 
 

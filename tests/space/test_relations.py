@@ -132,7 +132,9 @@ def rigid(state: WorldState, by: Pose) -> WorldState:
     return state.with_changes([change for each in roots for change in placement_changes(each, by @ pose(state, each))])
 
 
-SCENES = [load_scene(catalogue.scene(name), EMPTY.vocabulary) for name in ("ur5e_whiteboard.ttl", "iiwa_table.ttl")]
+SCENES = [
+    load_scene(catalogue.scene_path(name), EMPTY.vocabulary) for name in ("ur5e_whiteboard.ttl", "iiwa_table.ttl")
+]
 ALL = (INSIDE, ABOVE, RESTS_ON, REACHES, CAN_REACH)
 EXPECTED = [{relation: set(state.pairs(relation)) for relation in ALL} for state in SCENES]
 

@@ -30,7 +30,7 @@ def nobody(_: Path) -> tuple[str, str]:
 
 
 def nothing(folder: Path) -> tuple[str, str]:
-    return str(folder / "new"), f"there is no store {folder}/new; name the scene to begin with"
+    return str(folder / "new"), f"there is no store {folder}/new; name the scene to fill it with"
 
 
 def a_file(folder: Path) -> tuple[str, str]:

@@ -19,8 +19,8 @@ from skillc.cli.commands.doc import command
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.emit.docs import prose
-from skillc_compiler.emit.docs.reasons import reasons
-from skillc_compiler.emit.docs.site import site
+from skillc_compiler.emit.docs.site import make_site
+from skillc_compiler.emit.docs.skill_page import reasons
 from skillc_compiler.resolve.files import read_sources
 
 WIPING = SHIPPED / "wiping"
@@ -69,7 +69,7 @@ class Page(HTMLParser):
 @cache
 def made() -> dict[str, str]:
     library = find_library(WIPING)
-    return site(
+    return make_site(
         libraries.compile_library(library).value, read_sources(library.sources, library.importable, library.name).value
     )
 
@@ -143,7 +143,7 @@ def test_the_order_of_implementations_is_explained(tmp_path: Path) -> None:
         "Tried last.",
     ):
         assert words in text
-    assert reasons((), libraries.vocabulary()) == ()
+    assert reasons((), libraries.load_vocabulary()) == ()
 
 
 def test_pages_of_skills_that_are_gone_go_and_other_files_stay(tmp_path: Path) -> None:

@@ -11,10 +11,10 @@ from click.testing import CliRunner
 
 from skillc.cli.commands.graph import command
 from skillc_compiler.emit.picture import mermaid, svg
-from skillc_compiler.emit.picture.boxes import Box
-from skillc_compiler.emit.picture.find import drawable, picture_of
-from skillc_compiler.emit.picture.layout import Placed, lay_out
-from skillc_compiler.emit.picture.wrapping import cells, wrapped
+from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
+from skillc_compiler.emit.picture.layout import PlacedBox, lay_out
+from skillc_compiler.emit.picture.wrapping import count_cells, wrap_text
 from skillc_compiler.resolve.files import read_sources
 from skillc_dsl.source import Source
 
@@ -29,13 +29,13 @@ TEXT = "{http://www.w3.org/2000/svg}text"
 WIDEST_FONT = 0.62 * 12
 
 
-def everything() -> Box:
-    box = picture_of("Everything", FILES)
+def everything() -> PictureBox:
+    box = make_picture("Everything", FILES)
     assert box is not None
     return box
 
 
-def titles(box: Box) -> list[str]:
+def titles(box: PictureBox) -> list[str]:
     return [box.title, *(title for child in box.children for title in titles(child))]
 
 
@@ -44,35 +44,35 @@ def test_every_node_is_drawn() -> None:
 
 
 def test_text_is_the_authors() -> None:
-    texts = "".join(ElementTree.fromstring(svg.document(everything())).itertext())
+    texts = "".join(ElementTree.fromstring(svg.draw_document(everything())).itertext())
     for words in ('arm, posture: "<home> & `日本語`"', "pose in corners(surface)", "prefer 2", "given force", "20 ms"):
         assert words in texts
 
 
-@pytest.mark.parametrize("box", [everything(), Box("call", "▶", "x" * 200, ("一二三" * 60, "a b " * 90))])
-def test_text_stays_in_its_box_and_boxes_apart(box: Box) -> None:
+@pytest.mark.parametrize("box", [everything(), PictureBox("call", "▶", "x" * 200, ("一二三" * 60, "a b " * 90))])
+def test_text_stays_in_its_box_and_boxes_apart(box: PictureBox) -> None:
     placed = lay_out(box)
-    root = ElementTree.fromstring(svg.document(box))
+    root = ElementTree.fromstring(svg.draw_document(box))
     lines = [each for each in root.iter(TEXT) if each.get("class") != "symbol"]
     assert len(lines) == sum(len(each.title) + len(each.lines) for each in placed)
     for line in lines:
         x, y, text = float(line.get("x", 0)), float(line.get("y", 0)), line.text or ""
-        assert any(_holds(each, x, y, cells(text) * WIDEST_FONT) for each in placed), text
+        assert any(_holds(each, x, y, count_cells(text) * WIDEST_FONT) for each in placed), text
     assert all(one.y + one.height < other.y for one, other in pairwise(placed))
     assert max(each.x + each.width for each in placed) < float(root.get("width", 0))
 
 
-def _holds(box: Placed, x: float, y: float, width: float) -> bool:
+def _holds(box: PlacedBox, x: float, y: float, width: float) -> bool:
     return box.x <= x and x + width <= box.x + box.width and box.y + 10 <= y <= box.y + box.height - 4
 
 
 @pytest.mark.parametrize("width", [8, 20, 58])
 def test_wrapped_text_loses_nothing(width: int) -> None:
     text = "arm, target: first(lanes(surface, tool, 0.2)), 日本語日本語日本語 " + "y" * 90
-    lines = wrapped(text, width)
-    assert max(map(cells, lines)) <= width
+    lines = wrap_text(text, width)
+    assert max(map(count_cells, lines)) <= width
     assert "".join("".join(lines).split()) == "".join(text.split())
-    assert wrapped("", width) == ("",)
+    assert wrap_text("", width) == ("",)
 
 
 def test_mermaid_escapes_what_it_would_read() -> None:
@@ -86,15 +86,15 @@ def test_mermaid_escapes_what_it_would_read() -> None:
 
 
 def test_a_task_shows_its_scene_and_goal() -> None:
-    box = picture_of("everything", FILES)
+    box = make_picture("everything", FILES)
     assert box is not None
     assert box.lines == ('scene "iiwa_table.ttl"',)
     assert box.children[0].lines == ("exists surface: Surface (surface.located == true)",)
-    assert drawable(FILES) == ("Everything", "Locate", "everything")
+    assert list_drawable(FILES) == ("Everything", "Locate", "everything")
 
 
 def test_a_name_stays_with_its_value() -> None:
-    assert wrapped("arm: lab:Arm-1, to: lab:Dock", 20) == ("arm: lab:Arm-1,", "  to: lab:Dock")
+    assert wrap_text("arm: lab:Arm-1, to: lab:Dock", 20) == ("arm: lab:Arm-1,", "  to: lab:Dock")
 
 
 def test_the_plan_of_a_task_is_drawn() -> None:
@@ -122,7 +122,7 @@ task swap {
 
 
 def test_python_is_named() -> None:
-    box = picture_of("Locate", FILES)
+    box = make_picture("Locate", FILES)
     assert box is not None
     assert box.lines == ("post sensed located: surface.located == true",)
     assert box.children[0].children[0].lines == ("skillc_runtime.primitives.compliance:Align",)

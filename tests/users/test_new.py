@@ -37,13 +37,13 @@ def test_a_new_library_checks_and_compiles_without_a_word(tmp_path: Path, monkey
     ("name", "words"),
     [
         ("Wipe-Window", "try `wipe_window`"),
-        ("2fast", "a letter first"),
+        ("2fast", "starting with a letter"),
         ("pick", "`Pick`"),
         ("seq", "cannot be called `seq`"),
         ("wiping", "prefix of a vocabulary"),
         ("lab", "prefix of a vocabulary"),
-        ("taken", "exists already"),
-        (".", "exists already"),
+        ("taken", "already exists"),
+        (".", "already exists"),
     ],
 )
 def test_a_name_that_cannot_be_is_refused(

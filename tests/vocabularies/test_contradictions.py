@@ -137,7 +137,5 @@ def test_what_would_make_two_shipped_classes_one_is_told_and_not_done() -> None:
 
 def test_the_message_says_which_classes_have_nothing_in_common_and_where() -> None:
     problem = beside(Source("t.ttl", HEAD + WRONG["two disjoint parents"][0])).diagnostics[0]
-    assert problem.message == (
-        "nothing can be `t:X`: it is below `t:A` and below what has nothing in common with it, `t:B`"
-    )
+    assert problem.message == ("nothing can be `t:X`: it is below `t:A` and `t:B`, which are disjoint")
     assert [(label.span.path, label.span.line - HEAD.count("\n")) for label in problem.labels] == [("t.ttl", 1)]

@@ -10,8 +10,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
+from skillc.lsp.diagnostics import diagnostics_by_uri
 from skillc.lsp.libraries import Libraries
-from skillc.lsp.problems import by_uri
 from skillc_ontology import catalogue
 from vocabularies.reading import STOCK
 
@@ -125,7 +125,7 @@ def test_robots_of_the_users_are_found_with_their_sheets_and_models(
     listed = {each["individual"] for each in json.loads(result.stdout)}
     assert {"arms:own-home", "arms:Tin-1"} <= listed
     monkeypatch.setenv(catalogue.VARIABLE, "stock")
-    assert catalogue.model("robots/own.xml") == Path("stock/robots/own.xml")
+    assert catalogue.model_path("robots/own.xml") == Path("stock/robots/own.xml")
     monkeypatch.delenv(catalogue.VARIABLE)
     assert run("world", "arms.ttl").exit_code == 1
 
@@ -142,6 +142,6 @@ def test_the_editor_knows_the_vocabularies_beside_the_skills_and_tells_what_is_w
     libraries.write(file.as_uri(), SKILL)
     view = libraries.view(file.as_uri())
     assert {d.name for d in view.analysis.problems if d.severity == "error"} == set()
-    told = by_uri(libraries, view.root, view.analysis, "utf-16")
+    told = diagnostics_by_uri(libraries, view.root, view.analysis, "utf-16")
     names = {problem.code for problem in told[(file.parent / "cell.owl").as_uri()]}
     assert names == {"shipped-term", "undeclared-term", "unused-axiom"}

@@ -10,10 +10,10 @@ import pytest
 
 from emit.reasoner import classified, needs_java
 from skillc_dsl.source import Source
-from skillc_rdf.vocabulary.contradictions import impossible
+from skillc_rdf.vocabulary.contradictions import find_unsatisfiable
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.load import load
-from skillc_rdf.vocabulary.reading import read
+from skillc_rdf.vocabulary.reading import read_ontologies
 
 VOCABULARIES = int(os.environ.get("SKILLC_VOCABULARIES", "15"))
 AT_ONCE = 100
@@ -67,8 +67,8 @@ def ours(text: str) -> set[str]:
         "impossible-relation",
         "several-inverses",
     }
-    graph = Graph(triple for each in read([Source("g.ttl", HEAD + text)]).value for triple in each.triples)
-    return set(impossible(graph, outcome.value).classes)
+    graph = Graph(triple for each in read_ontologies([Source("g.ttl", HEAD + text)]).value for triple in each.triples)
+    return set(find_unsatisfiable(graph, outcome.value).classes)
 
 
 @pytest.mark.parametrize("single", [False, True])

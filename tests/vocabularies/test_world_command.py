@@ -17,7 +17,7 @@ from skillc_ontology import catalogue
 @pytest.fixture
 def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    return Path(shutil.copy(catalogue.scene("iiwa_table"), "cell.ttl"))
+    return Path(shutil.copy(catalogue.scene_path("iiwa_table"), "cell.ttl"))
 
 
 def world(*arguments: str | Path) -> Result:
@@ -73,9 +73,9 @@ def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
     before = scene.read_text("utf-8")
     edits = ("lab:Cup-1 a skiros:Product", 'lab:Cup-1 rdfs:label "cup"', "lab:Cup-1 skiros:at lab:Cell")
     result = world(scene, *(part for edit in edits for part in ("--edit", edit)))
-    assert (result.exit_code, result.stdout, result.stderr) == (0, "", "cell.ttl: 3 edits made\n")
+    assert (result.exit_code, result.stdout, result.stderr) == (0, "", "cell.ttl: 3 edits applied\n")
     assert scene.read_text("utf-8").startswith(before)
-    assert world(scene, "--edit", "lab:Cup-1 skiros:at lab:Cell").stderr == "cell.ttl says so already\n"
+    assert world(scene, "--edit", "lab:Cup-1 skiros:at lab:Cell").stderr == "cell.ttl already states this\n"
     assert world(scene, "--edit", "not lab:Cup-1").exit_code == 0
     assert world("iiwa_table", "--diff", scene).stdout == "no differences\n"
 
@@ -87,9 +87,9 @@ def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
         ("lab:Eraser-1 skiros:wieght 0.2", "did you mean `skiros:Weight`"),
         ("lab:Eraser-1 skiros:Weight", "has no value"),
         ('lab:Eraser-1 skiros:Weight "heavy"', "skiros:Weight"),
-        ("not lab:Eraser-1 skiros:Weight 7", "does not say"),
-        ("not lab:Cell skillc:holdsDeep lab:Eraser-1", "follows from something else"),
-        ("not lab:Zebra-1", "does not say"),
+        ("not lab:Eraser-1 skiros:Weight 7", "does not state"),
+        ("not lab:Cell skillc:holdsDeep lab:Eraser-1", "follows from other statements"),
+        ("not lab:Zebra-1", "does not state"),
         ("lab:Eraser-1 skiros:Weight 0.2 . lab:Cell a skiros:Scene", "not one statement"),
         ("zoo:Zebra a skiros:Product", "`zoo:` is not declared"),
         ("not lab:Eraser-1", "nothing has this FrameId"),

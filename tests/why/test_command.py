@@ -66,8 +66,8 @@ def test_a_run_that_was_cut_short_is_explained_as_far_as_it_goes(run: Path) -> N
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "has nothing of a task"),
-        (b'{"type": "task-start', "has nothing of a task"),
+        (b"", "has no events of a task"),
+        (b'{"type": "task-start', "has no events of a task"),
         (b'{"hello": 1}\n', ":1: this is not an event of skillc"),
         (b'["task-started"]\n', ":1: this is not an event of skillc"),
         (b"\xff\xfe\x00\n", ":1: this is not an event of skillc"),

@@ -44,7 +44,7 @@ def test_the_overview_numbers_the_steps_and_says_what_led_to_the_failure() -> No
 def test_a_choice_is_told_with_what_was_rejected_and_what_was_not_tried() -> None:
     assert told(picked(), "1.1").splitlines()[1:] == [
         "  chosen: wsg (work.skill:5), the first in rank that fits",
-        "  not tried, since they rank after it (less specific, less preferred, or declared later):",
+        "  not tried, because they rank lower (less specific, less preferred, or declared later):",
         "    robotiq (work.skill:5): would not fit, `gripper` needs RobotiqGripper, t:gripper is a t:WsgGripper",
         "  parameters:",
         "    gripper = t:gripper  (passed by the caller)",

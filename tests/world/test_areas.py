@@ -11,7 +11,7 @@ from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import read_with_sheets
 
 VOCABULARY = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
-SCENE = catalogue.scene("iiwa_outlet").read_text(encoding="utf-8")
+SCENE = catalogue.scene_path("iiwa_outlet").read_text(encoding="utf-8")
 STRAIGHT = "OrientationW 1.0 ; skiros:OrientationX 0.0 ; skiros:OrientationY 0.0 ; skiros:OrientationZ 0.0"
 PATCH = "skillc:hasPatch lab:Outlet-1 ; skillc:hasHole lab:Label-1"
 

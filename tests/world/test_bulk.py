@@ -25,7 +25,7 @@ from world.test_state import CLASSES, NAMES, additions, vocabularies
 
 SEEDS = int(os.environ.get("SCENE_SEEDS", "5"))
 SHEETS = tuple(Document(name, text) for name, text in catalogue.vocabulary_files())
-SCENES = catalogue.scenes()
+SCENES = catalogue.scene_names()
 
 PREFIXES = {
     "lab": "http://example.org/lab#",
@@ -58,19 +58,19 @@ def _asserted(state: WorldState) -> set[tuple[str, str, str]]:
 
 @pytest.fixture(scope="module")
 def shipped() -> Vocabulary:
-    return libraries.vocabulary()
+    return libraries.load_vocabulary()
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_shipped_scenes_are_read_quickly_and_alike(name: str, shipped: Vocabulary) -> None:
-    documents = [Document.read(catalogue.scene(name)), *SHEETS]
+    documents = [Document.read(catalogue.scene_path(name)), *SHEETS]
     found = load_in_bulk(documents, shipped)
     assert found is not None and everything(found) == everything(read_documents(documents, shipped).state)
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_wrong_with_a_changed_scene_is_never_passed_over(name: str, shipped: Vocabulary) -> None:
-    text = catalogue.scene(name).read_text("utf-8")
+    text = catalogue.scene_path(name).read_text("utf-8")
     wrong = right = 0
     for mutant in mutants(text, range(SEEDS)):
         documents = [Document("scene.ttl", mutant.text), *SHEETS]

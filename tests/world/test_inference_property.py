@@ -26,8 +26,8 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.reading import free_variables
 from skillc_model.skills import Parameter, Requirement
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import THING
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.inference import Ambiguous, Found, NoneFound, infer

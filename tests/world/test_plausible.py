@@ -14,7 +14,7 @@ from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 
 SHIPPED = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
-SCENE = catalogue.scene("iiwa_table").read_text(encoding="utf-8")
+SCENE = catalogue.scene_path("iiwa_table").read_text(encoding="utf-8")
 
 
 def problems(tmp_path: Path, text: str) -> tuple[Diagnostic, ...]:
@@ -118,6 +118,6 @@ def test_an_empty_scene_is_told(tmp_path: Path, text: str) -> None:
     assert (found.name, found.message) == ("empty-scene", "there is nothing in this scene")
 
 
-@pytest.mark.parametrize("scene", catalogue.scenes())
+@pytest.mark.parametrize("scene", catalogue.scene_names())
 def test_the_shipped_scenes_are_plausible(scene: str) -> None:
-    assert load_scene(catalogue.scene(scene), SHIPPED).individuals
+    assert load_scene(catalogue.scene_path(scene), SHIPPED).individuals

@@ -53,11 +53,11 @@ def test_no_number_or_text_is_changed(number: float, texts: list[str]) -> None:
     assert sorted(found.value(iri("box"), iri("label"))) == sorted(labels)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("name", catalogue.scenes())
+@pytest.mark.parametrize("name", catalogue.scene_names())
 def test_shipped_scenes_come_back_with_labels_and_without_data_sheets(name: str) -> None:
-    vocabulary = libraries.vocabulary()
-    state, sheets = load_scene(catalogue.scene(name), vocabulary), load_sheets(vocabulary)
-    source = Document.read(catalogue.scene(name))
+    vocabulary = libraries.load_vocabulary()
+    state, sheets = load_scene(catalogue.scene_path(name), vocabulary), load_sheets(vocabulary)
+    source = Document.read(catalogue.scene_path(name))
     text = format_scene(state, sheets, source)
     found = load_in_bulk([Document("s", text), *(Document(*each) for each in catalogue.vocabulary_files())], vocabulary)
     assert found is not None and everything(found) == everything(state)

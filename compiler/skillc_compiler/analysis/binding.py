@@ -24,8 +24,8 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.reading import conjuncts
 from skillc_model.rewriting import ALWAYS, NEVER, map_children, substitute
+from skillc_model.traversal import conjuncts
 from skillc_rdf.vocabulary.types import THING, ClassType
 
 

@@ -24,7 +24,7 @@ from skillc_compiler.analysis.summaries import hide_names, in_caller_terms
 from skillc_compiler.analysis.writes import Write
 from skillc_compiler.program.typed import Call, Requirement
 from skillc_model.conditions import Variable
-from skillc_model.reading import free_variables
+from skillc_model.traversal import free_variables
 
 
 def explore_call(run: Exploration, call: Call, states: StatePaths, context: EvalContext) -> EndStates:

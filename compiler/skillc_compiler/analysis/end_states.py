@@ -32,7 +32,7 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.reading import free_variables, walk
+from skillc_model.traversal import free_variables, walk
 
 
 def end_findings(run: Exploration, implementation: Implementation, start: State, ends: EndStates) -> Iterator[Finding]:

@@ -35,8 +35,8 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.reading import walk
 from skillc_model.rewriting import substitute
+from skillc_model.traversal import walk
 
 
 def evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:

@@ -27,7 +27,7 @@ from skillc_compiler.program.typed import (
 from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_dsl.source import Span
 from skillc_model.conditions import Effect
-from skillc_model.reading import free_variables
+from skillc_model.traversal import free_variables
 
 Explore: TypeAlias = Callable[["Exploration", TypedNode, StatePaths, "EvalContext"], EndStates]
 FindUndeclared: TypeAlias = Callable[[Implementation], frozenset[Write]]

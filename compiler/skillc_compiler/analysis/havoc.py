@@ -33,8 +33,8 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.reading import walk
 from skillc_model.rewriting import substitute
+from skillc_model.traversal import walk
 
 
 def havoc(types: AliasTypes, state: State, writes: Iterable[Write]) -> State:

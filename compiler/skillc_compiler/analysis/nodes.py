@@ -33,7 +33,7 @@ from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import Condition, HasProperty, Holds, Individual, PropertyOf, Variable
-from skillc_model.reading import walk
+from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import THING
 
 MAX_STEPS = 5_000

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.state import IndividualTerm, State
 from skillc_model.conditions import And, Anything, Condition, Exists, Forall, Holds, Individual, Not, Or, Term, Variable
-from skillc_model.reading import conjuncts, walk
 from skillc_model.rewriting import substitute
+from skillc_model.traversal import conjuncts, walk
 from skillc_rdf.vocabulary.types import THING
 
 BOUND_PREFIX = "|"

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TypeAlias
 
 from skillc_model.conditions import Condition, Individual, Variable
-from skillc_model.reading import free_variables
+from skillc_model.traversal import free_variables
 
 IndividualTerm: TypeAlias = Variable | Individual
 Side: TypeAlias = tuple[str, IndividualTerm, bool]

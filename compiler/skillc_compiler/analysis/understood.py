@@ -26,7 +26,7 @@ from skillc_compiler.program.types import UNKNOWN, fits
 from skillc_compiler.program.walk import conditions_in, node_values, nodes_in, values_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import HasProperty, Holds, IsA, PropertyOf
-from skillc_model.reading import walk
+from skillc_model.traversal import walk
 
 
 class Understood:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_compiler.program.typed import Program, Skill, TypedCondition
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same
-from skillc_model.reading import free_variables
+from skillc_model.traversal import free_variables
 
 NAMES = ("unlinked-inference",)
 

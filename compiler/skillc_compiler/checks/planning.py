@@ -9,7 +9,7 @@ from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assign
-from skillc_model.pddl.names import kebab
+from skillc_model.pddl.names import to_kebab
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
@@ -70,12 +70,12 @@ def _check_numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
 def _check_names(program: Program) -> Iterator[Diagnostic]:
     seen: dict[str, Skill] = {}
     for skill in program.skills.values():
-        first = seen.setdefault(kebab(skill.name), skill)
+        first = seen.setdefault(to_kebab(skill.name), skill)
         if first is not skill:
             yield Diagnostic(
                 "colliding-names",
                 skill.name_span,
-                f"`{skill.name}` and `{first.name}` have the same name in PDDL: `{kebab(skill.name)}`",
+                f"`{skill.name}` and `{first.name}` have the same name in PDDL: `{to_kebab(skill.name)}`",
                 help="give one of them another name",
                 labels=(Label(first.name_span, "the other one"),),
             )

@@ -8,7 +8,7 @@ from skillc_compiler.program.spans import is_within_lines
 from skillc_compiler.program.typed import Program, Skill
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.pddl.domain import Excluded
-from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -25,7 +25,7 @@ def report_unplannable(library: SkillLibrary, program: Program, problems: Iterab
     if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
         return
     explained = [problem.span for problem in problems if problem.name in EXPLAINED_BY]
-    for excluded in planning_domain(library).excluded:
+    for excluded in make_planning_domain(library).excluded:
         skill = program.skills[excluded.skill]
         if not any(is_within_lines(span, skill.span) for span in explained):
             yield _problem(skill, excluded)

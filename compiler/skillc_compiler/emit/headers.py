@@ -13,7 +13,7 @@ COMMENTS = {".pddl": "; {}\n", ".ttl": "# {}\n", ".xml": "<!-- {} -->\n", ".md":
 XML_DECLARATION = '<?xml version="1.0" encoding="UTF-8"?>\n'
 
 
-def headed(path: str, text: str, library: SkillLibrary) -> str:
+def add_header(path: str, text: str, library: SkillLibrary) -> str:
     """Return the text under a header in the comment syntax of its kind; JSON has no comments and holds the hash."""
     comment = COMMENTS.get(PurePosixPath(path).suffix)
     if comment is None:
@@ -24,6 +24,6 @@ def headed(path: str, text: str, library: SkillLibrary) -> str:
     return line + text
 
 
-def is_ours(text: str) -> bool:
+def is_generated(text: str) -> bool:
     """Whether the text begins with a header."""
     return any(MARK in line for line in text.splitlines()[:2])

@@ -5,24 +5,24 @@ from __future__ import annotations
 import re
 import sys
 
-from skillc_model.pddl.planning import planning_domain
-from skillc_model.pddl.pruning import pruned
-from skillc_model.pddl.text import domain_text, temporal_text
+from skillc_model.pddl.planning import make_planning_domain
+from skillc_model.pddl.pruning import prune_unread_values
+from skillc_model.pddl.text import format_domain, format_temporal_domain
 from skillc_model.skills import SkillLibrary
 
 _TYPES = re.compile(r"^\s*\(:types\b([^()]*)\)", re.MULTILINE)
 
 
-class DomainRefused(Exception):
+class InvalidDomain(Exception):
     """An independent parser does not take the domain that was printed: a mistake of this compiler."""
 
 
 def emit(library: SkillLibrary) -> dict[str, str]:
     """Return the classical and the temporal domain; DomainRefused if the classical one cannot be read back."""
-    domain = pruned(planning_domain(library))
-    classical = domain_text(domain)
+    domain = prune_unread_values(make_planning_domain(library))
+    classical = format_domain(domain)
     read_back(classical, {action.name for action in domain.actions})
-    return {"domain.pddl": classical, "domain.temporal.pddl": temporal_text(domain)}
+    return {"domain.pddl": classical, "domain.temporal.pddl": format_temporal_domain(domain)}
 
 
 def read_back(text: str, actions: set[str]) -> None:
@@ -41,11 +41,11 @@ def read_back(text: str, actions: set[str]) -> None:
     try:
         read = DomainParser()(shown)
     except (LarkError, PDDLParsingError, PDDLValidationError) as error:
-        raise DomainRefused(f"the domain printed for this library is not PDDL: {error}") from error
+        raise InvalidDomain(f"the domain printed for this library is not PDDL: {error}") from error
     finally:
         sys.tracebacklimit = limit
     if {action.name for action in read.actions} != actions:
-        raise DomainRefused("the domain printed for this library lost an action")
+        raise InvalidDomain("the domain printed for this library lost an action")
 
 
 def _flattened(text: str) -> str:
@@ -62,12 +62,12 @@ def _flattened(text: str) -> str:
             continue
         parent = next(tokens, "")
         if parent not in declared:
-            raise DomainRefused(f"the domain printed for this library has types below an undeclared one: `{parent}`")
+            raise InvalidDomain(f"the domain printed for this library has types below an undeclared one: `{parent}`")
         if len(declared | {*names}) < len(declared) + len(names):
-            raise DomainRefused(f"the domain printed for this library declares a type twice: {', '.join(names)}")
+            raise InvalidDomain(f"the domain printed for this library declares a type twice: {', '.join(names)}")
         declared.update(names)
         names.clear()
     if names:
-        raise DomainRefused(f"the domain printed for this library has types without a parent: {', '.join(names)}")
+        raise InvalidDomain(f"the domain printed for this library has types without a parent: {', '.join(names)}")
     flat = " ".join(sorted(declared - {"object"}))
     return f"{text[: found.start(1)]} {flat} - object {text[found.end(1) :]}"

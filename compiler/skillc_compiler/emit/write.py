@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-from skillc_compiler.emit.headers import COMMENTS, is_ours
+from skillc_compiler.emit.headers import COMMENTS, is_generated
 
 HEAD_BYTES = 1000
 WITH_HEADER = frozenset({*COMMENTS, ".html"})
@@ -17,7 +17,9 @@ class EmitError(OSError):
     """The artifacts could not be written; the message says what, where and why."""
 
 
-def write(artifacts: Mapping[str, str], directory: Path, ours: Callable[[str], bool] = is_ours) -> tuple[Path, ...]:
+def write(
+    artifacts: Mapping[str, str], directory: Path, ours: Callable[[str], bool] = is_generated
+) -> tuple[Path, ...]:
     """Write the artifacts below the directory and remove those made earlier; return the paths written.
 
     A file whose beginning is not `ours` is never removed. EmitError when the disk is full or not writable.

@@ -10,9 +10,9 @@ from typing import Literal
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
 
-Asked = Literal["goal", "call"]
+InputKind = Literal["goal", "call"]
 
-EXAMPLES: dict[Asked, str] = {
+EXAMPLES: dict[InputKind, str] = {
     "goal": "a goal is a condition, such as `lab:Board-1.isClean == true` or `(contain lab:Box-1 lab:Part-1)`",
     "call": "a call is `Skill(parameter: value, ..)`",
 }
@@ -22,7 +22,7 @@ _DECLARED = re.compile(r"([A-Za-z]\w*)\s*:\s")
 
 
 def find_mistakes(
-    text: str, what: Asked, individuals: Iterable[str], means_something: Callable[[str], bool]
+    text: str, what: InputKind, individuals: Iterable[str], means_something: Callable[[str], bool]
 ) -> tuple[Diagnostic, ...]:
     """Return what is wrong: nothing is written, a parenthesis lacks its other half, or an individual its prefix.
 
@@ -34,7 +34,7 @@ def find_mistakes(
     return tuple(_parentheses(lines, what)) or tuple(_prefixes(lines, what, sorted(individuals), means_something))
 
 
-def reword(problem: Diagnostic, what: Asked) -> tuple[str, str]:
+def reword(problem: Diagnostic, what: InputKind) -> tuple[str, str]:
     """Return message and help of a syntax error in words of goals and calls, not of the task that was put round it."""
     found, _, expected = problem.message.partition(": expected ")
     if "a member of a task" in expected or "`}`" in expected:
@@ -42,7 +42,7 @@ def reword(problem: Diagnostic, what: Asked) -> tuple[str, str]:
     return problem.message, problem.help
 
 
-def _parentheses(lines: list[str], what: Asked) -> Iterator[Diagnostic]:
+def _parentheses(lines: list[str], what: InputKind) -> Iterator[Diagnostic]:
     opened: list[Span] = []
     for number, line in enumerate(lines, start=1):
         for found in re.finditer(r"[()]", line):
@@ -58,7 +58,7 @@ def _parentheses(lines: list[str], what: Asked) -> Iterator[Diagnostic]:
 
 
 def _prefixes(
-    lines: list[str], what: Asked, individuals: list[str], means_something: Callable[[str], bool]
+    lines: list[str], what: InputKind, individuals: list[str], means_something: Callable[[str], bool]
 ) -> Iterator[Diagnostic]:
     local = {name.rpartition(":")[2]: name for name in individuals}
     variables = {name for line in lines for name in _DECLARED.findall(line)}

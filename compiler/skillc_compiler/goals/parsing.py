@@ -10,8 +10,8 @@ import msgspec
 
 from skillc_compiler.checks import run_checks
 from skillc_compiler.goals.context import make_context
-from skillc_compiler.goals.mistakes import EXAMPLES, Asked, find_mistakes, reword
-from skillc_compiler.goals.pddl_text import COMPARING, Group, PddlGoalError, Word, goal, read_group
+from skillc_compiler.goals.mistakes import EXAMPLES, InputKind, find_mistakes, reword
+from skillc_compiler.goals.pddl_text import COMPARING, PddlGoalError, PddlGroup, PddlWord, convert_goal, parse_group
 from skillc_compiler.lower.bodies import lower_node
 from skillc_compiler.program.typed import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
@@ -24,9 +24,9 @@ from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_model import tree
 from skillc_model.conditions import Condition
-from skillc_model.reading import is_deeper
 from skillc_model.rewriting import fold
 from skillc_model.skills import SkillLibrary
+from skillc_model.traversal import is_nested_deeper
 from skillc_rdf.vocabulary.types import Position, Vocabulary
 
 T = TypeVar("T")
@@ -57,7 +57,7 @@ def parse_call(
     return _bounded(lambda: _call(text, asked), text, "call")
 
 
-def _bounded(understand: Callable[[], Outcome[T]], text: str, what: Asked) -> Outcome[T | None]:
+def _bounded(understand: Callable[[], Outcome[T]], text: str, what: InputKind) -> Outcome[T | None]:
     """Parse a text unless it is longer, or nested deeper, than anybody would write it."""
     if len(text) > LONGEST:
         return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
@@ -65,12 +65,12 @@ def _bounded(understand: Callable[[], Outcome[T]], text: str, what: Asked) -> Ou
         outcome = understand()
     except RecursionError:
         return _refused(what, f"the {what} is nested too deeply")
-    if isinstance(outcome.value, msgspec.Struct) and is_deeper(outcome.value, DEEPEST):
+    if isinstance(outcome.value, msgspec.Struct) and is_nested_deeper(outcome.value, DEEPEST):
         return _refused(what, f"the {what} is nested more than {DEEPEST} deep")
     return outcome
 
 
-def _refused(what: Asked, message: str) -> Outcome[None]:
+def _refused(what: InputKind, message: str) -> Outcome[None]:
     return Outcome(None, (Diagnostic("syntax", Span(what, 1, 1, 1, 2), message, EXAMPLES[what]),))
 
 
@@ -78,7 +78,7 @@ def _goal(text: str, asked: FileContext) -> Outcome[Condition | None]:
     wrong = _mistakes(asked, text, "goal")
     if wrong:
         return Outcome(None, wrong)
-    group = read_group(text, "goal")
+    group = parse_group(text, "goal")
     if group is not None and _is_pddl(group, asked.names):
         resolved = _resolve(asked, _from_pddl(group, text, asked.names))
     else:
@@ -98,39 +98,41 @@ def _call(text: str, asked: FileContext) -> Outcome[tree.Call | None]:
     return Outcome(msgspec.structs.replace(called, source=Position("call", 1, 1)), resolved.diagnostics)
 
 
-def _mistakes(asked: FileContext, text: str, what: Asked) -> tuple[Diagnostic, ...]:
+def _mistakes(asked: FileContext, text: str, what: InputKind) -> tuple[Diagnostic, ...]:
     names = asked.names
     written = (names.shorten(iri) for iri in asked.individuals or ())
     return find_mistakes(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
 
 
-def _is_pddl(group: Group, names: Names) -> bool:
+def _is_pddl(group: PddlGroup, names: Names) -> bool:
     """Whether a text in parentheses is PDDL: `(a r b)` is not when `r` is a relation and `a` is none."""
     match group.parts:
-        case [Word(text="not"), Group() as inner]:
+        case [PddlWord(text="not"), PddlGroup() as inner]:
             return _is_pddl(inner, names)
-        case [Word(text="exists" | "forall"), Word(text=first), *_]:
+        case [PddlWord(text="exists" | "forall"), PddlWord(text=first), *_]:
             return not first.endswith(":")
-        case [Word(text="and" | "or" | "imply" | "exists" | "forall" | "="), *_]:
+        case [PddlWord(text="and" | "or" | "imply" | "exists" | "forall" | "="), *_]:
             return True
-        case [Word(text=operator), Group(), _] | [Word(text=operator), _, Group()] if operator in COMPARING:
+        case [PddlWord(text=operator), PddlGroup(), _] | [PddlWord(text=operator), _, PddlGroup()] if (
+            operator in COMPARING
+        ):
             return True
-        case [Word(text=first), Word(text=second), Word()]:
+        case [PddlWord(text=first), PddlWord(text=second), PddlWord()]:
             return names.is_term("relation", first) or not (second in BETWEEN or names.is_term("relation", second))
-        case [Word(), Word()]:
+        case [PddlWord(), PddlWord()]:
             return True
     return False
 
 
-def _from_pddl(group: Group, text: str, names: Names) -> Outcome[s.TaskDeclaration | None]:
+def _from_pddl(group: PddlGroup, text: str, names: Names) -> Outcome[s.TaskDeclaration | None]:
     try:
-        condition = goal(group, lambda name: names.is_term("class", name))
+        condition = convert_goal(group, lambda name: names.is_term("class", name))
     except PddlGoalError as refusal:
         return Outcome(None, (refusal.problem,))
     return Outcome(s.TaskDeclaration(s.Name("goal", group.span), None, condition, text, None, "", group.span))
 
 
-def _wrapped(text: str, what: Asked) -> Outcome[s.TaskDeclaration | None]:
+def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
     """Parse a goal or a call as the only member of a task, which begins LINES_ABOVE lines before it."""
     member = "goal" if what == "goal" else "do"
     parsed = parse(Source(what, f"task {what} {{\n{member}\n{text}\n}}\n"))

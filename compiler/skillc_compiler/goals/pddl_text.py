@@ -16,7 +16,7 @@ _TOKEN = re.compile(r"[()]|[^\s()]+")
 
 
 @dataclass(frozen=True, slots=True)
-class Word:
+class PddlWord:
     """A name, variable, keyword or `-`."""
 
     text: str
@@ -24,14 +24,14 @@ class Word:
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class PddlGroup:
     """`( .. )`"""
 
     parts: tuple[Expression, ...]
     span: Span
 
 
-Expression: TypeAlias = Word | Group
+Expression: TypeAlias = PddlWord | PddlGroup
 
 
 class PddlGoalError(Exception):
@@ -42,7 +42,7 @@ class PddlGoalError(Exception):
         self.problem = problem
 
 
-def read_group(text: str, path: str) -> Group | None:
+def parse_group(text: str, path: str) -> PddlGroup | None:
     """Return a text as nested groups, None if it is not exactly one well-nested group."""
     open_groups: list[list[Expression]] = [[]]
     starts: list[Span] = []
@@ -54,80 +54,82 @@ def read_group(text: str, path: str) -> Group | None:
             case ")" if not starts:
                 return None
             case ")":
-                group = Group(tuple(open_groups.pop()), starts.pop().to(word.span))
+                group = PddlGroup(tuple(open_groups.pop()), starts.pop().to(word.span))
                 open_groups[-1].append(group)
             case _:
                 open_groups[-1].append(word)
     match open_groups:
-        case [[Group() as whole]]:
+        case [[PddlGroup() as whole]]:
             return whole
     return None
 
 
-def goal(group: Group, is_class: Callable[[str], bool]) -> s.Condition:
+def convert_goal(group: PddlGroup, is_class: Callable[[str], bool]) -> s.Condition:
     """Return the condition that a PDDL goal stands for. Raises PddlGoalError for what is no goal."""
     match group.parts:
-        case [Word(text="and"), *parts]:
-            return s.And(tuple(goal(_group(part), is_class) for part in parts), group.span)
-        case [Word(text="or"), *parts]:
-            return s.Or(tuple(goal(_group(part), is_class) for part in parts), group.span)
-        case [Word(text="not"), body]:
-            return s.Not(goal(_group(body), is_class), group.span)
-        case [Word(text="imply"), premise, then]:
-            return s.Implies(goal(_group(premise), is_class), goal(_group(then), is_class), group.span)
-        case [Word(text="exists"), Group() as variables, body]:
-            return _quantified("exists", variables, goal(_group(body), is_class), group)
-        case [Word(text="forall"), Group() as variables, body]:
-            return _quantified("forall", variables, goal(_group(body), is_class), group)
-        case [Word(text="="), Word() as left, Word() as right]:
+        case [PddlWord(text="and"), *parts]:
+            return s.And(tuple(convert_goal(_group(part), is_class) for part in parts), group.span)
+        case [PddlWord(text="or"), *parts]:
+            return s.Or(tuple(convert_goal(_group(part), is_class) for part in parts), group.span)
+        case [PddlWord(text="not"), body]:
+            return s.Not(convert_goal(_group(body), is_class), group.span)
+        case [PddlWord(text="imply"), premise, then]:
+            return s.Implies(convert_goal(_group(premise), is_class), convert_goal(_group(then), is_class), group.span)
+        case [PddlWord(text="exists"), PddlGroup() as variables, body]:
+            return _quantified("exists", variables, convert_goal(_group(body), is_class), group)
+        case [PddlWord(text="forall"), PddlGroup() as variables, body]:
+            return _quantified("forall", variables, convert_goal(_group(body), is_class), group)
+        case [PddlWord(text="="), PddlWord() as left, PddlWord() as right]:
             return s.Compare(_reference(left), "==", _reference(right), group.span)
-        case [Word(text=operator), left, right] if operator in COMPARING:
+        case [PddlWord(text=operator), left, right] if operator in COMPARING:
             raise _comparison(operator, left, right, group.span)
-        case [Word() as relation, Word() as subject, Word() as object_]:
+        case [PddlWord() as relation, PddlWord() as subject, PddlWord() as object_]:
             return s.Relation(_reference(subject), _name(relation), _reference(object_), group.span)
-        case [Word() as name, Word() as subject] if is_class(name.text):
+        case [PddlWord() as name, PddlWord() as subject] if is_class(name.text):
             return s.Is(_reference(subject), _name(name), group.span)
-        case [Word() as name, Word() as subject]:
+        case [PddlWord() as name, PddlWord() as subject]:
             value = s.Member(_reference(subject), _name(name), group.span)
             return s.Compare(value, "==", s.Boolean(True, group.span), group.span)
     raise _refusal(group.span, "this is no goal")
 
 
-def _quantified(kind: Literal["exists", "forall"], variables: Group, body: s.Condition, whole: Group) -> s.Condition:
+def _quantified(
+    kind: Literal["exists", "forall"], variables: PddlGroup, body: s.Condition, whole: PddlGroup
+) -> s.Condition:
     for variable, cls in reversed(list(_typed(variables.parts, whole))):
         body = s.Quantified(kind, variable, cls, body, whole.span)
     return body
 
 
-def _group(part: Expression) -> Group:
-    if isinstance(part, Group):
+def _group(part: Expression) -> PddlGroup:
+    if isinstance(part, PddlGroup):
         return part
     raise _refusal(part.span, f"`{part.text}` stands alone where a goal in parentheses belongs")
 
 
-def _typed(parts: Sequence[Expression], of: Group) -> Iterator[tuple[s.Name, s.Name]]:
+def _typed(parts: Sequence[Expression], of: PddlGroup) -> Iterator[tuple[s.Name, s.Name]]:
     """Yield the variables of `(?x ?y - Class ..)` with their classes; `Thing` where none is written."""
-    waiting: list[Word] = []
+    waiting: list[PddlWord] = []
     remaining = iter(parts)
     for part in remaining:
-        if not isinstance(part, Word):
+        if not isinstance(part, PddlWord):
             raise _refusal(part.span, "variables are written `?x - Class`")
         if part.text != "-":
             waiting.append(part)
             continue
         cls = next(remaining, None)
-        if not isinstance(cls, Word):
+        if not isinstance(cls, PddlWord):
             raise _refusal(of.span, "a class is missing after `-`")
         yield from ((_name(variable), _name(cls)) for variable in waiting)
         waiting = []
     yield from ((_name(variable), s.Name("Thing", variable.span)) for variable in waiting)
 
 
-def _reference(word: Word) -> s.NameReference:
+def _reference(word: PddlWord) -> s.NameReference:
     return s.NameReference(_name(word), word.span)
 
 
-def _name(word: Word) -> s.Name:
+def _name(word: PddlWord) -> s.Name:
     return s.Name(word.text.removeprefix("?"), word.span)
 
 
@@ -146,15 +148,15 @@ def _comparison(operator: str, left: Expression, right: Expression, span: Span) 
 def _said(expression: Expression) -> str:
     """Return a value as the language says it: `(p x)` is `x.p`."""
     match expression:
-        case Word(text=text):
+        case PddlWord(text=text):
             return text.removeprefix("?")
-        case Group(parts=[Word(text=name), Word(text=owner)]):
+        case PddlGroup(parts=[PddlWord(text=name), PddlWord(text=owner)]):
             return f"{owner.removeprefix('?')}.{name}"
-        case Group():
+        case PddlGroup():
             return ".."
 
 
-def _words(text: str, path: str) -> Iterator[Word]:
+def _words(text: str, path: str) -> Iterator[PddlWord]:
     for number, line in enumerate(text.split("\n"), start=1):
         for found in _TOKEN.finditer(line.partition(";")[0]):
-            yield Word(found.group(), Span(path, number, found.start() + 1, number, found.end() + 1))
+            yield PddlWord(found.group(), Span(path, number, found.start() + 1, number, found.end() + 1))

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from skillc_compiler.ide.index import Index, index_of
-from skillc_compiler.ide.visible import Visible, visible_in
+from skillc_compiler.ide.index import Index, build_index
+from skillc_compiler.ide.visible import VisibleNames, find_visible
 from skillc_compiler.pipeline import NO_SCENES, find_problems, lower_and_report
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.types import Type
@@ -68,14 +68,14 @@ class Analysis:
         return {**{path: source.text for path, source in self.library.sources.items()}, **read}
 
     @cached_property
-    def visible(self) -> Mapping[str, Visible]:
+    def visible(self) -> Mapping[str, VisibleNames]:
         """What each file can name."""
-        return visible_in(self.program, self.library.vocabulary)
+        return find_visible(self.program, self.library.vocabulary)
 
     @cached_property
     def index(self) -> Index:
         """Where each name stands and what it stands for."""
-        return index_of(self.program, self.visible)
+        return build_index(self.program, self.visible)
 
     @cached_property
     def types(self) -> Mapping[Span, Type]:

@@ -15,13 +15,13 @@ from skillc_compiler.ide.symbols import (
     SkillSymbol,
     Symbol,
 )
-from skillc_compiler.ide.values import Locals, Values
+from skillc_compiler.ide.values import Locals, ValueOccurrences
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True)
-class Home:
+class BodyContext:
     """Where a body stands: the place of its declaration, and the skill it implements if it is no task's."""
 
     span: Span
@@ -30,10 +30,10 @@ class Home:
 
 
 @dataclass(frozen=True, slots=True)
-class Bodies(Values):
+class BodyOccurrences(ValueOccurrences):
     """Finds the occurrences in bodies. A name bound by a node is known to the nodes after it."""
 
-    def node(self, home: Home, known: dict[str, Symbol], written: s.Node) -> Iterator[Occurrence]:
+    def node(self, home: BodyContext, known: dict[str, Symbol], written: s.Node) -> Iterator[Occurrence]:
         """Yield the occurrences in a node; `known` gains the names it binds."""
         match written:
             case s.Block(children=children) | s.Counted(children=children):
@@ -64,17 +64,17 @@ class Bodies(Values):
             case _:
                 assert_never(written)
 
-    def nodes(self, home: Home, known: dict[str, Symbol], written: Sequence[s.Node]) -> Iterator[Occurrence]:
+    def nodes(self, home: BodyContext, known: dict[str, Symbol], written: Sequence[s.Node]) -> Iterator[Occurrence]:
         """Yield the occurrences in nodes, one after the other."""
         for node in written:
             yield from self.node(home, known, node)
 
-    def label(self, home: Home, text: str) -> LabelSymbol:
+    def label(self, home: BodyContext, text: str) -> LabelSymbol:
         """Return the label of that name in a skill or, failing that, in the implementation itself."""
         own = f"{home.skill}.{home.implementation}"
         return LabelSymbol(home.skill if (home.skill, text) in self.labels else own, text)
 
-    def _for(self, home: Home, known: dict[str, Symbol], written: s.For) -> Iterator[Occurrence]:
+    def _for(self, home: BodyContext, known: dict[str, Symbol], written: s.For) -> Iterator[Occurrence]:
         yield from self.value(known, written.items)
         symbol = LocalSymbol("loop variable", written.span, written.variable.text)
         yield from self.bound(known, written.variable, symbol)
@@ -82,7 +82,7 @@ class Bodies(Values):
         yield from self.nodes(home, inner, written.children)
         known.update({name: found for name, found in inner.items() if found != symbol})
 
-    def _call(self, home: Home, known: dict[str, Symbol], written: s.CallSkill) -> Iterator[Occurrence]:
+    def _call(self, home: BodyContext, known: dict[str, Symbol], written: s.CallSkill) -> Iterator[Occurrence]:
         skill = written.skill.text
         if skill in self.visible.skills:
             yield Occurrence(written.skill.span, SkillSymbol(skill))

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from lark import Token
 
 from skillc_compiler.ide.analysis import Analysis
-from skillc_compiler.ide.cursor import InCode, cursor_at
-from skillc_compiler.ide.describing import parameter_line
-from skillc_compiler.ide.term_pages import function_head, type_text
+from skillc_compiler.ide.cursor import InCode, locate_cursor
+from skillc_compiler.ide.descriptions import format_parameter
+from skillc_compiler.ide.term_pages import format_bare_type, format_function_head
 from skillc_compiler.program.typed import Skill
 
 _CLOSING = {")": "(", "]": "[", "}": "{"}
@@ -30,7 +30,7 @@ class OpenCall:
 
 
 @dataclass(frozen=True, slots=True)
-class Signature:
+class CallSignature:
     """What a call takes: its head, documentation, and each parameter as it stands in the head, with its own."""
 
     head: str
@@ -39,7 +39,7 @@ class Signature:
     active: int | None
 
 
-def open_call(tokens: Sequence[Token]) -> OpenCall | None:
+def find_open_call(tokens: Sequence[Token]) -> OpenCall | None:
     """Return the innermost call that is not closed after `tokens`."""
     opening = _unclosed(tokens)
     if opening is None or tokens[opening].type != "LPAR" or opening == 0:
@@ -54,10 +54,10 @@ def open_call(tokens: Sequence[Token]) -> OpenCall | None:
     return OpenCall(tokens[callee].value, tuple(names), len(arguments) - 1, label)
 
 
-def signature(analysis: Analysis, path: str, line: int, column: int) -> Signature | None:
+def find_signature(analysis: Analysis, path: str, line: int, column: int) -> CallSignature | None:
     """Return the signature of the call around a place; None outside of calls and for unknown names."""
-    cursor = cursor_at(analysis.texts.get(path, ""), path, line, column)
-    call = open_call(cursor.before) if isinstance(cursor, InCode) else None
+    cursor = locate_cursor(analysis.texts.get(path, ""), path, line, column)
+    call = find_open_call(cursor.before) if isinstance(cursor, InCode) else None
     if call is None:
         return None
     skill = analysis.program.skills.get(call.name)
@@ -66,21 +66,21 @@ def signature(analysis: Analysis, path: str, line: int, column: int) -> Signatur
     function = analysis.program.vocabulary.functions.get(call.name)
     if function is None:
         return None
-    parameters = tuple((f"{name}: {type_text(kind)}", "") for name, kind in function.parameters)
+    parameters = tuple((f"{name}: {format_bare_type(kind)}", "") for name, kind in function.parameters)
     active = call.position if call.position < len(parameters) else None
-    return Signature(function_head(function).removeprefix("function "), function.comment, parameters, active)
+    return CallSignature(format_function_head(function).removeprefix("function "), function.comment, parameters, active)
 
 
-def _of_skill(analysis: Analysis, skill: Skill, call: OpenCall) -> Signature:
+def _of_skill(analysis: Analysis, skill: Skill, call: OpenCall) -> CallSignature:
     """The next parameter that is not passed is active until another one is named."""
     takes = [parameter for parameter in skill.parameters if parameter.direction != "out"]
-    parameters = tuple((parameter_line(analysis, parameter), parameter.doc) for parameter in takes)
-    outputs = [type_text(parameter.declared) for parameter in skill.parameters if parameter.direction == "out"]
+    parameters = tuple((format_parameter(analysis, parameter), parameter.doc) for parameter in takes)
+    outputs = [format_bare_type(parameter.declared) for parameter in skill.parameters if parameter.direction == "out"]
     head = f"{skill.name}({', '.join(line for line, _ in parameters)})" + "".join(f" -> {kind}" for kind in outputs)
     free = [index for index, parameter in enumerate(takes) if parameter.name not in call.passed]
     named = [index for index, parameter in enumerate(takes) if parameter.name == call.label]
     active = next(iter((*named, *free)), None)
-    return Signature(head, skill.doc, parameters, active)
+    return CallSignature(head, skill.doc, parameters, active)
 
 
 def _unclosed(tokens: Sequence[Token]) -> int | None:

@@ -10,12 +10,12 @@ from lark import Token
 
 from skillc_compiler.ide import offers
 from skillc_compiler.ide.analysis import Analysis
-from skillc_compiler.ide.calls import open_call
-from skillc_compiler.ide.cursor import Cursor, InCode, InComment, InText, cursor_at
-from skillc_compiler.ide.expectation import expected, ranges
+from skillc_compiler.ide.calls import find_open_call
+from skillc_compiler.ide.cursor import Cursor, InCode, InComment, InText, locate_cursor
+from skillc_compiler.ide.cursor_context import CursorContext, find_context
+from skillc_compiler.ide.expectation import find_expected_type, find_ranges
 from skillc_compiler.ide.offers import Offer
-from skillc_compiler.ide.surroundings import Surroundings, surroundings
-from skillc_compiler.ide.term_pages import type_text
+from skillc_compiler.ide.term_pages import format_bare_type
 from skillc_compiler.program.types import Measure, Thing
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift
@@ -41,7 +41,7 @@ def complete(
     analysis: Analysis, path: str, line: int, column: int, scenes: Sequence[str] = (), warnings: Sequence[str] = ()
 ) -> Completion:
     """Return what fits at a place. `scenes` are the names of scenes, `warnings` of problems that can be allowed."""
-    cursor = cursor_at(analysis.texts.get(path, ""), path, line, column)
+    cursor = locate_cursor(analysis.texts.get(path, ""), path, line, column)
     found = tuple(_offers(analysis, path, cursor, scenes, warnings))
     ranked = sorted(dict.fromkeys(found), key=lambda offer: (offer.rank, offer.text))
     return Completion(cursor.word, tuple(ranked))
@@ -62,22 +62,22 @@ def _offers(
         case InText():
             return
         case InCode():
-            around = surroundings(analysis, path, cursor)
+            around = find_context(analysis, path, cursor)
             if around is not None:
                 yield from _in_code(analysis, around, cursor)
 
 
-def _in_code(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iterator[Offer]:
+def _in_code(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
     if cursor.number:
-        wanted = expected(around, analysis.program.skills, cursor.before[:-1]).type
+        wanted = find_expected_type(around, analysis.program.skills, cursor.before[:-1]).type
         fits_here = {wanted.dimension} if isinstance(wanted, Measure) else {unit.dimension for unit in UNITS.values()}
         yield from (Offer(name, "unit", u.dimension.name) for name, u in UNITS.items() if u.dimension in fits_here)
         return
     yield from _names(analysis, around, cursor)
-    yield from keywords(cursor)
+    yield from offer_keywords(cursor)
 
 
-def keywords(cursor: InCode) -> Iterator[Offer]:
+def offer_keywords(cursor: InCode) -> Iterator[Offer]:
     """Offer the keywords that fit, without those that could only be names here; members begin on lines of their own."""
     as_name = shift(cursor.states, "NAME")
     after_name = list_fitting_terminals(as_name) if as_name else frozenset()
@@ -92,7 +92,7 @@ def keywords(cursor: InCode) -> Iterator[Offer]:
             yield Offer(text, "keyword", rank=5)
 
 
-def _names(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iterator[Offer]:
+def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
     """Offer the names that fit: first by the kind of declaration, then by the last token, then by what may follow."""
     types = cursor.types
     head, last = types[0] if types else "", types[-1] if types else ""
@@ -100,25 +100,25 @@ def _names(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iterator
         written = {token.value for token in cursor.before}
         yield from (Offer(p, "vocabulary") for p in analysis.library.vocabulary.prefixes if p not in written)
     elif last in _CLASS_LISTS.get(head, ()):
-        yield from offers.classes(around)
+        yield from offers.offer_classes(around)
     elif head == "RELATION" and last in ("INVERSE", "SUB"):
-        yield from offers.any_relation(around)
+        yield from offers.offer_all_relations(around)
     elif head in ("PROPERTY", "FUNCTION") and last in ("COLON", "LABEL", "ARROW", "LSQB"):
         yield from _types(around)
     elif head in ("PROPERTY", "FUNCTION") and last == "OF":
-        yield from offers.dimensions()
+        yield from offers.offer_dimensions()
     elif head in ("SKILL", "IMPL", "TASK"):
         yield from _in_members(analysis, around, cursor)
 
 
-def _in_members(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iterator[Offer]:
+def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
     before, types = cursor.before, cursor.types
     match types:
         case ("IMPL", _, "OF"):
-            yield from offers.skills(analysis, around)
-            yield from offers.skills_elsewhere(analysis, cursor.word.path)
+            yield from offers.offer_skills(analysis, around)
+            yield from offers.offer_unimported_skills(analysis, cursor.word.path)
         case (*_, "LABEL", _, "OF") | (*_, "LABEL", "LSQB", _, "OF"):
-            yield from offers.dimensions()
+            yield from offers.offer_dimensions()
         case (*_, ("IN" | "OPT" | "INFER" | "ANY" | "OUT"), "LABEL") | (*_, "LABEL", "LSQB"):
             yield from _types(around)
         case (*_, "REFINE", "LABEL"):
@@ -126,63 +126,63 @@ def _in_members(analysis: Analysis, around: Surroundings, cursor: InCode) -> Ite
         case (*_, "REFINE"):
             yield from _refinable(analysis, around, before)
         case (*_, "IS") | (*_, ("EXISTS" | "FORALL"), "LABEL"):
-            yield from offers.classes(around)
+            yield from offers.offer_classes(around)
         case (*_, ("USES" | "SHARES")):
-            yield from offers.parameters(analysis, around.skill.parameters if around.skill else ())
+            yield from offers.offer_parameters(analysis, around.skill.parameters if around.skill else ())
         case (*_, "GIVEN"):
             optional = (p for p in (around.skill.parameters if around.skill else ()) if p.direction == "opt")
-            yield from offers.parameters(analysis, optional)
+            yield from offers.offer_parameters(analysis, optional)
         case (*_, ("DOT" | "HAS")):
-            yield from offers.properties(around, around.type_of(before[:-1]))
+            yield from offers.offer_properties(around, around.type_of(before[:-1]))
         case (*_, "ARROW"):
             outputs = (p for p in (around.skill.parameters if around.skill else ()) if p.direction == "out")
-            yield from offers.parameters(analysis, outputs)
+            yield from offers.offer_parameters(analysis, outputs)
         case _:
             yield from _in_values(analysis, around, cursor)
 
 
-def _in_values(analysis: Analysis, around: Surroundings, cursor: InCode) -> Iterator[Offer]:
+def _in_values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
     before, types = cursor.before, cursor.types
-    call = open_call(before)
+    call = find_open_call(before)
     if _applies(types):
         yield from _labels(around)
     elif types[-1:] == ("LSQB",) and len(before) > 1:
         ways = analysis.program.implementations_of.get(before[-2].value, ())
         yield from (Offer(way.name, "implementation", documentation=way.doc) for way in ways)
     elif call and types[-1] in ("LPAR", "COMMA") and call.name in analysis.program.skills:
-        yield from offers.arguments(analysis, around, call.name, call.passed)
+        yield from offers.offer_arguments(analysis, around, call.name, call.passed)
     elif cursor.fits("NAME", "UNDERSCORE"):
-        yield from offers.relations(around, around.type_of(before))
+        yield from offers.offer_relations(around, around.type_of(before))
     elif cursor.fits("UNDERSCORE") and not cursor.fits("UNDERSCORE", "SENSED"):
-        for cls in ranges(around, before[-1].value, around.type_of(before[:-1])):
-            yield from offers.values(around, ExpectedType(Thing(cls)))
+        for cls in find_ranges(around, before[-1].value, around.type_of(before[:-1])):
+            yield from offers.offer_values(around, ExpectedType(Thing(cls)))
     elif cursor.fits("NAME", "LSQB"):
-        yield from offers.skills(analysis, around, scoped=types[-1] == "WITH")
-        yield from offers.skills_elsewhere(analysis, cursor.word.path, scoped=types[-1] == "WITH")
+        yield from offers.offer_skills(analysis, around, scoped=types[-1] == "WITH")
+        yield from offers.offer_unimported_skills(analysis, cursor.word.path, scoped=types[-1] == "WITH")
     elif cursor.fits("NAME", "DOT"):
-        yield from offers.values(around, expected(around, analysis.program.skills, before))
+        yield from offers.offer_values(around, find_expected_type(around, analysis.program.skills, before))
 
 
-def _types(around: Surroundings) -> Iterator[Offer]:
-    yield from offers.classes(around)
-    yield from offers.built_in_types()
+def _types(around: CursorContext) -> Iterator[Offer]:
+    yield from offers.offer_classes(around)
+    yield from offers.offer_built_in_types()
 
 
-def _narrower(around: Surroundings, name: str) -> Iterator[Offer]:
+def _narrower(around: CursorContext, name: str) -> Iterator[Offer]:
     """Offer the types that narrow a parameter."""
     parameter = around.skill.parameter(name) if around.skill else None
     if parameter is None:
         yield from _types(around)
     elif isinstance(parameter.type, Thing):
-        yield from offers.classes(around, parameter.type)
+        yield from offers.offer_classes(around, parameter.type)
     else:
-        yield Offer(type_text(parameter.declared), "type", "built in", rank=1)
+        yield Offer(format_bare_type(parameter.declared), "type", "built in", rank=1)
 
 
-def _refinable(analysis: Analysis, around: Surroundings, before: Sequence[Token]) -> Iterator[Offer]:
+def _refinable(analysis: Analysis, around: CursorContext, before: Sequence[Token]) -> Iterator[Offer]:
     taken = {label.value.rstrip(":") for word, label in pairwise(before) if word.type == "REFINE"}
     left = [p for p in (around.skill.parameters if around.skill else ()) if p.name not in taken]
-    for offer in offers.parameters(analysis, left):
+    for offer in offers.offer_parameters(analysis, left):
         yield Offer(f"{offer.text}:", offer.kind, offer.detail, offer.documentation, f"{offer.text}: ")
 
 
@@ -194,7 +194,7 @@ def _applies(types: Sequence[str]) -> bool:
     return rest[-1:] == ["APPLY"]
 
 
-def _labels(around: Surroundings) -> Iterator[Offer]:
+def _labels(around: CursorContext) -> Iterator[Offer]:
     own = around.implementation.requirements if around.implementation else ()
     for requirement in (*(around.skill.requirements if around.skill else ()), *own):
         if requirement.label is not None and requirement.kind == "post":

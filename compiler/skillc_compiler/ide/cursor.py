@@ -62,7 +62,7 @@ class InCode:
 Cursor: TypeAlias = InComment | InText | InCode
 
 
-def cursor_at(text: str, path: str, line: int, column: int) -> Cursor:
+def locate_cursor(text: str, path: str, line: int, column: int) -> Cursor:
     """Return where a place in a text is; line and column count from 1."""
     lines = text.split("\n")
     left = (lines[line - 1] if line <= len(lines) else "")[: column - 1]
@@ -79,11 +79,15 @@ def cursor_at(text: str, path: str, line: int, column: int) -> Cursor:
     first = _first_line(lines, line)
     before = _tokens([*lines[first - 1 : line - 1], left[:start]], path)
     return InCode(
-        before, states_after(before), number is not None, not left[:start].strip(), _span(path, line, start, len(left))
+        before,
+        parser_states_after(before),
+        number is not None,
+        not left[:start].strip(),
+        _span(path, line, start, len(left)),
     )
 
 
-def states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
+def parser_states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
     """Return the parser's states after tokens; what does not fit is passed over, or ends what it stands in."""
     states: list[int] = list(load_parser().parse_interactive("").parser_state.state_stack)
     for token in tokens:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import assert_never
 
-from skillc_compiler.ide.bodies import Bodies, Home
+from skillc_compiler.ide.bodies import BodyContext, BodyOccurrences
 from skillc_compiler.ide.symbols import (
     FileSymbol,
     FunctionSymbol,
@@ -25,7 +25,7 @@ from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 
 
-class Walk(Bodies):
+class FileOccurrences(BodyOccurrences):
     """Finds every occurrence of one file."""
 
     __slots__ = ()
@@ -112,7 +112,7 @@ class Walk(Bodies):
                     assert_never(member)
 
     def _implementation(self, written: s.ImplementationDeclaration) -> Iterator[Occurrence]:
-        home = Home(written.span, written.skill.text, written.name.text)
+        home = BodyContext(written.span, written.skill.text, written.name.text)
         skill = self.skills.get(home.skill)
         known: dict[str, Symbol] = (
             {p.name: ParameterSymbol(home.skill, p.name) for p in skill.parameters} if skill else {}
@@ -129,7 +129,7 @@ class Walk(Bodies):
         yield from self._members(home, known, written.members)
 
     def _members(
-        self, home: Home, known: dict[str, Symbol], members: Sequence[s.ImplementationMember]
+        self, home: BodyContext, known: dict[str, Symbol], members: Sequence[s.ImplementationMember]
     ) -> Iterator[Occurrence]:
         for member in members:
             match member:
@@ -157,7 +157,7 @@ class Walk(Bodies):
         if written.goal is not None:
             yield from self.condition({}, written.goal)
         if written.body is not None:
-            yield from self.node(Home(written.span), {}, written.body.node)
+            yield from self.node(BodyContext(written.span), {}, written.body.node)
 
     def _typed(self, member: s.Parameter | s.Refinement) -> Iterator[Occurrence]:
         yield from self.type(member.type)

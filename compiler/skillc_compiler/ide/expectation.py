@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from lark import Token
 
-from skillc_compiler.ide.calls import OpenCall, open_call
-from skillc_compiler.ide.surroundings import Surroundings
+from skillc_compiler.ide.calls import OpenCall, find_open_call
+from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import Measure, Thing, Type, Vector, fits, type_of
 from skillc_compiler.resolve.type_names import BUILT_IN
@@ -19,7 +19,7 @@ _TIMES = ("DURATION", "WAIT", "TIMEOUT")
 _SAME_AS_LEFT = ("PLUS", "MINUS")
 
 
-def expected(around: Surroundings, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
+def find_expected_type(around: CursorContext, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
     """Return what value is expected after `tokens`, as far as they tell."""
     last = tokens[-1].type if tokens else ""
     if last in _COMPARISONS:
@@ -30,17 +30,17 @@ def expected(around: Surroundings, skills: Mapping[str, Skill], tokens: Sequence
         return _declared(around, tokens)
     if last in _SAME_AS_LEFT:
         return _beside(around, skills, tokens)
-    call = open_call(tokens) if last in ("LABEL", "LPAR", "COMMA") else None
+    call = find_open_call(tokens) if last in ("LABEL", "LPAR", "COMMA") else None
     return _argument(around, skills, call) if call else ANYTHING
 
 
-def _compared(around: Surroundings, tokens: Sequence[Token]) -> ExpectedType:
+def _compared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
     iri = around.visible.term("property", tokens[-1].value) if len(tokens) > 1 and tokens[-2].type == "DOT" else None
     term = around.visible.vocabulary.properties.get(iri) if iri else None
     return ExpectedType(around.type_of(tokens), term.values if term else ())
 
 
-def _declared(around: Surroundings, tokens: Sequence[Token]) -> ExpectedType:
+def _declared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
     """Return the type written after the last label, for a default or the bounds of a range."""
     labels = [index for index, token in enumerate(tokens) if token.type == "LABEL"]
     if not labels or labels[-1] + 1 >= len(tokens) or tokens[-2].type == "LET":
@@ -54,18 +54,18 @@ def _declared(around: Surroundings, tokens: Sequence[Token]) -> ExpectedType:
     return ExpectedType(Thing(iri)) if iri else ANYTHING
 
 
-def _beside(around: Surroundings, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
+def _beside(around: CursorContext, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
     """Return the type of what is left of `+` or `-`; a sign of a number is passed over."""
     before = tokens[-2] if len(tokens) > 1 else None
     if before is None or before.type in (*_COMPARISONS, *_TIMES, "EQUAL", "RANGE", "DOTS", "LABEL", "LPAR", "COMMA"):
-        return expected(around, skills, tokens[:-1])
+        return find_expected_type(around, skills, tokens[:-1])
     if before.type == "QUANTITY":
         unit = UNITS.get(before.value.lstrip("0123456789.eE+-").strip())
         return ExpectedType(Measure(unit.dimension)) if unit else ANYTHING
     return ExpectedType(around.type_of(tokens[:-1]))
 
 
-def _argument(around: Surroundings, skills: Mapping[str, Skill], call: OpenCall) -> ExpectedType:
+def _argument(around: CursorContext, skills: Mapping[str, Skill], call: OpenCall) -> ExpectedType:
     skill = skills.get(call.name)
     if skill is not None:
         parameter = skill.parameter(call.label) if call.label else None
@@ -76,7 +76,7 @@ def _argument(around: Surroundings, skills: Mapping[str, Skill], call: OpenCall)
     return ExpectedType(type_of(function.parameters[call.position][1]))
 
 
-def ranges(around: Surroundings, relation: str, subject: Type) -> tuple[str, ...]:
+def find_ranges(around: CursorContext, relation: str, subject: Type) -> tuple[str, ...]:
     """Return the classes that a relation leads to from a subject of this type."""
     iri = around.visible.term("relation", relation)
     term = around.visible.vocabulary.relations.get(iri) if iri else None

@@ -48,7 +48,7 @@ _PLAIN: dict[str, WordKind] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Word:
+class HighlightedWord:
     """A coloured word; it never spans lines."""
 
     span: Span
@@ -56,7 +56,7 @@ class Word:
     declares: bool = False
 
 
-def highlighted(analysis: Analysis, path: str) -> tuple[Word, ...]:
+def highlight_words(analysis: Analysis, path: str) -> tuple[HighlightedWord, ...]:
     """Return the words of a file in order of place, none over another."""
     names = {(o.span.line, o.span.column): o for o in analysis.index.by_path.get(path, ())}
     return tuple(
@@ -66,18 +66,20 @@ def highlighted(analysis: Analysis, path: str) -> tuple[Word, ...]:
     )
 
 
-def _words(names: dict[tuple[int, int], Occurrence], path: str, number: int, line: str) -> Iterator[Word]:
+def _words(names: dict[tuple[int, int], Occurrence], path: str, number: int, line: str) -> Iterator[HighlightedWord]:
     for match in _TOKEN.finditer(line):
         start, end = match.start() + 1, match.end() + 1
         occurrence = names.get((number, start))
         group = match.lastgroup or ""
         if occurrence is not None:
             width = min(end, occurrence.span.end_column)
-            yield Word(Span(path, number, start, number, width), _kind(occurrence.symbol), occurrence.declares)
+            yield HighlightedWord(
+                Span(path, number, start, number, width), _kind(occurrence.symbol), occurrence.declares
+            )
         elif group in _PLAIN:
-            yield Word(Span(path, number, start, number, end), _PLAIN[group])
+            yield HighlightedWord(Span(path, number, start, number, end), _PLAIN[group])
         elif group == "name" and keyword_group(match.group()):
-            yield Word(Span(path, number, start, number, end), "keyword")
+            yield HighlightedWord(Span(path, number, start, number, end), "keyword")
 
 
 def _kind(symbol: Symbol) -> WordKind:

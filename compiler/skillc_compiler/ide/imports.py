@@ -13,7 +13,7 @@ from skillc_dsl.source import Span
 STANDARD_LIBRARY = "std/"
 
 
-def importable(analysis: Analysis, path: str) -> Iterator[tuple[s.SkillDeclaration, str]]:
+def find_importable(analysis: Analysis, path: str) -> Iterator[tuple[s.SkillDeclaration, str]]:
     """Yield the skills that a file does not see, of its own library and of `std`, with the file to import."""
     seen = set(analysis.visible[path].skills) if path in analysis.visible else set()
     for file, imported in _files(analysis, path).items():
@@ -23,7 +23,7 @@ def importable(analysis: Analysis, path: str) -> Iterator[tuple[s.SkillDeclarati
                 yield declaration, file
 
 
-def import_of(analysis: Analysis, path: str, file: str) -> Fix:
+def make_import(analysis: Analysis, path: str, file: str) -> Fix:
     """Return the edit that imports a file: a line after those above the declarations."""
     header = next((unit.file.header for unit in analysis.program.files if unit.file.path == path), ())
     line = header[-1].span.end_line + 1 if header else 1

@@ -6,9 +6,9 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from skillc_compiler.ide.declarations import Walk
+from skillc_compiler.ide.declarations import FileOccurrences
 from skillc_compiler.ide.symbols import Occurrence, Symbol
-from skillc_compiler.ide.visible import Visible
+from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Program
 
 
@@ -33,7 +33,7 @@ class Index:
         return (occurrence for occurrence in self.of(symbol) if occurrence.declares)
 
 
-def index_of(program: Program, visible: Mapping[str, Visible]) -> Index:
+def build_index(program: Program, visible: Mapping[str, VisibleNames]) -> Index:
     """Return the index of a program; `visible` tells what each of its files can name."""
     labels = {
         (name, label.text)
@@ -43,7 +43,7 @@ def index_of(program: Program, visible: Mapping[str, Visible]) -> Index:
     }
     by_path: dict[str, tuple[Occurrence, ...]] = {}
     for unit in program.files:
-        walk = Walk(visible[unit.file.path], program.skills, frozenset(labels))
+        walk = FileOccurrences(visible[unit.file.path], program.skills, frozenset(labels))
         by_path[unit.file.path] = tuple(sorted(walk.file(unit), key=lambda o: o.span))
     return Index(by_path, _by_symbol(occurrence for found in by_path.values() for occurrence in found))
 

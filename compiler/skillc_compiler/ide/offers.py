@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from skillc_compiler.ide.analysis import Analysis
-from skillc_compiler.ide.describing import parameter_line
-from skillc_compiler.ide.imports import importable
-from skillc_compiler.ide.surroundings import Surroundings
-from skillc_compiler.ide.term_pages import function_head, type_text
+from skillc_compiler.ide.cursor_context import CursorContext
+from skillc_compiler.ide.descriptions import format_parameter
+from skillc_compiler.ide.imports import find_importable
+from skillc_compiler.ide.term_pages import format_bare_type, format_function_head
 from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe_type, fits, type_of
 from skillc_compiler.resolve.names import Kind
@@ -47,7 +47,7 @@ class Offer:
         return self.written or self.text
 
 
-def classes(around: Surroundings, below: Type = UNKNOWN) -> Iterator[Offer]:
+def offer_classes(around: CursorContext, below: Type = UNKNOWN) -> Iterator[Offer]:
     """Offer the classes that fit a type, bare ones before qualified ones."""
     vocabulary = around.visible.vocabulary
     for text, iri in _terms(around, "class"):
@@ -57,17 +57,17 @@ def classes(around: Surroundings, below: Type = UNKNOWN) -> Iterator[Offer]:
             yield Offer(text, "class", detail, vocabulary.classes[iri].comment)
 
 
-def built_in_types() -> Iterator[Offer]:
+def offer_built_in_types() -> Iterator[Offer]:
     """Offer the dimensions and the other types that are no classes."""
     return (Offer(name, "type", "built in", rank=1) for name in sorted(BUILT_IN))
 
 
-def dimensions() -> Iterator[Offer]:
+def offer_dimensions() -> Iterator[Offer]:
     """Offer what a vector may be of."""
     return (Offer(name, "type", "dimension") for name in sorted(DIMENSIONS))
 
 
-def relations(around: Surroundings, subject: Type) -> Iterator[Offer]:
+def offer_relations(around: CursorContext, subject: Type) -> Iterator[Offer]:
     """Offer the relations that a subject of this type can have."""
     vocabulary = around.visible.vocabulary
     for text, iri in _terms(around, "relation"):
@@ -76,18 +76,18 @@ def relations(around: Surroundings, subject: Type) -> Iterator[Offer]:
             yield Offer(text, "relation", _signatures(term), term.comment)
 
 
-def any_relation(around: Surroundings) -> Iterator[Offer]:
+def offer_all_relations(around: CursorContext) -> Iterator[Offer]:
     """Offer every relation."""
-    return relations(around, UNKNOWN)
+    return offer_relations(around, UNKNOWN)
 
 
-def properties(around: Surroundings, of: Type) -> Iterator[Offer]:
+def offer_properties(around: CursorContext, of: Type) -> Iterator[Offer]:
     """Offer the properties that something of this type can have, with their dimensions."""
     for text, term in _properties_of(around, of):
-        yield Offer(text, "property", type_text(term.type), term.comment, rank=_generality(term))
+        yield Offer(text, "property", format_bare_type(term.type), term.comment, rank=_generality(term))
 
 
-def values(around: Surroundings, wanted: ExpectedType) -> Iterator[Offer]:
+def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]:
     """Offer what has a value of the wanted type: choices, local names, their properties, functions, individuals."""
     vocabulary = around.visible.vocabulary
     yield from (Offer(text, "value", "a value of the property") for text in wanted.values)
@@ -99,13 +99,15 @@ def values(around: Surroundings, wanted: ExpectedType) -> Iterator[Offer]:
     for name in sorted(around.visible.functions):
         function = vocabulary.functions[name]
         if fits(vocabulary, type_of(function.result), wanted.type) and not wanted.values:
-            yield Offer(name, "function", function_head(function).removeprefix("function "), function.comment, rank=3)
-    yield from individuals(around, wanted.type)
+            yield Offer(
+                name, "function", format_function_head(function).removeprefix("function "), function.comment, rank=3
+            )
+    yield from offer_individuals(around, wanted.type)
     if wanted.type != UNKNOWN and not wanted.values and not isinstance(wanted.type, Thing):
         yield from _read_properties(around, wanted.type)
 
 
-def individuals(around: Surroundings, wanted: Type) -> Iterator[Offer]:
+def offer_individuals(around: CursorContext, wanted: Type) -> Iterator[Offer]:
     """Offer the individuals of the task's scene that are of the wanted type."""
     for iri, cls in sorted(around.individuals.items()):
         text = around.visible.written(iri)
@@ -113,21 +115,21 @@ def individuals(around: Surroundings, wanted: Type) -> Iterator[Offer]:
             yield Offer(text, "individual", describe_type(Thing(cls)), rank=2)
 
 
-def arguments(analysis: Analysis, around: Surroundings, callee: str, passed: Iterable[str]) -> Iterator[Offer]:
+def offer_arguments(analysis: Analysis, around: CursorContext, callee: str, passed: Iterable[str]) -> Iterator[Offer]:
     """Offer the parameters of a skill that are not passed yet, bare where a local name of the right type does."""
     skill = analysis.program.skills.get(callee)
     taken = set(passed)
     for parameter in skill.parameters if skill else ():
         if parameter.direction == "out" or parameter.name in taken:
             continue
-        line, rank = parameter_line(analysis, parameter), _need(parameter)
+        line, rank = format_parameter(analysis, parameter), _need(parameter)
         known = around.locals.get(parameter.name)
         if known is not None and fits(around.visible.vocabulary, known, parameter.type):
             yield Offer(parameter.name, "parameter", line, parameter.doc, rank=rank)
         yield Offer(f"{parameter.name}:", "parameter", line, parameter.doc, f"{parameter.name}: ", rank + 1)
 
 
-def skills(analysis: Analysis, around: Surroundings, scoped: bool = False) -> Iterator[Offer]:
+def offer_skills(analysis: Analysis, around: CursorContext, scoped: bool = False) -> Iterator[Offer]:
     """Offer the skills that can be called here, or those that can be used in `with`."""
     for name in sorted(around.visible.skills):
         skill = analysis.program.skills.get(name)
@@ -136,24 +138,24 @@ def skills(analysis: Analysis, around: Surroundings, scoped: bool = False) -> It
             yield Offer(name, "skill", f"({takes})", skill.doc, rank=1)
 
 
-def skills_elsewhere(analysis: Analysis, path: str, scoped: bool = False) -> Iterator[Offer]:
+def offer_unimported_skills(analysis: Analysis, path: str, scoped: bool = False) -> Iterator[Offer]:
     """Offer the skills that could be called here if their file were imported."""
-    for skill, file in importable(analysis, path):
+    for skill, file in find_importable(analysis, path):
         flags = [member.flag for member in skill.members if isinstance(member, s.Flag)]
         if not scoped or "scoped" in flags:
             yield Offer(skill.name.text, "skill", f"import {file}", skill.doc, rank=7, imports=file)
 
 
-def parameters(analysis: Analysis, of: Iterable[Parameter]) -> Iterator[Offer]:
+def offer_parameters(analysis: Analysis, of: Iterable[Parameter]) -> Iterator[Offer]:
     """Offer parameters."""
-    return (Offer(p.name, "parameter", parameter_line(analysis, p), p.doc) for p in of)
+    return (Offer(p.name, "parameter", format_parameter(analysis, p), p.doc) for p in of)
 
 
 def _need(parameter: Parameter) -> int:
     return {"in": 0, "opt": 2, "infer": 4, "out": 6}[parameter.direction]
 
 
-def _terms(around: Surroundings, kind: Kind) -> Iterator[tuple[str, str]]:
+def _terms(around: CursorContext, kind: Kind) -> Iterator[tuple[str, str]]:
     """Yield what is visible by its bare name, qualified where that is ambiguous."""
     for text, iris in sorted(around.visible.bare[kind].items()):
         if len(iris) == 1:
@@ -162,7 +164,7 @@ def _terms(around: Surroundings, kind: Kind) -> Iterator[tuple[str, str]]:
             yield from ((around.visible.written(iri) or text, iri) for iri in iris)
 
 
-def _properties_of(around: Surroundings, of: Type) -> Iterator[tuple[str, PropertyTerm]]:
+def _properties_of(around: CursorContext, of: Type) -> Iterator[tuple[str, PropertyTerm]]:
     vocabulary = around.visible.vocabulary
     for text, iri in _terms(around, "property"):
         term = vocabulary.properties.get(iri)
@@ -170,7 +172,7 @@ def _properties_of(around: Surroundings, of: Type) -> Iterator[tuple[str, Proper
             yield text, term
 
 
-def _read_properties(around: Surroundings, wanted: Type) -> Iterator[Offer]:
+def _read_properties(around: CursorContext, wanted: Type) -> Iterator[Offer]:
     """Offer the properties of the individuals at hand whose values are of the wanted type."""
     for name, kind in around.locals.items():
         if not isinstance(kind, Thing):
@@ -178,7 +180,7 @@ def _read_properties(around: Surroundings, wanted: Type) -> Iterator[Offer]:
         for text, term in _properties_of(around, kind):
             if fits(around.visible.vocabulary, type_of(term.type), wanted):
                 yield Offer(
-                    f"{name}.{text}", "property", type_text(term.type), term.comment, rank=4 + _generality(term)
+                    f"{name}.{text}", "property", format_bare_type(term.type), term.comment, rank=4 + _generality(term)
                 )
 
 

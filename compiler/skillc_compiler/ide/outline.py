@@ -17,7 +17,7 @@ EntryKind: TypeAlias = Literal[
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class OutlineEntry:
     """Something declared: its name, a word about it, the whole of it, its name's place, and what it holds."""
 
     name: str
@@ -25,7 +25,7 @@ class Entry:
     kind: EntryKind
     span: Span
     name_span: Span
-    children: tuple[Entry, ...] = ()
+    children: tuple[OutlineEntry, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,12 +37,12 @@ class Fold:
     kind: Literal["region", "comment", "imports"] = "region"
 
 
-def outline(file: s.File) -> tuple[Entry, ...]:
+def make_outline(file: s.File) -> tuple[OutlineEntry, ...]:
     """Return the declarations of a file."""
     return tuple(_entry(declaration) for declaration in file.declarations)
 
 
-def folds(source: Source, file: s.File) -> tuple[Fold, ...]:
+def find_folds(source: Source, file: s.File) -> tuple[Fold, ...]:
     """Return the blocks between braces, runs of comments, and the lines above the declarations."""
     found = [*_braces(source), *_comments(source)]
     header = [line.span.line for line in file.header]
@@ -51,37 +51,41 @@ def folds(source: Source, file: s.File) -> tuple[Fold, ...]:
     return tuple(sorted(found, key=lambda fold: (fold.first, fold.last)))
 
 
-def _entry(written: s.Declaration) -> Entry:
+def _entry(written: s.Declaration) -> OutlineEntry:
     match written:
         case s.ClassDeclaration(name=name, parents=parents, span=span):
-            return Entry(name.text, _below(parents), "class", span, name.span)
+            return OutlineEntry(name.text, _below(parents), "class", span, name.span)
         case s.RelationDeclaration(name=name, domain=domain, range=range_, span=span):
-            return Entry(name.text, f"({domain.text}, {range_.text})", "relation", span, name.span)
+            return OutlineEntry(name.text, f"({domain.text}, {range_.text})", "relation", span, name.span)
         case s.PropertyDeclaration(name=name, domain=domain, span=span):
-            return Entry(name.text, f"({domain.text})", "property", span, name.span)
+            return OutlineEntry(name.text, f"({domain.text})", "property", span, name.span)
         case s.FunctionDeclaration(name=name, parameters=parameters, span=span):
-            return Entry(name.text, f"({', '.join(p.name.text for p in parameters)})", "function", span, name.span)
+            return OutlineEntry(
+                name.text, f"({', '.join(p.name.text for p in parameters)})", "function", span, name.span
+            )
         case s.SkillDeclaration(name=name, members=members, span=span):
-            return Entry(name.text, "", "skill", span, name.span, tuple(_members(members)))
+            return OutlineEntry(name.text, "", "skill", span, name.span, tuple(_members(members)))
         case s.ImplementationDeclaration(name=name, skill=skill, members=members, span=span):
-            return Entry(name.text, f"of {skill.text}", "implementation", span, name.span, tuple(_members(members)))
+            return OutlineEntry(
+                name.text, f"of {skill.text}", "implementation", span, name.span, tuple(_members(members))
+            )
         case s.TaskDeclaration(name=name, scene=scene, span=span):
-            return Entry(name.text, scene.value if scene else "", "task", span, name.span)
+            return OutlineEntry(name.text, scene.value if scene else "", "task", span, name.span)
         case _:
             assert_never(written)
 
 
-def _members(members: Iterable[s.SkillMember | s.ImplementationMember]) -> Iterator[Entry]:
+def _members(members: Iterable[s.SkillMember | s.ImplementationMember]) -> Iterator[OutlineEntry]:
     for member in members:
         match member:
             case s.Parameter(name=name, direction=direction, span=span):
-                yield Entry(name.text, direction, "parameter", span, name.span)
+                yield OutlineEntry(name.text, direction, "parameter", span, name.span)
             case s.Refinement(name=name, span=span):
-                yield Entry(name.text, "refine", "parameter", span, name.span)
+                yield OutlineEntry(name.text, "refine", "parameter", span, name.span)
             case s.Requirement(label=s.Name(text=text, span=place), kind=kind, span=span):
-                yield Entry(text, kind, "condition", span, place)
+                yield OutlineEntry(text, kind, "condition", span, place)
             case s.Let(name=name, span=span):
-                yield Entry(name.text, "let", "let", span, name.span)
+                yield OutlineEntry(name.text, "let", "let", span, name.span)
             case _:
                 pass
 

@@ -13,19 +13,19 @@ from skillc_compiler.ide.symbols import (
 from skillc_dsl.source import Span
 
 
-def symbols_at(analysis: Analysis, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
+def find_symbols(analysis: Analysis, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
     """Return the occurrences of the name under the cursor: two where an argument is short for `name: name`."""
     there = analysis.index.at(path, line, column)
     return tuple(occurrence for occurrence in there if occurrence.span == there[0].span)
 
 
-def definition(analysis: Analysis, path: str, line: int, column: int) -> tuple[Span, ...]:
+def find_definitions(analysis: Analysis, path: str, line: int, column: int) -> tuple[Span, ...]:
     """Return where the name under the cursor is declared, in a `.skill` file or in one of the ontology."""
-    found = (declared(analysis, o.symbol) for o in symbols_at(analysis, path, line, column))
+    found = (find_declarations(analysis, o.symbol) for o in find_symbols(analysis, path, line, column))
     return tuple(dict.fromkeys(span for spans in found for span in spans))
 
 
-def declared(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
+def find_declarations(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
     """Return the places where a symbol is declared; several for a relation with several signatures."""
     match symbol:
         case FileSymbol(path=path):
@@ -48,9 +48,9 @@ def _outside(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
             return ()
 
 
-def references(analysis: Analysis, path: str, line: int, column: int, declarations: bool) -> tuple[Span, ...]:
+def find_references(analysis: Analysis, path: str, line: int, column: int, declarations: bool) -> tuple[Span, ...]:
     """Return every place of the name under the cursor; those of its declarations only if wanted."""
-    symbols = {occurrence.symbol for occurrence in symbols_at(analysis, path, line, column)}
+    symbols = {occurrence.symbol for occurrence in find_symbols(analysis, path, line, column)}
     places = (o for symbol in symbols for o in analysis.index.of(symbol) if declarations or not o.declares)
     return tuple(sorted({occurrence.span for occurrence in places}))
 
@@ -58,4 +58,4 @@ def references(analysis: Analysis, path: str, line: int, column: int, declaratio
 def implementations(analysis: Analysis, skill: str) -> tuple[Span, ...]:
     """Return where the implementations of a skill are declared."""
     ways = analysis.program.implementations_of.get(skill, ())
-    return tuple(span for way in ways for span in declared(analysis, ImplementationSymbol(skill, way.name)))
+    return tuple(span for way in ways for span in find_declarations(analysis, ImplementationSymbol(skill, way.name)))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 from skillc_compiler.ide.analysis import Analysis, analyse
-from skillc_compiler.ide.places import symbols_at
+from skillc_compiler.ide.places import find_symbols
 from skillc_compiler.ide.symbols import (
     FunctionSymbol,
     ImplementationSymbol,
@@ -43,55 +43,59 @@ class Renaming:
 
 
 @dataclass(frozen=True, slots=True)
-class Refused:
+class NotRenamable:
     """Why something cannot be renamed."""
 
     reason: str
 
 
-def renamable(analysis: Analysis, path: str, line: int, column: int) -> Span | Refused:
+def find_renamable(analysis: Analysis, path: str, line: int, column: int) -> Span | NotRenamable:
     """Return the place of the name under the cursor if it can be renamed."""
     found = _at(analysis, path, line, column)
-    return found if isinstance(found, Refused) else _name_in(analysis, found.span)
+    return found if isinstance(found, NotRenamable) else _name_in(analysis, found.span)
 
 
 def rename(
     analysis: Analysis, path: str, line: int, column: int, new: str, parsed_by: Parser = parse
-) -> Renaming | Refused:
+) -> Renaming | NotRenamable:
     """Return the edits in all files that give the thing under the cursor the name `new`.
 
     Refused is what is declared elsewhere, what is no name, and whatever would bring a new error into the library.
     """
     found = _at(analysis, path, line, column)
-    if isinstance(found, Refused):
+    if isinstance(found, NotRenamable):
         return found
     if not re.fullmatch(NAME, new) or new in _reserved():
-        return Refused(f"`{new}` is no name: a name is letters, digits and `_`, begins with a letter and is no keyword")
+        return NotRenamable(
+            f"`{new}` is no name: a name is letters, digits and `_`, begins with a letter and is no keyword"
+        )
     edits = tuple(dict.fromkeys(_edits(analysis, found.symbol, new)))
     broken = _broken(analysis, edits, parsed_by)
-    return Refused(f"`{new}` would not do: {broken.message}") if broken else Renaming(found.span, edits)
+    return NotRenamable(f"`{new}` would not do: {broken.message}") if broken else Renaming(found.span, edits)
 
 
 def _reserved() -> frozenset[str]:
     return frozenset(word for words in KEYWORDS.values() for word in words) - NAMES_ELSEWHERE
 
 
-def _at(analysis: Analysis, path: str, line: int, column: int) -> Occurrence | Refused:
+def _at(analysis: Analysis, path: str, line: int, column: int) -> Occurrence | NotRenamable:
     """Return what would be renamed: of a shorthand argument the local name, else whatever stands there."""
-    there = symbols_at(analysis, path, line, column)
+    there = find_symbols(analysis, path, line, column)
     if not there or not isinstance(there[0].symbol, _RENAMED):
-        return Refused("there is nothing here that has a name of its own")
+        return NotRenamable("there is nothing here that has a name of its own")
     chosen = there[-1]
     if isinstance(chosen.symbol, TermSymbol) and chosen.symbol.iri in _ontology(analysis):
-        return Refused(f"`{_text(analysis, chosen.span)}` is declared in the ontology, which other files rely on")
+        return NotRenamable(f"`{_text(analysis, chosen.span)}` is declared in the ontology, which other files rely on")
     if isinstance(chosen.symbol, TermSymbol) and (task := _populating(analysis, chosen.symbol.iri)):
-        return Refused(f"the scene of the task `{task}` has a `{_text(analysis, chosen.span)}`: rename it there first")
+        return NotRenamable(
+            f"the scene of the task `{task}` has a `{_text(analysis, chosen.span)}`: rename it there first"
+        )
     places = [occurrence.span for occurrence in analysis.index.declarations(chosen.symbol)]
     if not places:
-        return Refused(f"the declaration of `{_text(analysis, chosen.span)}` is not known")
+        return NotRenamable(f"the declaration of `{_text(analysis, chosen.span)}` is not known")
     elsewhere = [place.path for place in places if place.path not in analysis.library.sources]
     if elsewhere:
-        return Refused(f"`{_text(analysis, chosen.span)}` is declared in {elsewhere[0]}, outside of this library")
+        return NotRenamable(f"`{_text(analysis, chosen.span)}` is declared in {elsewhere[0]}, outside of this library")
     return chosen
 
 
@@ -118,7 +122,7 @@ def _edits(analysis: Analysis, symbol: Symbol, new: str) -> Iterator[Fix]:
 
 def _is_parameter_of_call(analysis: Analysis, occurrence: Occurrence) -> bool:
     """Whether this is the called skill's half of a shorthand argument, which comes first."""
-    there = symbols_at(analysis, occurrence.span.path, occurrence.span.line, occurrence.span.column)
+    there = find_symbols(analysis, occurrence.span.path, occurrence.span.line, occurrence.span.column)
     halves = [other for other in there if other.span == occurrence.span]
     return halves[0].symbol == occurrence.symbol
 

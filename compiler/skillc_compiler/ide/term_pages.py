@@ -31,11 +31,11 @@ ABOUT = {
 """What hovering over a type says that has no units."""
 
 
-def term(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
+def term_page(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
     """Return the page of a class, relation or property; empty for an unknown one."""
     match kind:
         case "class" if iri == THING:
-            return page("class Thing", "Everything there is.")
+            return format_page("class Thing", "Everything there is.")
         case "class" if iri in vocabulary.classes:
             return _class(vocabulary, vocabulary.classes[iri])
         case "relation" if iri in vocabulary.relations:
@@ -46,31 +46,31 @@ def term(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
             return ""
 
 
-def built_in(name: str) -> str:
+def type_page(name: str) -> str:
     """Return what a type that is no class is, with its units."""
     units = [unit for unit, other in UNITS.items() if name in DIMENSIONS and other.dimension == DIMENSIONS[name]]
     known = f", in {', '.join(f'`{unit}`' for unit in units)}" if units else ABOUT.get(name, "")
     return f"the type **{name}**{known}"
 
 
-def function(term: FunctionTerm) -> str:
+def function_page(term: FunctionTerm) -> str:
     """Return the page of a function."""
-    return page(function_head(term), term.comment, f"Python: `{term.python}`")
+    return format_page(format_function_head(term), term.comment, f"Python: `{term.python}`")
 
 
-def function_head(term: FunctionTerm) -> str:
+def format_function_head(term: FunctionTerm) -> str:
     """Return a function as it is declared, without its Python name."""
-    parameters = ", ".join(f"{name}: {type_text(kind)}" for name, kind in term.parameters)
-    return f"function {term.name}({parameters}) -> {type_text(term.result)}"
+    parameters = ", ".join(f"{name}: {format_bare_type(kind)}" for name, kind in term.parameters)
+    return f"function {term.name}({parameters}) -> {format_bare_type(term.result)}"
 
 
-def choice(vocabulary: Vocabulary, text: str) -> str:
+def choice_page(vocabulary: Vocabulary, text: str) -> str:
     """Return which properties a text is a value of."""
     terms = [term for _, term in sorted(vocabulary.properties.items()) if text in term.values]
-    return "\n\n".join(f"`{text}`: a value of {listed([term.iri])}: {', '.join(term.values)}" for term in terms)
+    return "\n\n".join(f"`{text}`: a value of {format_names([term.iri])}: {', '.join(term.values)}" for term in terms)
 
 
-def type_text(kind: ValueType) -> str:
+def format_bare_type(kind: ValueType) -> str:
     """Return a type as it is written."""
     match kind:
         case ClassType(iri=iri):
@@ -84,10 +84,10 @@ def type_text(kind: ValueType) -> str:
         case PlainType(name=name):
             return name
         case ListType(element=element):
-            return f"[{type_text(element)}]"
+            return f"[{format_bare_type(element)}]"
 
 
-def quantity(value: float, unit: str) -> str:
+def quantity_page(value: float, unit: str) -> str:
     """Return a quantity's dimension and its value in SI units."""
     dimension = dimension_of(unit)
     si = next(name for name, other in UNITS.items() if other.dimension == dimension and other.in_si == 1.0)
@@ -97,12 +97,12 @@ def quantity(value: float, unit: str) -> str:
     return f"**{dimension.name}** `{written}`" + (f" = `{other}`" if other != written else "") + degrees
 
 
-def page(code: str, *paragraphs: str) -> str:
+def format_page(code: str, *paragraphs: str) -> str:
     """Return code and what there is to say about it."""
     return "\n\n".join((f"```skill\n{code}\n```", *(text for text in paragraphs if text)))
 
 
-def listed(iris: Sequence[str]) -> str:
+def format_names(iris: Sequence[str]) -> str:
     """Return the local names of terms, sorted."""
     return ", ".join(f"`{local_name(iri)}`" for iri in sorted(iris))
 
@@ -110,11 +110,11 @@ def listed(iris: Sequence[str]) -> str:
 def _class(vocabulary: Vocabulary, term: ClassTerm) -> str:
     parents = f" < {_names(term.parents)}" if term.parents else ""
     below = [iri for iri, other in vocabulary.classes.items() if term.iri in other.parents]
-    return page(
+    return format_page(
         f"class {local_name(term.iri)}{parents}",
         term.comment,
         f"disjoint with `{_names(term.disjoint)}`" if term.disjoint else "",
-        f"subclasses: {listed(below)}" if below else "",
+        f"subclasses: {format_names(below)}" if below else "",
         f"`{vocabulary.short(term.iri)}`",
     )
 
@@ -123,7 +123,7 @@ def _relation(vocabulary: Vocabulary, term: RelationTerm) -> str:
     name = local_name(term.iri)
     heads = [f"relation {name}({local_name(x.domain)}, {local_name(x.range)})" for x in term.signatures]
     traits = {"functional": term.functional, "symmetric": term.symmetric, "transitive": term.transitive}
-    return page(
+    return format_page(
         "\n".join(heads) or f"relation {name}",
         term.comment,
         ", ".join(trait for trait, has in traits.items() if has),
@@ -136,9 +136,9 @@ def _relation(vocabulary: Vocabulary, term: RelationTerm) -> str:
 
 def _property(vocabulary: Vocabulary, term: PropertyTerm) -> str:
     name = local_name(term.iri)
-    heads = [f"property {name}({local_name(domain)}): {type_text(term.type)}" for domain in term.domains]
-    return page(
-        "\n".join(heads) or f"property {name}: {type_text(term.type)}",
+    heads = [f"property {name}({local_name(domain)}): {format_bare_type(term.type)}" for domain in term.domains]
+    return format_page(
+        "\n".join(heads) or f"property {name}: {format_bare_type(term.type)}",
         term.comment,
         f"one of {', '.join(f'`{value}`' for value in term.values)}" if term.values else "",
         f"computed by `{term.computed_by}`" if term.computed_by else "",

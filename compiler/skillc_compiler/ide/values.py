@@ -17,7 +17,7 @@ from skillc_compiler.ide.symbols import (
     TermSymbol,
     TypeSymbol,
 )
-from skillc_compiler.ide.visible import Visible
+from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.resolve.names import Kind
 from skillc_compiler.resolve.type_names import BUILT_IN
@@ -28,10 +28,10 @@ Locals: TypeAlias = Mapping[str, Symbol]
 
 
 @dataclass(frozen=True, slots=True)
-class Values:
+class ValueOccurrences:
     """Finds the occurrences in values and conditions of one file."""
 
-    visible: Visible
+    visible: VisibleNames
     skills: Mapping[str, Skill]
     labels: frozenset[tuple[str, str]]
 

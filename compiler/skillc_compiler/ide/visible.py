@@ -19,7 +19,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
-class Visible:
+class VisibleNames:
     """Bare names of terms with their IRIs, prefixes with their namespaces, functions and skills."""
 
     bare: Bare
@@ -54,7 +54,7 @@ class Visible:
         return f"{max(fitting)[1]}:{iri[max(fitting)[0] :]}" if fitting else None
 
 
-def visible_in(program: Program, base: Vocabulary) -> dict[str, Visible]:
+def find_visible(program: Program, base: Vocabulary) -> dict[str, VisibleNames]:
     """Return by path what each file of a program can name; `base` is the vocabulary without the program's own terms."""
     declared = collect_declarations(program.files, base)
     return {unit.file.path: _visible(unit, declared, program.vocabulary, base) for unit in program.files}
@@ -62,9 +62,9 @@ def visible_in(program: Program, base: Vocabulary) -> dict[str, Visible]:
 
 def _visible(
     unit: ParsedFile, declared: Mapping[str, FileDeclarations], whole: Vocabulary, base: Vocabulary
-) -> Visible:
+) -> VisibleNames:
     here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports if path in declared)]
-    return Visible(
+    return VisibleNames(
         bare=merge_imported(bare_terms(base, used_vocabularies(unit.file, base)), here),
         prefixes=prefixes_in(unit.file, base),
         functions=frozenset(name for there in here for name in there.functions),

@@ -15,7 +15,7 @@ from skillc_compiler.program.typed import Implementation, ParsedFile, Program, T
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model import skills as library
-from skillc_model.pddl.names import pddl_names
+from skillc_model.pddl.names import assign_names
 from skillc_model.skills import SkillLibrary
 
 
@@ -41,7 +41,7 @@ def lower_program(program: Program, problems: Sequence[Diagnostic]) -> SkillLibr
             if not errors.any_on_lines_of(task.span) and _calls_known(task.body, skills)
         },
     )
-    return msgspec.structs.replace(unnamed, names=pddl_names(unnamed))
+    return msgspec.structs.replace(unnamed, names=assign_names(unnamed))
 
 
 def _implementation(typed: Implementation) -> library.Implementation:

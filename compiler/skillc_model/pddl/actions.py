@@ -8,23 +8,23 @@ from itertools import groupby
 
 from skillc_model.conditions import Effect, Expression, Individual
 from skillc_model.pddl.consistency import Consistency
-from skillc_model.pddl.costs import action_cost, duration_of
+from skillc_model.pddl.costs import action_cost, find_duration
 from skillc_model.pddl.domain import Action, CostFunction, Predicate
 from skillc_model.pddl.effects import Effects
 from skillc_model.pddl.formulas import FALSE, Change, Formula, conjunction, conjuncts, disjunction
 from skillc_model.pddl.guards import Guards
-from skillc_model.pddl.names import fresh, kebab
-from skillc_model.pddl.parameters import Defaults, defaults, planned_parameters
+from skillc_model.pddl.names import make_unique, to_kebab
+from skillc_model.pddl.parameters import DefaultValues, bind_parameters, default_values
 from skillc_model.pddl.symbols import Symbols
-from skillc_model.pddl.translate import Impossible, Named, Scope, Translator, Untranslatable, negated
-from skillc_model.reading import free_variables_in_order
+from skillc_model.pddl.translate import Impossible, NamedIndividual, Scope, Translator, Untranslatable, negate
 from skillc_model.rewriting import substitute
 from skillc_model.skills import Implementation, Parameter, Requirement, Skill
+from skillc_model.traversal import free_variables_in_order
 from skillc_rdf.vocabulary.types import ClassType
 
 
 @dataclass(frozen=True)
-class Planned:
+class PlannedSkill:
     """The actions of a skill with the static predicates and functions that they alone use."""
 
     actions: tuple[Action, ...]
@@ -47,15 +47,15 @@ class _Case:
     chosen: Formula
 
 
-def planned_actions(
+def make_actions(
     name: str,
     skill: Skill,
     implementations: Sequence[Implementation],
     symbols: Symbols,
-    objects: Mapping[str, Named],
+    objects: Mapping[str, NamedIndividual],
     locks: Collection[str],
     taken: Collection[str],
-) -> Planned:
+) -> PlannedSkill:
     """Return the actions of a skill that locks these parameters; Untranslatable says why a planner cannot reason so.
 
     The first implementation that fits is taken: for each duration there is an action, which demands that one of its
@@ -72,14 +72,14 @@ class _Builder:
     skill: Skill
     implementations: tuple[Implementation, ...]
     symbols: Symbols
-    objects: Mapping[str, Named]
+    objects: Mapping[str, NamedIndividual]
     guards: Guards
     taken: Collection[str]
     locks: Collection[str]
 
-    def planned(self) -> Planned:
-        scope = planned_parameters(self.skill.parameters, self.symbols.hierarchy)
-        given = defaults(self.skill.parameters)
+    def planned(self) -> PlannedSkill:
+        scope = bind_parameters(self.skill.parameters, self.symbols.hierarchy)
+        given = default_values(self.skill.parameters)
         hold = self._requirements(self.skill.hold, "hold condition", given, scope)
         described = conjunction(self._described(given, scope))
         actions: list[Action] = []
@@ -95,7 +95,7 @@ class _Builder:
             taken = {*self.taken, *(each.name for each in actions), *(each.name for each in costs)}
             cost, function = action_cost(self.skill.name, case.duration, scope, self.symbols, taken)
             action = Action(
-                name=fresh(f"{self.name}-{kebab(case.first)}", taken) if actions else self.name,
+                name=make_unique(f"{self.name}-{to_kebab(case.first)}", taken) if actions else self.name,
                 skill=self.skill.name,
                 parameters=tuple(place.variable for place in scope.values()),
                 binds=tuple(scope),
@@ -111,26 +111,26 @@ class _Builder:
             costs += [function] if function else []
         if not actions:
             raise never
-        return Planned(tuple(actions), tuple(self.guards.found.values()), tuple(costs))
+        return PlannedSkill(tuple(actions), tuple(self.guards.found.values()), tuple(costs))
 
-    def _described(self, given: Defaults, scope: Scope) -> Iterator[Formula]:
+    def _described(self, given: DefaultValues, scope: Scope) -> Iterator[Formula]:
         translator = self._translator()
         yield from (translator.membership(place.cls, place) for place in scope.values())
         yield from self._defaults(self.skill.parameters, scope)
         yield self._requirements(self.skill.pre, "precondition", given, scope)
 
-    def _cases(self, described: Defaults, scope: Scope) -> Iterator[_Case]:
+    def _cases(self, described: DefaultValues, scope: Scope) -> Iterator[_Case]:
         """Yield when an implementation of each duration is the first that fits."""
         earlier: list[Formula] = []
         for duration, group in groupby(self.implementations, self._duration):
             members = tuple(group)
             fits = disjunction(self._alternative(each, described, scope) for each in members)
-            yield _Case(members[0].name, duration, conjunction((fits, *map(negated, earlier))))
+            yield _Case(members[0].name, duration, conjunction((fits, *map(negate, earlier))))
             earlier.append(fits)
 
     def _duration(self, implementation: Implementation) -> Expression | None:
-        duration = duration_of(self.skill, implementation)
-        return None if duration is None else substitute(duration, defaults(implementation.parameters).values)
+        duration = find_duration(self.skill, implementation)
+        return None if duration is None else substitute(duration, default_values(implementation.parameters).values)
 
     def _defaults(self, parameters: Iterable[Parameter], scope: Scope) -> Iterator[Formula]:
         """Yield that the individuals which optional parameters are by default are of the parameters' classes."""
@@ -138,9 +138,9 @@ class _Builder:
             if isinstance(each.default, Individual) and isinstance(each.type, ClassType):
                 yield self._translator().is_a(each.default, each.type.iri, scope)
 
-    def _alternative(self, implementation: Implementation, described: Defaults, scope: Scope) -> Formula:
+    def _alternative(self, implementation: Implementation, described: DefaultValues, scope: Scope) -> Formula:
         """Return what an implementation demands beyond the description: narrower types and conditions of its own."""
-        given = defaults(implementation.parameters)
+        given = default_values(implementation.parameters)
         known = {described.applied(each.condition) for each in (*self.skill.pre, *self.skill.hold)}
         both = (*implementation.pre, *implementation.hold)
         own = [each for each in both if given.applied(each.condition) not in known]
@@ -159,10 +159,12 @@ class _Builder:
             if place and isinstance(parameter.type, ClassType) and parameter.type.iri != place.cls:
                 yield translator.membership(parameter.type.iri, place)
 
-    def _requirements(self, requirements: Sequence[Requirement], kind: str, given: Defaults, scope: Scope) -> Formula:
+    def _requirements(
+        self, requirements: Sequence[Requirement], kind: str, given: DefaultValues, scope: Scope
+    ) -> Formula:
         return conjunction(self._requirement(each, kind, given, scope) for each in requirements)
 
-    def _requirement(self, requirement: Requirement, kind: str, given: Defaults, scope: Scope) -> Formula:
+    def _requirement(self, requirement: Requirement, kind: str, given: DefaultValues, scope: Scope) -> Formula:
         try:
             return self._translator(requirement.label, requirement.text).formula(
                 given.applied(requirement.condition), scope
@@ -174,7 +176,7 @@ class _Builder:
         return Translator(self.symbols, self.guards.labelled(label, text), self.objects)
 
     def _effects(
-        self, known: Formula, hold: Formula, given: Defaults, scope: Scope
+        self, known: Formula, hold: Formula, given: DefaultValues, scope: Scope
     ) -> tuple[tuple[Change, ...], Formula]:
         """Return what the action changes, and what must hold before for the world to be consistent after it."""
         if known == FALSE:
@@ -191,12 +193,12 @@ class _Builder:
             raise Impossible("its postconditions contradict each other or an axiom")
         return changes, consistent
 
-    def _stated(self, given: Defaults) -> tuple[Effect, ...]:
+    def _stated(self, given: DefaultValues) -> tuple[Effect, ...]:
         """Return the effects with the values of optional parameters put in, which no implementation may change."""
         effects = [effect for post in self.skill.post for effect in post.effects]
         read = {name for effect in effects for name in free_variables_in_order(effect)} & given.given.keys()
         for implementation in self.implementations:
-            own = defaults(implementation.parameters).values
+            own = default_values(implementation.parameters).values
             changed = sorted(name for name in read if own.get(name) != given.values.get(name))
             if changed:
                 said = f"`{changed[0]}`, which its postconditions speak of"

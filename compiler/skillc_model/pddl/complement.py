@@ -30,7 +30,7 @@ from skillc_model.pddl.formulas import (
     conjunction,
     disjunction,
 )
-from skillc_model.pddl.names import fresh
+from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.problem import Problem
 
 Types: TypeAlias = Mapping[str, str]
@@ -39,21 +39,21 @@ MOST_ATOMS = 50_000
 """A predicate is left as it is where its complement would have more atoms at first."""
 
 
-def complemented(problem: Problem) -> Problem:
+def add_complements(problem: Problem) -> Problem:
     """Return an equivalent problem with complements of the predicates that actions deny of every object of a type."""
-    for name, types in _denied_of_all(problem.domain).items():
+    for name, types in _find_denied(problem.domain).items():
         problem = _with_complement(problem, name, types)
     return problem
 
 
-class _Entangled(Exception):
+class _CannotFollow(Exception):
     """An action makes the predicate true in a way that its complement cannot follow."""
 
 
 def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Problem:
     domain = problem.domain
     declared = domain.predicate[name]
-    own = fresh(f"not-{name}", {*domain.names, *domain.predicate})
+    own = make_unique(f"not-{name}", {*domain.names, *domain.predicate})
     parameters = tuple(Typed(each.name, type_) for each, type_ in zip(declared.parameters, types, strict=True))
     complement = _Complement(name, replace(declared, name=own, parameters=parameters), domain)
     members = [domain.of_type(problem.objects, each) for each in types]
@@ -61,7 +61,7 @@ def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Probl
         return problem
     try:
         actions = tuple(complement.action(each) for each in domain.actions)
-    except _Entangled:
+    except _CannotFollow:
         return problem
     true = {each.terms for each in problem.init if each.predicate == name}
     initial = tuple(Atom(own, terms) for terms in product(*members) if terms not in true)
@@ -114,7 +114,7 @@ class _Complement:
         if not all(_meet(self.domain, *pair) for pair in zip(wanted, given, strict=True)):
             return
         if change.positive and (change.variables or change.condition != TRUE):
-            raise _Entangled
+            raise _CannotFollow
         narrow = {
             term: type_
             for term, type_ in zip(change.atom.terms, wanted, strict=True)
@@ -138,7 +138,7 @@ class _Complement:
                     yield disjunction(Negation(Equal(one, two)) for one, two in pairs if one != two)
 
 
-def _denied_of_all(domain: PlanningDomain) -> dict[str, list[str]]:
+def _find_denied(domain: PlanningDomain) -> dict[str, list[str]]:
     """Return the predicates that need a complement with the types of its arguments.
 
     These are so wide that no parameter of an action that changes the predicate is of a wider type.

@@ -26,7 +26,7 @@ from skillc_model.pddl.formulas import (
     conjuncts,
     disjunction,
 )
-from skillc_model.pddl.translate import Impossible, Scope, Translator, Untranslatable, negated
+from skillc_model.pddl.translate import Impossible, Scope, Translator, Untranslatable, negate
 from skillc_rdf.vocabulary.types import RelationTerm
 
 
@@ -72,7 +72,7 @@ class Consistency:
     def _irreflexive(self, effect: Assert) -> Iterator[Formula]:
         for term, subject, object_ in self._implied(effect):
             if term.irreflexive:
-                yield negated(self._same(subject, object_))
+                yield negate(self._same(subject, object_))
 
     def _typed(self, effect: Assert) -> Iterator[Formula]:
         """Yield that the classes are those that the relation and all it implies take."""
@@ -97,7 +97,7 @@ class Consistency:
                 opposite = self.translator.holds(term.iri, self._term(object_), self._term(subject))
                 same = self._same(subject, object_)
                 differing = replace(self, _apart={*self._apart, same})
-                yield disjunction((same, negated(disjunction(map(differing._after, opposite)))))
+                yield disjunction((same, negate(disjunction(map(differing._after, opposite)))))
 
     def _takes(self, term: RelationTerm, subject: Term, object_: Term) -> bool:
         """Whether a relation may hold, by the classes that it takes."""
@@ -115,7 +115,7 @@ class Consistency:
         for change in self.changes:
             if change.atom.predicate == atom.predicate:
                 (added if change.positive else deleted).append(self._speaks_of(change, atom.terms))
-        return disjunction((*added, conjunction((atom, negated(disjunction(deleted))))))
+        return disjunction((*added, conjunction((atom, negate(disjunction(deleted))))))
 
     def _speaks_of(self, change: Change, terms: Sequence[str | None]) -> Formula:
         """Return that a change is one of the atom with these terms, of which None may be anything."""
@@ -128,7 +128,7 @@ class Consistency:
     def _differ(self, formula: Formula, values: Mapping[str, str]) -> Formula:
         assert isinstance(formula, Negation) and isinstance(formula.body, Equal)
         left, right = (values.get(each, each) for each in (formula.body.left, formula.body.right))
-        return negated(self._equal(left, right))
+        return negate(self._equal(left, right))
 
     def _gone(self, effect: Retract) -> Iterator[Formula]:
         """Yield that nothing that is stated makes what is retracted hold."""
@@ -142,7 +142,7 @@ class Consistency:
             terms = reading.ends(*sides)
             for change in self.changes:
                 if change.positive and change.atom.predicate == predicate:
-                    yield negated(self._speaks_of(change, terms))
+                    yield negate(self._speaks_of(change, terms))
 
     def _together(self, one: Effect, other: Effect) -> Iterator[Formula]:
         """Yield that what is stated does not take the place of what is stated too."""
@@ -151,15 +151,15 @@ class Consistency:
                 yield from self._rivals(one, other)
             case Assign(property=iri, value=Literal(value)), Assign(property=also, value=Literal(second)):
                 if iri == also and (value != second or type(value) is not type(second)):
-                    yield negated(self._same(one.subject, other.subject))
+                    yield negate(self._same(one.subject, other.subject))
 
     def _rivals(self, one: Assert, other: Assert) -> Iterator[Formula]:
         for term, subject, object_ in self._implied(one):
             for also, holder, held in self._implied(other):
                 if term.iri == also.iri and term.functional:
-                    yield disjunction((negated(self._same(subject, holder)), self._same(object_, held)))
+                    yield disjunction((negate(self._same(subject, holder)), self._same(object_, held)))
                 if term.iri == also.iri and term.inverse_functional:
-                    yield disjunction((negated(self._same(object_, held)), self._same(subject, holder)))
+                    yield disjunction((negate(self._same(object_, held)), self._same(subject, holder)))
 
     def _same(self, one: Term, other: Term) -> Formula:
         return self._equal(self._term(one).name, self._term(other).name)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import msgspec
 
 from skillc_model.conditions import Assert, Assign, HasProperty, Holds, Individual, PropertyOf, Retract
-from skillc_model.pddl.hierarchy import common_class
-from skillc_model.reading import walk
+from skillc_model.pddl.hierarchy import find_common_class
 from skillc_model.skills import Implementation, Parameter, Skill, SkillLibrary
+from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary
 
 
@@ -23,7 +23,7 @@ class Mention:
     cls: str | None
 
 
-def mentions(library: SkillLibrary) -> dict[str, tuple[Mention, ...]]:
+def find_mentions(library: SkillLibrary) -> dict[str, tuple[Mention, ...]]:
     """Return the individuals that each skill which is planned with names, its implementations included.
 
     A library with mistakes may speak of terms that its vocabulary lacks: they ask for no class.
@@ -40,10 +40,10 @@ def assumed_classes(found: Iterable[Mention], vocabulary: Vocabulary) -> dict[st
     asked: dict[str, set[str]] = {}
     for each in found:
         asked.setdefault(each.individual, set()).update(() if each.cls is None else (each.cls,))
-    return {iri: lowest(classes, vocabulary) for iri, classes in asked.items()}
+    return {iri: most_specific(classes, vocabulary) for iri, classes in asked.items()}
 
 
-def lowest(classes: Iterable[str], vocabulary: Vocabulary) -> frozenset[str]:
+def most_specific(classes: Iterable[str], vocabulary: Vocabulary) -> frozenset[str]:
     """Return the classes that are above none of the others."""
     known = frozenset(classes)
     if len(known) == 1:
@@ -96,14 +96,17 @@ class _Mentions:
         signatures = known.signatures if known is not None else ()
         for side, term in enumerate(terms):
             if isinstance(term, Individual) and signatures:
-                yield term.iri, common_class([(each.domain, each.range)[side] for each in signatures], self.vocabulary)
+                yield (
+                    term.iri,
+                    find_common_class([(each.domain, each.range)[side] for each in signatures], self.vocabulary),
+                )
 
     def _owner(self, property_: str) -> str | None:
         known = self.vocabulary.properties.get(property_)
-        return common_class(known.domains, self.vocabulary) if known is not None and known.domains else None
+        return find_common_class(known.domains, self.vocabulary) if known is not None and known.domains else None
 
 
-def absent(found: Iterable[Mention], known: Mapping[str, object]) -> Iterator[Mention]:
+def missing_individuals(found: Iterable[Mention], known: Mapping[str, object]) -> Iterator[Mention]:
     """Yield the first mention of each individual that is not known."""
     told: set[str] = set()
     for each in found:

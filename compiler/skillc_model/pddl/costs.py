@@ -9,12 +9,12 @@ from numbers import Real
 
 from skillc_model.conditions import Expression, Invoke, PropertyOf
 from skillc_model.pddl.domain import ComputedCost, Cost, CostFunction, FixedCost
-from skillc_model.pddl.names import fresh, kebab
+from skillc_model.pddl.names import make_unique, to_kebab
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.pddl.translate import Scope, Untranslatable
-from skillc_model.reading import free_variables_in_order, walk
 from skillc_model.rewriting import constant_number
 from skillc_model.skills import Implementation, Skill
+from skillc_model.traversal import free_variables_in_order, walk
 from skillc_rdf.vocabulary.types import ClassType
 
 ASSUMED_SECONDS = Fraction(1)
@@ -81,7 +81,7 @@ def _rounding_scale(longest: Fraction) -> Fraction:
     return Fraction(10) ** floor(log10(_ROUNDED_UNITS / longest))
 
 
-def duration_of(skill: Skill, implementation: Implementation) -> Expression | None:
+def find_duration(skill: Skill, implementation: Implementation) -> Expression | None:
     """Return how long a skill takes when it is done by an implementation, None where nobody says."""
     return skill.duration if implementation.duration is None else implementation.duration
 
@@ -106,7 +106,7 @@ def action_cost(
         if name not in scope:
             raise Untranslatable(f"its duration reads `{name}`, which a planner does not bind")
     places = tuple(scope[name].variable for name in variables)
-    name = fresh(f"cost-{kebab(skill)}", taken)
+    name = make_unique(f"cost-{to_kebab(skill)}", taken)
     function = CostFunction(name, places, variables, duration, skill, _moving(duration, symbols))
     return ComputedCost(name, tuple(each.name for each in places)), function
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from skillc_model.conditions import Variable
-from skillc_model.reading import calls_in
 from skillc_model.skills import Compound, Skill, SkillLibrary
+from skillc_model.traversal import find_calls
 from skillc_model.tree import Call
 
 
-def devices(library: SkillLibrary) -> dict[str, tuple[str, ...]]:
+def locked_parameters(library: SkillLibrary) -> dict[str, tuple[str, ...]]:
     """Return for each skill the parameters that stand for devices it locks, in the order of its parameters.
 
     A called skill's device counts where the caller passes a parameter of its own for it; one that is looked up anew
@@ -38,7 +38,7 @@ def _of_calls(skill: Skill, library: SkillLibrary, locked: Mapping[str, frozense
 def _calls(skill: Skill, library: SkillLibrary) -> Iterator[Call]:
     for each in library.implementations_of(skill.name):
         if isinstance(each.body, Compound):
-            yield from calls_in(each.body.node)
+            yield from find_calls(each.body.node)
 
 
 def _in_order(skill: Skill, names: frozenset[str]) -> tuple[str, ...]:

@@ -9,9 +9,9 @@ from typing import assert_never
 
 from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
 from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, Typed, conjunction, conjuncts
-from skillc_model.pddl.names import variable
+from skillc_model.pddl.names import make_variable
 from skillc_model.pddl.translate import Scope, Translator, Untranslatable
-from skillc_model.read_write import Unique, unique_sides
+from skillc_model.read_write import UniqueSide, unique_sides
 from skillc_rdf.vocabulary.closure import Directed
 
 
@@ -85,7 +85,7 @@ class Effects:
         elif former != kept.name:
             yield replace(change, condition=conjunction((change.condition, Negation(Equal(former, kept.name)))))
 
-    def _known_partner(self, unique: Unique, fixed: Typed) -> Typed | None:
+    def _known_partner(self, unique: UniqueSide, fixed: Typed) -> Typed | None:
         """Return what the precondition says stands opposite to the fixed term."""
         symbols = self.translator.symbols
         for reading in symbols.vocabulary.closure.canonical_sources[unique.relation]:
@@ -116,7 +116,7 @@ class Effects:
     def _variable(self, relation: str, side: int, beside: Sequence[str]) -> Typed:
         symbols = self.translator.symbols
         taken = {*beside, *(place.variable.name for place in self.scope.values())}
-        return Typed(variable("former", taken), symbols.hierarchy.type_name(symbols.side_class(relation, side)))
+        return Typed(make_variable("former", taken), symbols.hierarchy.type_name(symbols.side_class(relation, side)))
 
     def _atom(self, reading: Directed, subject: Typed, object_: Typed) -> Atom:
         return Atom(self.translator.symbols.relation(reading.relation), reading.ends(subject.name, object_.name))

@@ -128,26 +128,26 @@ def existential(variable: Typed, body: Formula) -> Formula:
     return Existential(variable, Equal(variable.name, variable.name) if body == TRUE else body)
 
 
-def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:
+def rename_terms(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with other names for terms."""
     match formula:
         case Atom() | Equal():
-            return _renamed(formula, names)
+            return _rename_leaf(formula, names)
         case Negation(body=body):
-            return Negation(_renamed(body, names))
+            return Negation(_rename_leaf(body, names))
         case Conjunction(parts=parts):
-            return Conjunction(tuple(renamed(part, names) for part in parts))
+            return Conjunction(tuple(rename_terms(part, names) for part in parts))
         case Disjunction(parts=parts):
-            return Disjunction(tuple(renamed(part, names) for part in parts))
+            return Disjunction(tuple(rename_terms(part, names) for part in parts))
         case Existential(variable=variable, body=body):
-            return Existential(variable, renamed(body, names))
+            return Existential(variable, rename_terms(body, names))
         case Universal(variable=variable, body=body):
-            return Universal(variable, renamed(body, names))
+            return Universal(variable, rename_terms(body, names))
         case _:
             assert_never(formula)
 
 
-def _renamed(formula: Atom | Equal, names: Mapping[str, str]) -> Atom | Equal:
+def _rename_leaf(formula: Atom | Equal, names: Mapping[str, str]) -> Atom | Equal:
     if isinstance(formula, Atom):
         return Atom(formula.predicate, tuple(names.get(term, term) for term in formula.terms))
     return Equal(names.get(formula.left, formula.left), names.get(formula.right, formula.right))

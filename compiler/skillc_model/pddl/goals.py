@@ -26,7 +26,7 @@ from skillc_model.pddl.domain import PlanningDomain, PropertyFact, RelationFact
 from skillc_model.pddl.formulas import FALSE, TRUE, Formula, Typed, atoms
 from skillc_model.pddl.hierarchy import Hierarchy
 from skillc_model.pddl.symbols import Symbols
-from skillc_model.pddl.translate import Named, Scope, Translator
+from skillc_model.pddl.translate import NamedIndividual, Scope, Translator
 from skillc_model.rewriting import map_children, substitute
 from skillc_model.skills import SkillLibrary
 
@@ -51,11 +51,11 @@ def ground_goal(
     def evaluate(condition: Condition, scope: Scope) -> Formula:
         return TRUE if holds(condition) else FALSE
 
-    named = {iri: Named(each, frozenset()) for iri, each in objects.items()}
+    named = {iri: NamedIndividual(each, frozenset()) for iri, each in objects.items()}
     return Translator(symbols, evaluate, named).formula(_ground(goal, symbols, members), {})
 
 
-def with_predicates_of(goal: Formula, library: SkillLibrary, domain: PlanningDomain) -> PlanningDomain:
+def add_goal_predicates(goal: Formula, library: SkillLibrary, domain: PlanningDomain) -> PlanningDomain:
     """Return the domain with the predicates that only the goal speaks of, so that the problem initialises them."""
     missing = {atom.predicate for atom in atoms(goal)} - domain.predicate.keys()
     if not missing:

@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import GuardFact, Predicate
 from skillc_model.pddl.formulas import Atom, Formula
-from skillc_model.pddl.names import fresh, kebab
+from skillc_model.pddl.names import make_unique, to_kebab
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.pddl.translate import Scope, StaticEvaluator, Untranslatable
 from skillc_model.read_write import terms_read
-from skillc_model.reading import free_variables_in_order
-from skillc_model.rewriting import is_plain
+from skillc_model.rewriting import is_plain_fact
+from skillc_model.traversal import free_variables_in_order
 
 
 @dataclass
@@ -32,7 +32,7 @@ class Guards:
         """Return what makes guards of the condition with this label, which its author wrote so."""
 
         def evaluate(condition: Condition, scope: Scope) -> Formula | None:
-            kept = is_plain(condition) and not any(map(self.symbols.is_computed, terms_read(condition)))
+            kept = is_plain_fact(condition) and not any(map(self.symbols.is_computed, terms_read(condition)))
             return None if kept else self._guard(label, text, condition, scope)
 
         return evaluate
@@ -46,7 +46,7 @@ class Guards:
         key = condition, tuple(each.type for each in places)
         if key not in self.found:
             used = {*self.taken, *(each.name for each in self.found.values())}
-            name = fresh(f"guard-{kebab(self.skill)}-{kebab(label)}", used)
+            name = make_unique(f"guard-{to_kebab(self.skill)}-{to_kebab(label)}", used)
             meaning = GuardFact(variables, condition, self.skill, label, text)
             self.found[key] = Predicate(name, tuple(places), meaning, False)
         return Atom(self.found[key].name, tuple(each.name for each in places))

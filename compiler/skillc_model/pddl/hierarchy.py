@@ -45,7 +45,7 @@ class Hierarchy:
 
     def common(self, classes: Iterable[str]) -> str:
         """Return the deepest class that is above all of these."""
-        return common_class(classes, self._vocabulary)
+        return find_common_class(classes, self._vocabulary)
 
     def type_of(self, classes: Iterable[str]) -> str:
         """Return the most specific type for an individual of these classes."""
@@ -109,7 +109,7 @@ class Hierarchy:
         return classes + mixed
 
 
-def common_class(classes: Iterable[str], vocabulary: Vocabulary) -> str:
+def find_common_class(classes: Iterable[str], vocabulary: Vocabulary) -> str:
     """Return the deepest class that is above all of these; `owl:Thing` of none."""
     above = [vocabulary.ancestors.get(cls, frozenset({THING})) for cls in classes]
     return _deepest(frozenset.intersection(*above) if above else (), vocabulary)

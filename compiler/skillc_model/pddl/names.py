@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
-from skillc_model.pddl.constants import mentions
+from skillc_model.pddl.constants import find_mentions
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import PlainType, PropertyTerm, Vocabulary, local_name
 
@@ -29,7 +29,7 @@ _FOREIGN = re.compile(r"[^a-z0-9_./:#\s-]")
 _GAPS = re.compile(r"[^a-z0-9]+")
 
 
-def pddl_names(library: SkillLibrary) -> dict[str, str]:
+def assign_names(library: SkillLibrary) -> dict[str, str]:
     """Return PDDL name -> IRI of a class, relation or property, `property=value` of a value, or skill name.
 
     The individuals that skills name have names too: they are constants of the domain.
@@ -38,18 +38,18 @@ def pddl_names(library: SkillLibrary) -> dict[str, str]:
     wanted = {iri: _of_iri(iri, vocabulary) for iri in (*vocabulary.classes, *vocabulary.relations)}
     for iri, term in vocabulary.properties.items():
         wanted |= {value_key(iri, value): _of_value(iri, value, vocabulary) for value in finite_values(term)}
-    wanted |= {name: (kebab(name), f"skill-{kebab(name)}") for name in library.skills}
-    named = {each.individual for found in mentions(library).values() for each in found}
+    wanted |= {name: (to_kebab(name), f"skill-{to_kebab(name)}") for name in library.skills}
+    named = {each.individual for found in find_mentions(library).values() for each in found}
     wanted |= {iri: _of_iri(iri, vocabulary) for iri in named - wanted.keys()}
-    return _inverse(allocate(wanted))
+    return _inverse(allocate_names(wanted))
 
 
-def object_names(iris: Iterable[str], vocabulary: Vocabulary, taken: Collection[str]) -> dict[str, str]:
+def assign_object_names(iris: Iterable[str], vocabulary: Vocabulary, taken: Collection[str]) -> dict[str, str]:
     """Return object name -> IRI for the individuals of a scene, none of the names being in `taken`."""
-    plain = {iri: kebab(local_name(iri)) for iri in iris}
+    plain = {iri: to_kebab(local_name(iri)) for iri in iris}
     times = Counter((*plain.values(), *taken, *KEYWORDS))
     wanted = {iri: (name,) if times[name] == 1 else _of_iri(iri, vocabulary) for iri, name in plain.items()}
-    return _inverse(allocate(wanted, taken))
+    return _inverse(allocate_names(wanted, taken))
 
 
 def finite_values(term: PropertyTerm) -> tuple[bool | str, ...]:
@@ -62,7 +62,7 @@ def value_key(iri: str, value: bool | str) -> str:
     return iri if value is True else f"{iri}={'false' if value is False else value}"
 
 
-def kebab(text: str) -> str:
+def to_kebab(text: str) -> str:
     """Return the text in PDDL's letters: `ArmDevice` becomes arm-device, `Ur5e-1` ur5e-1, a foreign letter its code."""
     if _KEBAB.fullmatch(text):
         return text
@@ -72,7 +72,7 @@ def kebab(text: str) -> str:
     return name if name[:1].isalpha() else f"x-{name}".strip("-")
 
 
-def allocate(wanted: Mapping[str, Sequence[str]], taken: Collection[str] = ()) -> dict[str, str]:
+def allocate_names(wanted: Mapping[str, Sequence[str]], taken: Collection[str] = ()) -> dict[str, str]:
     """Give each key the first of its wanted names that no other key wants at that stage; number those left over."""
     used = KEYWORDS | set(taken)
     chosen: dict[str, str] = {}
@@ -83,12 +83,12 @@ def allocate(wanted: Mapping[str, Sequence[str]], taken: Collection[str] = ()) -
         chosen |= granted
         used |= set(granted.values())
     for key in sorted(wanted.keys() - chosen.keys()):
-        chosen[key] = fresh(wanted[key][-1], used)
+        chosen[key] = make_unique(wanted[key][-1], used)
         used |= {chosen[key]}
     return chosen
 
 
-def fresh(name: str, taken: Collection[str]) -> str:
+def make_unique(name: str, taken: Collection[str]) -> str:
     """Return the name, numbered from 2 if it is taken or a word of PDDL."""
     candidate, number = name, 1
     while candidate in taken or candidate in KEYWORDS:
@@ -97,18 +97,18 @@ def fresh(name: str, taken: Collection[str]) -> str:
     return candidate
 
 
-def variable(name: str, taken: Collection[str]) -> str:
+def make_variable(name: str, taken: Collection[str]) -> str:
     """Return a PDDL variable for a name of the library that is none of `taken`."""
-    plain = kebab(name)
-    return "?" + fresh(f"the-{plain}" if plain in KEYWORDS else plain, {each.removeprefix("?") for each in taken})
+    plain = to_kebab(name)
+    return "?" + make_unique(f"the-{plain}" if plain in KEYWORDS else plain, {each.removeprefix("?") for each in taken})
 
 
 def _of_iri(iri: str, vocabulary: Vocabulary) -> tuple[str, ...]:
-    return kebab(local_name(iri)), kebab(vocabulary.short(iri))
+    return to_kebab(local_name(iri)), to_kebab(vocabulary.short(iri))
 
 
 def _of_value(iri: str, value: bool | str, vocabulary: Vocabulary) -> tuple[str, ...]:
-    ending = "" if value is True else f"-{kebab('false' if value is False else value)}"
+    ending = "" if value is True else f"-{to_kebab('false' if value is False else value)}"
     return tuple(name + ending for name in _of_iri(iri, vocabulary))
 
 

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from skillc_model.conditions import Condition, Expression
 from skillc_model.pddl.formulas import Typed
 from skillc_model.pddl.hierarchy import Hierarchy
-from skillc_model.pddl.names import variable
-from skillc_model.pddl.translate import Place, Untranslatable
-from skillc_model.rewriting import decided, substitute
+from skillc_model.pddl.names import make_variable
+from skillc_model.pddl.translate import BoundVariable, Untranslatable
+from skillc_model.rewriting import decide_given, substitute
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import ClassType
 
 
 @dataclass(frozen=True)
-class Defaults:
+class DefaultValues:
     """What optional parameters are worth in a plan: their default, or not given."""
 
     values: Mapping[str, Expression]
@@ -24,25 +24,25 @@ class Defaults:
 
     def applied(self, condition: Condition) -> Condition:
         """Return the condition with the defaults put in and every `given` decided."""
-        return decided(substitute(condition, self.values), self.given)
+        return decide_given(substitute(condition, self.values), self.given)
 
 
-def defaults(parameters: Sequence[Parameter]) -> Defaults:
+def default_values(parameters: Sequence[Parameter]) -> DefaultValues:
     """Return what the optional parameters are worth."""
     values = {each.name: each.default for each in parameters if each.direction == "opt" and each.default is not None}
     given = {each.name: each.direction != "opt" or each.default is not None for each in parameters}
-    return Defaults(values, given)
+    return DefaultValues(values, given)
 
 
-def planned_parameters(parameters: Sequence[Parameter], hierarchy: Hierarchy) -> dict[str, Place]:
+def bind_parameters(parameters: Sequence[Parameter], hierarchy: Hierarchy) -> dict[str, BoundVariable]:
     """Return the variables a planner binds, by parameter; Untranslatable names a parameter it would have to invent."""
-    places: dict[str, Place] = {}
+    places: dict[str, BoundVariable] = {}
     for parameter in parameters:
         if parameter.direction in ("opt", "out"):
             continue
         if not isinstance(parameter.type, ClassType):
             raise Untranslatable(f"its parameter `{parameter.name}` is no thing, so a planner cannot choose it")
         taken = {place.variable.name for place in places.values()}
-        name = variable(parameter.name, taken)
-        places[parameter.name] = Place(Typed(name, hierarchy.type_name(parameter.type.iri)), parameter.type.iri)
+        name = make_variable(parameter.name, taken)
+        places[parameter.name] = BoundVariable(Typed(name, hierarchy.type_name(parameter.type.iri)), parameter.type.iri)
     return places

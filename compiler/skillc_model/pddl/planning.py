@@ -8,32 +8,32 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from skillc_model.pddl.actions import Planned, planned_actions
-from skillc_model.pddl.constants import Mention, absent, assumed_classes, mentions
+from skillc_model.pddl.actions import PlannedSkill, make_actions
+from skillc_model.pddl.constants import Mention, assumed_classes, find_mentions, missing_individuals
 from skillc_model.pddl.costs import common_scale
-from skillc_model.pddl.devices import devices
+from skillc_model.pddl.devices import locked_parameters
 from skillc_model.pddl.domain import Excluded, FixedCost, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import Typed
 from skillc_model.pddl.hierarchy import Hierarchy
-from skillc_model.pddl.names import kebab, pddl_names
+from skillc_model.pddl.names import assign_names, to_kebab
 from skillc_model.pddl.symbols import Symbols
-from skillc_model.pddl.translate import Impossible, Named, Untranslatable
+from skillc_model.pddl.translate import Impossible, NamedIndividual, Untranslatable
 from skillc_model.pddl.typed import action_terms, typed_atoms
 from skillc_model.read_write import terms_written
 from skillc_model.skills import Skill, SkillLibrary
 
 
 @dataclass(frozen=True)
-class _Round:
+class _Attempt:
     """What could be planned with when `changing` was taken for all that skills change."""
 
     symbols: Symbols
-    objects: Mapping[str, Named]
-    planned: tuple[Planned, ...]
+    objects: Mapping[str, NamedIndividual]
+    planned: tuple[PlannedSkill, ...]
     excluded: tuple[Excluded, ...]
 
 
-def planning_domain(
+def make_planning_domain(
     library: SkillLibrary,
     combined: Collection[frozenset[str]] = (),
     individuals: Mapping[str, frozenset[str]] | None = None,
@@ -45,15 +45,17 @@ def planning_domain(
     and each is of the classes that the skills ask for. What the skills left over change decides what is static, which
     decides what can be planned with: a fixed point.
     """
-    named, settled = mentions(library), individuals is not None
+    named, settled = find_mentions(library), individuals is not None
     if individuals is None:
         individuals = assumed_classes((each for found in named.values() for each in found), library.vocabulary)
         combined = {*combined, *(each for each in individuals.values() if len(each) > 1)}
     names = library.names if individuals.keys() <= set(library.names.values()) else {}
-    names = names or pddl_names(library)
+    names = names or assign_names(library)
     by_term = {term: name for name, term in names.items()}
     hierarchy = Hierarchy(library.vocabulary, by_term, combined)
-    objects = {iri: Named(Typed(by_term[iri], hierarchy.type_of(each)), each) for iri, each in individuals.items()}
+    objects = {
+        iri: NamedIndividual(Typed(by_term[iri], hierarchy.type_of(each)), each) for iri, each in individuals.items()
+    }
     excluded = tuple(_unnamed(library, named, objects))
     out = {each.skill for each in excluded}
     skills = [skill for name, skill in sorted(library.skills.items()) if skill.planned and name not in out]
@@ -71,41 +73,46 @@ def planning_domain(
 
 
 def _unnamed(
-    library: SkillLibrary, named: Mapping[str, Sequence[Mention]], objects: Mapping[str, Named]
+    library: SkillLibrary, named: Mapping[str, Sequence[Mention]], objects: Mapping[str, NamedIndividual]
 ) -> Iterator[Excluded]:
     """Yield the skills that name individuals which the scene lacks."""
     for skill, found in named.items():
-        missing = [f"`{library.vocabulary.short(each.individual)}` ({each.source})" for each in absent(found, objects)]
+        missing = [
+            f"`{library.vocabulary.short(each.individual)}` ({each.source})"
+            for each in missing_individuals(found, objects)
+        ]
         if missing:
             verb = "is" if len(missing) == 1 else "are"
             reason = f"it names {', '.join(missing)}, which {verb} not in the scene"
             yield Excluded(skill, reason, library.skills[skill].source)
 
 
-def _try(skills: Sequence[Skill], library: SkillLibrary, symbols: Symbols, objects: Mapping[str, Named]) -> _Round:
+def _try(
+    skills: Sequence[Skill], library: SkillLibrary, symbols: Symbols, objects: Mapping[str, NamedIndividual]
+) -> _Attempt:
     action_names = {term: name for name, term in symbols.names.items()}
-    locked = devices(library)
+    locked = locked_parameters(library)
     planned, excluded, taken = [], [], set(symbols.names)
     for skill in skills:
         implementations = library.implementations_of(skill.name)
         try:
             name = action_names[skill.name]
-            made = planned_actions(name, skill, implementations, symbols, objects, locked[skill.name], taken)
+            made = make_actions(name, skill, implementations, symbols, objects, locked[skill.name], taken)
             planned.append(made)
             taken |= made.names
         except Untranslatable as reason:
             excluded.append(Excluded(skill.name, str(reason), skill.source, isinstance(reason, Impossible)))
-    return _Round(symbols, objects, tuple(planned), tuple(excluded))
+    return _Attempt(symbols, objects, tuple(planned), tuple(excluded))
 
 
-def _domain(name: str, last: _Round, excluded: Iterable[Excluded]) -> PlanningDomain:
+def _domain(name: str, last: _Attempt, excluded: Iterable[Excluded]) -> PlanningDomain:
     guards = [guard for each in last.planned for guard in each.guards]
     constants = {each.object.name: each.object for each in last.objects.values()}
     actions = tuple(action for each in last.planned for action in each.actions)
     used = {name for action in actions for name in action_terms(action) & constants.keys()}
     predicates = (*_facts(last, constants, {each.name for each in guards}), *guards)
     return PlanningDomain(
-        name=kebab(name),
+        name=to_kebab(name),
         types=last.symbols.hierarchy.types,
         predicates=tuple(sorted(predicates, key=lambda each: each.name)),
         costs=tuple(cost for each in last.planned for cost in each.costs),
@@ -117,7 +124,7 @@ def _domain(name: str, last: _Round, excluded: Iterable[Excluded]) -> PlanningDo
     )
 
 
-def _facts(last: _Round, constants: Mapping[str, Typed], guards: Collection[str]) -> list[Predicate]:
+def _facts(last: _Attempt, constants: Mapping[str, Typed], guards: Collection[str]) -> list[Predicate]:
     """Return the predicates that actions use, their parameters of types wide enough for every use."""
     found: dict[str, Predicate] = {}
     join = last.symbols.hierarchy.join

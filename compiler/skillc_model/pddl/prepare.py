@@ -36,7 +36,7 @@ GOAL_REACHED = "goal-reached"
 REACH_GOAL = "reach-goal"
 
 
-def prepared(problem: Problem) -> Problem:
+def remove_axioms(problem: Problem) -> Problem:
     """Return an equivalent problem without axioms; its goal action, if any, is no step of a plan."""
     expanded = replace(problem, domain=_expanded_domain(problem))
     literals = all(isinstance(each, Atom | Negation) for each in conjuncts(problem.goal))

@@ -37,10 +37,10 @@ class Problem:
     @property
     def rounds_down(self) -> bool:
         """Whether some duration is not a whole number of units."""
-        return any((each * self.domain.scale).denominator != 1 for each in durations(self))
+        return any((each * self.domain.scale).denominator != 1 for each in action_durations(self))
 
 
-def durations(problem: Problem) -> frozenset[Fraction]:
+def action_durations(problem: Problem) -> frozenset[Fraction]:
     """Return how long actions of a problem take, in seconds."""
     fixed = {each.cost.seconds for each in problem.domain.actions if isinstance(each.cost, FixedCost)}
     return frozenset(fixed | {each.seconds for each in problem.costs})

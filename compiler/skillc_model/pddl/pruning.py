@@ -12,7 +12,7 @@ from skillc_model.pddl.formulas import atoms
 from skillc_model.pddl.typed import action_terms
 
 
-def pruned(domain: PlanningDomain) -> PlanningDomain:
+def prune_unread_values(domain: PlanningDomain) -> PlanningDomain:
     """Return the domain without unread values that are false or that actions only take away."""
     read = {name for action in domain.actions for name in _read(action)}
     added = {change.atom.predicate for action in domain.actions for change in action.effects if change.positive}

@@ -21,7 +21,7 @@ ORDER = (
 )
 
 
-def requirements(domain: PlanningDomain) -> tuple[str, ...]:
+def find_requirements(domain: PlanningDomain) -> tuple[str, ...]:
     """Return the requirements of the classical domain."""
     used = {":strips", ":typing", ":action-costs"}
     for action in domain.actions:

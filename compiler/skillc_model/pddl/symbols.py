@@ -9,7 +9,7 @@ from functools import cached_property
 from skillc_model.pddl.domain import ROOT, ClassFact, Predicate, PropertyFact, RelationFact
 from skillc_model.pddl.formulas import Typed
 from skillc_model.pddl.hierarchy import Hierarchy
-from skillc_model.pddl.names import finite_values, fresh, value_key
+from skillc_model.pddl.names import finite_values, make_unique, value_key
 from skillc_model.read_write import may_change
 from skillc_rdf.vocabulary.closure import Directed
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -37,7 +37,7 @@ class Symbols:
     def _members(self) -> dict[str, str]:
         chosen: dict[str, str] = {}
         for cls in sorted(self.vocabulary.classes):
-            chosen[cls] = fresh(f"is-{self._by_term[cls]}", {*self.names, *chosen.values()})
+            chosen[cls] = make_unique(f"is-{self._by_term[cls]}", {*self.names, *chosen.values()})
         return chosen
 
     def affected(self, iri: str) -> bool:

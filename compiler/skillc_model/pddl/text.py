@@ -28,29 +28,29 @@ from skillc_model.pddl.formulas import (
     conjuncts,
 )
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.requirements import requirements
+from skillc_model.pddl.requirements import find_requirements
 
 WIDTH = 100
 
 
-def domain_text(domain: PlanningDomain) -> str:
+def format_domain(domain: PlanningDomain) -> str:
     """Return the classical domain with action costs; hold conditions join the preconditions."""
-    return _template("domain.pddl.j2").render(domain=domain, requirements=requirements(domain))
+    return _template("domain.pddl.j2").render(domain=domain, requirements=find_requirements(domain))
 
 
-def temporal_text(domain: PlanningDomain) -> str:
+def format_temporal_domain(domain: PlanningDomain) -> str:
     """Return the domain with durative actions: hold conditions hold over all, devices in use are locked."""
-    needed = [each for each in requirements(domain) if each != ":action-costs"]
+    needed = [each for each in find_requirements(domain) if each != ":action-costs"]
     numbers = [":numeric-fluents"] if domain.costs else []
     return _template("temporal.pddl.j2").render(domain=domain, requirements=(*needed, *numbers, ":durative-actions"))
 
 
-def problem_text(problem: Problem) -> str:
+def format_problem(problem: Problem) -> str:
     """Return the problem for the classical domain."""
     return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), idle=(), temporal=False)
 
 
-def temporal_problem_text(problem: Problem) -> str:
+def format_temporal_problem(problem: Problem) -> str:
     """Return the problem for the temporal domain: no device is in use at first, and the makespan counts."""
     idle = _lockable(problem)
     return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), idle=idle, temporal=True)
@@ -78,14 +78,14 @@ def _template(name: str) -> Template:
         autoescape=False,
     )
     environment.filters |= {
-        "cost": cost_text,
-        "declared": declared_text,
-        "effect": effect_text,
-        "formula": formula_text,
+        "cost": format_cost,
+        "declared": format_typed,
+        "effect": format_effect,
+        "formula": format_formula,
         "lines": str.splitlines,
         "meaning": _meaning_lines,
-        "scale": _scale_text,
-        "precondition": lambda action: formula_text(_classical(action), 4),
+        "scale": _format_scale,
+        "precondition": lambda action: format_formula(_classical(action), 4),
         "start": lambda action: conjuncts(_classical(action)),
         "conjuncts": conjuncts,
         "durative": _durative,
@@ -98,12 +98,12 @@ def _classical(action: Action) -> Formula:
     return conjunction((action.precondition, action.hold))
 
 
-def declared_text(typed: Iterable[Typed]) -> str:
+def format_typed(typed: Iterable[Typed]) -> str:
     """Return `?a - type ?b - type`."""
     return " ".join(f"{each.name} - {each.type}" for each in typed)
 
 
-def cost_text(cost: Cost, domain: PlanningDomain) -> str:
+def format_cost(cost: Cost, domain: PlanningDomain) -> str:
     """Return the number, in units of the domain, or the function that an action costs."""
     match cost:
         case FixedCost(seconds=seconds):
@@ -114,7 +114,7 @@ def cost_text(cost: Cost, domain: PlanningDomain) -> str:
             assert_never(cost)
 
 
-def formula_text(formula: Formula, indent: int = 0) -> str:
+def format_formula(formula: Formula, indent: int = 0) -> str:
     """Return the formula, on one line where it fits and with a part per line where it does not."""
     match formula:
         case Atom(predicate=predicate, terms=terms):
@@ -122,28 +122,28 @@ def formula_text(formula: Formula, indent: int = 0) -> str:
         case Equal(left=left, right=right):
             return f"(= {left} {right})"
         case Negation(body=body):
-            return f"(not {formula_text(body)})"
+            return f"(not {format_formula(body)})"
         case Conjunction(parts=parts):
             return _block("and", parts, indent)
         case Disjunction(parts=parts):
             return _block("or", parts, indent)
         case Existential(variable=variable, body=body):
-            return f"(exists ({declared_text((variable,))}) {formula_text(body, indent)})"
+            return f"(exists ({format_typed((variable,))}) {format_formula(body, indent)})"
         case Universal(variable=variable, body=body):
-            return f"(forall ({declared_text((variable,))}) {formula_text(body, indent)})"
+            return f"(forall ({format_typed((variable,))}) {format_formula(body, indent)})"
         case _:
             assert_never(formula)
 
 
-def effect_text(change: Change) -> str:
+def format_effect(change: Change) -> str:
     """Return one effect of a classical action."""
     effect = _literal(change)
     if change.condition != TRUE:
-        effect = f"(when {formula_text(change.condition)} {effect})"
-    return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
+        effect = f"(when {format_formula(change.condition)} {effect})"
+    return f"(forall ({format_typed(change.variables)}) {effect})" if change.variables else effect
 
 
-def used_up(change: Change, action: Action) -> bool:
+def is_used_up(change: Change, action: Action) -> bool:
     """Whether an action that takes time deletes at its start what it reads there and does not need to its end."""
     deleted = not change.positive and change.condition == TRUE and not change.variables
     return deleted and change.atom in conjuncts(action.precondition) and change.atom not in atoms(action.hold)
@@ -154,16 +154,16 @@ def _durative(change: Change, action: Action) -> str:
 
     Otherwise two actions that overlap could use up the same thing.
     """
-    if used_up(change, action):
+    if is_used_up(change, action):
         return f"(at start {_literal(change)})"
     effect = f"(at end {_literal(change)})"
     if change.condition != TRUE:
-        effect = f"(when (at end {formula_text(change.condition)}) {effect})"
-    return f"(forall ({declared_text(change.variables)}) {effect})" if change.variables else effect
+        effect = f"(when (at end {format_formula(change.condition)}) {effect})"
+    return f"(forall ({format_typed(change.variables)}) {effect})" if change.variables else effect
 
 
 def _literal(change: Change) -> str:
-    return formula_text(change.atom if change.positive else Negation(change.atom))
+    return format_formula(change.atom if change.positive else Negation(change.atom))
 
 
 def _list(head: str, terms: Sequence[str]) -> str:
@@ -171,17 +171,17 @@ def _list(head: str, terms: Sequence[str]) -> str:
 
 
 def _block(word: str, parts: Sequence[Formula], indent: int) -> str:
-    flat = _list(word, [formula_text(part) for part in parts])
+    flat = _list(word, [format_formula(part) for part in parts])
     if word == "or" and not parts:
         raise ValueError("PDDL has no word for false: a condition that can never hold must be told before printing")
     if len(flat) + indent <= WIDTH:
         return flat
     inner = " " * (indent + 2)
-    lines = "".join(f"\n{inner}{formula_text(part, indent + 2)}" for part in parts)
+    lines = "".join(f"\n{inner}{format_formula(part, indent + 2)}" for part in parts)
     return f"({word}{lines}\n{' ' * indent})"
 
 
-def _scale_text(scale: Fraction) -> str:
+def _format_scale(scale: Fraction) -> str:
     if scale == 1:
         return "a unit is a second"
     if scale.numerator == 1:

@@ -43,7 +43,7 @@ from skillc_model.pddl.formulas import (
     disjunction,
     existential,
 )
-from skillc_model.pddl.names import variable
+from skillc_model.pddl.names import make_variable
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.read_write import terms_read
 
@@ -53,18 +53,18 @@ class Untranslatable(Exception):
 
 
 @dataclass(frozen=True)
-class Place:
+class BoundVariable:
     """What a variable of the library is called in PDDL, and its class."""
 
     variable: Typed
     cls: str
 
 
-Scope: TypeAlias = Mapping[str, Place]
+Scope: TypeAlias = Mapping[str, BoundVariable]
 
 
 @dataclass(frozen=True)
-class Named:
+class NamedIndividual:
     """An individual that formulas may name: its PDDL name and type, and its classes as far as they are known."""
 
     object: Typed
@@ -89,13 +89,13 @@ class Translator:
 
     symbols: Symbols
     evaluate_static: StaticEvaluator
-    objects: Mapping[str, Named]
+    objects: Mapping[str, NamedIndividual]
 
     def formula(self, condition: Condition, scope: Scope) -> Formula:
         """Return the condition as a formula; Untranslatable says why not."""
         match condition:
             case Not(body=body):
-                return negated(self.formula(body, scope))
+                return negate(self.formula(body, scope))
             case And(parts=parts):
                 return conjunction(self.formula(part, scope) for part in parts)
             case Or(parts=parts):
@@ -128,7 +128,7 @@ class Translator:
             case Exists(variable=name, cls=cls, body=body):
                 return self._exists(name, cls, body, scope)
             case Forall(variable=name, cls=cls, body=body):
-                return negated(self._exists(name, cls, Not(body), scope))
+                return negate(self._exists(name, cls, Not(body), scope))
             case _:
                 assert_never(condition)
 
@@ -168,7 +168,7 @@ class Translator:
             if self.symbols.takes(each.relation, sides):
                 yield Atom(self.symbols.relation(each.relation), tuple(side.name for side in sides))
 
-    def _side(self, term: Term, relation: str, side: int, scope: Scope) -> tuple[Typed, dict[str, Place]]:
+    def _side(self, term: Term, relation: str, side: int, scope: Scope) -> tuple[Typed, dict[str, BoundVariable]]:
         if not isinstance(term, Anything):
             return self.term(term, scope), {}
         place = self._place("any", self.symbols.side_class(relation, side), scope)
@@ -189,16 +189,16 @@ class Translator:
                     "and skills change it"
                 )
 
-    def _place(self, name: str, cls: str, scope: Scope) -> Place:
+    def _place(self, name: str, cls: str, scope: Scope) -> BoundVariable:
         taken = {place.variable.name for place in scope.values()}
-        return Place(Typed(variable(name, taken), self.symbols.hierarchy.type_name(cls)), cls)
+        return BoundVariable(Typed(make_variable(name, taken), self.symbols.hierarchy.type_name(cls)), cls)
 
     def _exists(self, name: str, cls: str, body: Condition, scope: Scope) -> Formula:
         place = self._place(name, cls, scope)
         member = self.membership(cls, place)
         return existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
 
-    def membership(self, cls: str, place: Place) -> Formula:
+    def membership(self, cls: str, place: BoundVariable) -> Formula:
         """Return what remains to be tested for the variable to be of the class, given its PDDL type."""
         hierarchy = self.symbols.hierarchy
         exact = hierarchy.is_exact(cls) and hierarchy.type_name(cls) == place.variable.type
@@ -258,7 +258,7 @@ class Translator:
         return disjunction(Atom(self.symbols.value(iri, value), (subject.name,)) for value in values)
 
 
-def negated(formula: Formula) -> Formula:
+def negate(formula: Formula) -> Formula:
     """Return the negation of a formula, pushed inwards to its atoms."""
     match formula:
         case Atom() | Equal():
@@ -266,13 +266,13 @@ def negated(formula: Formula) -> Formula:
         case Negation(body=body):
             return body
         case Conjunction(parts=parts):
-            return disjunction(negated(part) for part in parts) if parts else FALSE
+            return disjunction(negate(part) for part in parts) if parts else FALSE
         case Disjunction(parts=parts):
-            return conjunction(negated(part) for part in parts) if parts else TRUE
+            return conjunction(negate(part) for part in parts) if parts else TRUE
         case Existential(variable=variable, body=body):
-            inner = negated(body)
+            inner = negate(body)
             return TRUE if inner == TRUE else Universal(variable, inner)
         case Universal(variable=variable, body=body):
-            return existential(variable, negated(body))
+            return existential(variable, negate(body))
         case _:
             assert_never(formula)

@@ -14,15 +14,15 @@ TypedAtom: TypeAlias = tuple[Atom, tuple[str, ...]]
 def typed_atoms(action: Action, constants: Mapping[str, str]) -> Iterator[TypedAtom]:
     """Yield every atom of an action with the types of its terms; `constants` are the types of objects by name."""
     types = {**constants, **{each.name: each.type for each in action.parameters}}
-    yield from atoms_within(action.precondition, types)
-    yield from atoms_within(action.hold, types)
+    yield from typed_atoms_in(action.precondition, types)
+    yield from typed_atoms_in(action.hold, types)
     for change in action.effects:
         inside = {**types, **{each.name: each.type for each in change.variables}}
-        yield from atoms_within(change.atom, inside)
-        yield from atoms_within(change.condition, inside)
+        yield from typed_atoms_in(change.atom, inside)
+        yield from typed_atoms_in(change.condition, inside)
 
 
-def atoms_within(formula: Formula, types: Mapping[str, str]) -> Iterator[TypedAtom]:
+def typed_atoms_in(formula: Formula, types: Mapping[str, str]) -> Iterator[TypedAtom]:
     """Yield every atom of a formula with the types of its terms."""
     match formula:
         case Atom(terms=terms):
@@ -30,12 +30,12 @@ def atoms_within(formula: Formula, types: Mapping[str, str]) -> Iterator[TypedAt
         case Equal():
             pass
         case Negation(body=body):
-            yield from atoms_within(body, types)
+            yield from typed_atoms_in(body, types)
         case Conjunction(parts=parts) | Disjunction(parts=parts):
             for part in parts:
-                yield from atoms_within(part, types)
+                yield from typed_atoms_in(part, types)
         case Existential(variable=variable, body=body) | Universal(variable=variable, body=body):
-            yield from atoms_within(body, {**types, variable.name: variable.type})
+            yield from typed_atoms_in(body, {**types, variable.name: variable.type})
         case _:
             assert_never(formula)
 

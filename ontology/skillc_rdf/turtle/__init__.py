@@ -1,6 +1,6 @@
-"""Reads Turtle with the place of every term, and says in the author's words what is wrong with a text that is none.
+"""Parses Turtle with the source span of every term, and reports syntax errors with fixes.
 
-RDF parsers keep no places and stop at the first mistake. This one keeps both ends of every term, goes on after a
-mistake, and reads the same statements as they do from a text without one. It knows neither language nor runtime, so
-that vocabularies, scenes and editors share it.
+Other RDF parsers keep no positions and stop at the first error. This one keeps both ends of every term, recovers from
+errors, and reads the same statements from a valid text. It depends neither on the skill language nor on the runtime.
+Start at `parser.parse`.
 """

@@ -1,4 +1,4 @@
-"""Adds statements to Turtle texts and takes them away; layout and comments around them stay as they are."""
+"""Adds and removes statements in Turtle texts; the layout and comments around them are not changed."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from skillc_rdf.turtle.terms import RDF_TYPE, XSD
 from skillc_rdf.turtle.tokens import Token, tokens
 
 Names: TypeAlias = Callable[[str], str]
-"""Gives the term that an IRI stands for, for IRIs that are other names."""
+"""Maps an IRI that is an alias to the term that it stands for; other IRIs to themselves."""
 INDENT = "    "
 _LOCAL = re.compile(r"[A-Za-z_](?:[\w-]*[\w])?")
 _PLAIN = re.compile(r"[+-]?\d+|[+-]?\d*\.\d+|[+-]?(?:\d+\.?\d*|\.\d+)[eE][+-]?\d+|true|false")
 
 
-class NotWritten(ValueError):
-    """A statement that is to be taken away and does not stand in the text."""
+class StatementNotFound(ValueError):
+    """The statement to remove is not in the text."""
 
 
 class Editor:
-    """A Turtle text, without mistakes, that is edited statement by statement."""
+    """A Turtle text without errors that is edited statement by statement."""
 
     def __init__(self, text: str, base: str, named: Names) -> None:
         self.text = text
@@ -33,7 +33,7 @@ class Editor:
         self._named = named
 
     def add(self, subject: str, predicate: str, object_: Node) -> None:
-        """Say that something is so, beside what else is said of the subject; nothing if it stands there already."""
+        """Add a statement next to the others about its subject; do nothing if it is in the text."""
         said = self._said(subject)
         alike = [each for each in said if self._named(each.predicate) == predicate]
         if any(self._same(each.object, object_) for each in alike):
@@ -50,7 +50,7 @@ class Editor:
             self.text += f"{before}\n{sentence}\n"
 
     def set(self, subject: str, predicate: str, object_: Node) -> None:
-        """Say that something is so and nothing else with this predicate."""
+        """Set the only object of a subject and predicate."""
         alike = [each for each in self._said(subject) if self._named(each.predicate) == predicate]
         if not alike:
             self.add(subject, predicate, object_)
@@ -60,18 +60,18 @@ class Editor:
         self._put(alike[0].object_at.start, self._end(alike[0]), self._written(object_))
 
     def remove(self, subject: str, predicate: str, object_: Node) -> None:
-        """Take a statement away; NotWritten if it does not stand in the text."""
+        """Remove a statement; NotWritten if it is not in the text."""
         alike = [each for each in self._said(subject) if self._named(each.predicate) == predicate]
         found = [each for each in alike if self._same(each.object, object_)]
         if not found:
-            raise NotWritten
+            raise StatementNotFound
         for each in reversed(found):
             self._cut(each)
 
     def forget(self, individual: str) -> None:
-        """Take away all that is said of an individual, and all that leads to it; NotWritten if there is nothing."""
+        """Remove all statements with an individual as subject or object; NotWritten if there are none."""
         if not self._about(individual):
-            raise NotWritten
+            raise StatementNotFound
         while found := self._about(individual):
             self._cut(found[-1])
 
@@ -103,7 +103,7 @@ class Editor:
                 return str(node)
 
     def _reads_as(self, text: str, datatype: str) -> bool:
-        """Whether a literal may stand without quotes."""
+        """Whether a literal of this datatype can be written without quotes."""
         kind = "integer" if re.fullmatch(r"[+-]?\d+", text) else "decimal"
         kind = "double" if "e" in text.lower() and text not in ("true", "false") else kind
         return datatype == XSD + ("boolean" if text in ("true", "false") else kind)
@@ -119,7 +119,7 @@ class Editor:
         return f"<{iri}>"
 
     def _put_beside(self, last: Statement, pair: str) -> None:
-        """Put a predicate with its object before the last of a subject, which keeps the comment behind it."""
+        """Insert a predicate with its object before the last pair of a subject, so that its trailing comment stays."""
         if last.predicate == RDF_TYPE:
             end = self._end(last)
             self._put(end, end, f" ;\n{INDENT}{pair}")
@@ -128,7 +128,7 @@ class Editor:
             self._put(start, start, f"{pair} ;\n{INDENT}")
 
     def _end(self, statement: Statement) -> int:
-        """Return where an object ends, with its brackets."""
+        """Return the offset where an object ends, brackets included."""
         depth = 0
         for token in tokens(self.text):
             if token.start < statement.object_at.start:
@@ -139,7 +139,7 @@ class Editor:
         return len(self.text)
 
     def _cut(self, statement: Statement) -> None:
-        """Take away an object, with its predicate if it is the only one, with its subject if nothing else is said."""
+        """Remove an object; also its predicate if it has no other object, and the subject if nothing is left."""
         marks = list(tokens(self.text))
         starts = {token.start: number for number, token in enumerate(marks)}
         first, end = starts[statement.object_at.start], self._end(statement)
@@ -162,7 +162,7 @@ class Editor:
             self._take(statement.subject_at.start, after.end)
 
     def _take(self, start: int, end: int) -> None:
-        """Take a stretch of text away, and its line if nothing else stands on it."""
+        """Remove a range of text, and its lines if nothing else is on them."""
         line = self.text.rfind("\n", 0, start) + 1
         rest = self.text.find("\n", end)
         rest = len(self.text) if rest < 0 else rest + 1

@@ -1,7 +1,8 @@
-"""What is said of a token that cannot stand where it does: in the author's words, with what to write."""
+"""The messages of syntax errors: what is wrong with a token, and what to write instead."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import NamedTuple
@@ -13,36 +14,38 @@ COMMENTS = ("//", "/*", "--", ";;", "%")
 
 
 class SyntaxMessage(NamedTuple):
-    """What is wrong with a token, what to write instead, and the text that would be right in its place, if known."""
+    """The message about a token, a help text, and the text to write in its place, if known."""
 
     message: str
     help: str = ""
     instead: str | None = None
 
 
-def shown(token: Token) -> str:
-    """Return a token as messages quote it: its first line, cut where it is long."""
+def quote_token(token: Token) -> str:
+    """Return a token as messages quote it: its first line, at most LONGEST characters of it."""
     first = token.text.split("\n", 1)[0]
     return f"`{first if len(first) <= LONGEST else first[:LONGEST] + '..'}`" if first else "the end of the file"
 
 
-def no_term(token: Token, names: Iterable[str]) -> SyntaxMessage | None:
-    """Say why a token is no term at all, wherever it stands; `names` are those the text has. None for one that is."""
+def explain_invalid_term(token: Token, names: Iterable[str]) -> SyntaxMessage | None:
+    """Return why a token is not a term, None if it is one; `names` are the prefixed names in the text."""
     match token.kind:
         case "open-text":
             return SyntaxMessage("the text that begins here has no closing quote", f"end it with `{_quote(token)}`")
         case "open-iri" if token.text.startswith("<<"):
             return SyntaxMessage(
-                "statements about statements are not Turtle 1.1", "name what it is about, and say it of that"
+                "Turtle 1.1 has no statements about statements", "make the statement about a named individual"
             )
         case "open-iri":
-            return SyntaxMessage("the IRI that begins here has no `>`", "an IRI has no spaces and ends with `>`")
+            return SyntaxMessage("the IRI that begins here has no `>`", "an IRI contains no spaces and ends with `>`")
         case "stray" if token.text.startswith(COMMENTS):
-            return SyntaxMessage(f"{shown(token)} is no Turtle", "a comment begins with `#`")
+            return SyntaxMessage(f"{quote_token(token)} is not Turtle", "a comment begins with `#`")
         case "stray" if token.text.startswith(("{", "}")):
             return SyntaxMessage("named graphs are not Turtle", "a scene is one graph: remove the braces and the name")
         case "stray":
-            return SyntaxMessage(f"{shown(token)} is no Turtle", "delete it, or put it in quotes if it is a text")
+            return SyntaxMessage(
+                f"{quote_token(token)} is not Turtle", "delete it, or put it in quotes if it is a text"
+            )
         case "word" if token.text not in ("a", "true", "false"):
             return _bare_word(token, names)
         case _:
@@ -53,7 +56,7 @@ def _bare_word(token: Token, names: Iterable[str]) -> SyntaxMessage:
     word = token.text
     near = get_close_matches(word.lower(), ("true", "false"), n=1, cutoff=0.7)
     if near:
-        return SyntaxMessage(f"`{word}` is no value", f"did you mean `{near[0]}`?", near[0])
+        return SyntaxMessage(f"`{word}` is not a value", f"did you mean `{near[0]}`?", near[0])
     same = sorted({name for name in names if name.partition(":")[2] == word})
     if same:
         instead = same[0] if len(same) == 1 else None
@@ -63,73 +66,93 @@ def _bare_word(token: Token, names: Iterable[str]) -> SyntaxMessage:
     return SyntaxMessage(f"`{word}` has no prefix", f'write `prefix:{word}`, or `"{word}"` if it is a text')
 
 
-def no_subject(token: Token) -> SyntaxMessage:
-    """Say why a token cannot begin a statement."""
+def explain_no_subject(token: Token) -> SyntaxMessage:
+    """Return why a token cannot begin a statement."""
     if token.is_mark(";,"):
-        help_ = f"`{token.text}` goes on with a statement; did a `.` end it too early?"
-        return SyntaxMessage(f"there is nothing that `{token.text}` could go on with", help_)
+        help_ = f"`{token.text}` continues a statement; did a `.` end it too early?"
+        return SyntaxMessage(f"there is no statement that `{token.text}` could continue", help_)
     if token.is_mark("."):
-        return SyntaxMessage("there is no statement that this `.` could end", "delete it")
-    return SyntaxMessage(f"a statement begins with the thing that it is about, and this is {shown(token)}")
+        return SyntaxMessage("this `.` ends no statement", "delete it")
+    return SyntaxMessage(f"a statement begins with its subject, but this is {quote_token(token)}")
 
 
-def nothing_said(subject: Token) -> SyntaxMessage:
-    """Say that a statement ends behind its subject."""
-    return SyntaxMessage(f"nothing is said of {shown(subject)}", "say of which class it is, `a CLASS`, or delete it")
+def explain_lone_subject(subject: Token) -> SyntaxMessage:
+    """Return that a statement has only a subject."""
+    return SyntaxMessage(f"nothing is stated about {quote_token(subject)}", "state its class, `a CLASS`, or delete it")
 
 
-def no_declaration(word: str) -> SyntaxMessage:
-    """Say that a prefix or a base is not declared like that."""
+def explain_declaration(word: str) -> SyntaxMessage:
+    """Return that a declaration of a prefix or a base is wrong."""
     form = "prefix name: <IRI>" if word == "prefix" else "base <IRI>"
-    return SyntaxMessage(f"this is no declaration of a {word}", f"it is written `@{form} .`")
+    return SyntaxMessage(f"this is not a valid declaration of a {word}", f"write `@{form} .`")
 
 
-def new_statement(subject: Token) -> SyntaxMessage:
-    """Say that a `;` stands before a new statement."""
-    return SyntaxMessage(f"a `.` ends the statement, and {shown(subject)} begins another", "write `.`")
+def explain_new_statement(subject: Token) -> SyntaxMessage:
+    """Return that a `;` is before a new statement."""
+    return SyntaxMessage(f"{quote_token(subject)} begins a new statement, so a `.` must end this one", "write `.`")
 
 
-def no_predicate(token: Token) -> SyntaxMessage:
-    """Say why a token cannot be what is said of a thing."""
-    message = f"a relation or a property stands here, and this is {shown(token)}"
-    return SyntaxMessage(message, "is there a `;` or `.` before it that should be a `,`, or is the relation missing?")
+def explain_no_predicate(token: Token) -> SyntaxMessage:
+    """Return why a token cannot be a predicate."""
+    message = f"a relation or a property is expected here, but this is {quote_token(token)}"
+    return SyntaxMessage(message, "should the `;` or `.` before it be a `,`, or is the relation missing?")
 
 
-def no_object(token: Token, predicate: Token) -> SyntaxMessage:
-    """Say why a predicate has no object."""
+def explain_no_object(token: Token, predicate: Token) -> SyntaxMessage:
+    """Return why a predicate has no object."""
     if token.kind == "word":
-        return SyntaxMessage(f"{shown(predicate)} has no value: `a` stands before a class")
-    article = "it is" if predicate.text == "a" else "there is"
-    help_ = f"write what {article} after {shown(predicate)}"
+        return SyntaxMessage(f"{quote_token(predicate)} has no value: `a` is written before a class")
+    what = "the class" if predicate.text == "a" else "the value"
+    help_ = f"write {what} after {quote_token(predicate)}"
     if predicate.kind == "name":
-        help_ += f", or `a {predicate.text}` if it is the class of the thing"
-    return SyntaxMessage(f"{shown(predicate)} has no value", help_)
+        help_ += f", or `a {predicate.text}` if it is a class"
+    return SyntaxMessage(f"{quote_token(predicate)} has no value", help_)
 
 
-def goes_on() -> SyntaxMessage:
-    """Say that a `.` ends a statement that goes on behind it."""
-    return SyntaxMessage("this `.` ends the statement, and it goes on behind", "`;` says more of the same thing", ";")
+def explain_early_end() -> SyntaxMessage:
+    """Return that a `.` ends a statement that continues after it."""
+    return SyntaxMessage("the statement continues after this `.`", "`;` separates predicates of the same subject", ";")
 
 
-def surplus(token: Token, before: Token) -> SyntaxMessage:
-    """Say that a term stands where a mark should."""
-    help_ = "a `;` stands before the next thing that is said"
-    return SyntaxMessage(f"{shown(token)} stands behind {shown(before)}", help_, ";")
+def explain_surplus(token: Token, before: Token) -> SyntaxMessage:
+    """Return that a term is in the place of a mark."""
+    help_ = "write a `;` before the next predicate"
+    return SyntaxMessage(f"unexpected {quote_token(token)} after {quote_token(before)}", help_, ";")
 
 
-def missing_mark(mark: str, after: Token) -> SyntaxMessage:
-    """Say that a mark is missing."""
-    what = {".": "ends the statement", ";": "says more of the same thing", ",": "gives another value"}
-    close = {"]": "ends what is in brackets", ")": "ends the list"}
-    return SyntaxMessage(f"a `{mark}` is missing after {shown(after)}", f"`{mark}` {(what | close)[mark]}")
+def explain_missing_mark(mark: str, after: Token) -> SyntaxMessage:
+    """Return that a mark is missing."""
+    what = {".": "ends the statement", ";": "separates predicates of the same subject", ",": "separates values"}
+    close = {"]": "closes the brackets", ")": "ends the list"}
+    return SyntaxMessage(f"a `{mark}` is missing after {quote_token(after)}", f"`{mark}` {(what | close)[mark]}")
 
 
-def number_with_unit(number: Token, unit: Token) -> SyntaxMessage:
-    """Say that a number has no unit."""
+def explain_unit(number: Token, unit: Token) -> SyntaxMessage:
+    """Return that a number must not have a unit."""
     return SyntaxMessage(
-        f"{shown(unit)} stands behind the number {number.text}", "numbers are in SI units and stand alone"
+        f"unexpected {quote_token(unit)} after the number {number.text}",
+        "numbers are in SI units, written without the unit",
     )
 
 
 def _quote(token: Token) -> str:
     return token.text[:3] if token.text[:3] in ('"""', "'''") else token.text[:1]
+
+
+_FORMATS = {
+    "RDF/XML": re.compile(r"\s*<(?:\?xml|!DOCTYPE|!ENTITY|rdf:RDF|[\w-]+:[\w-]+[\s>])"),
+    "JSON": re.compile(r'\s*(?:\{\s*["}]|\[\s*\{)'),
+    "HTML": re.compile(r"\s*<(?:html|head|body)\b", re.IGNORECASE),
+    "a skill library": re.compile(r"(?:\s|#[^\n]*\n)*(?:use\s+\w+\s*(?:,|\n)|(?:skill|task|import|impl)\s+[\"\w])"),
+}
+_CONVERTERS = {"RDF/XML": "xml", "JSON": "json-ld"}
+
+
+def detect_other_format(text: str) -> tuple[str, str] | None:
+    """Return the name of the text's format and what to do about it; None if it may be Turtle."""
+    for name, pattern in _FORMATS.items():
+        if pattern.match(text):
+            option = _CONVERTERS.get(name)
+            help_ = f"convert it: `rdfpipe -i {option} -o turtle FILE`" if option else "use a Turtle file"
+            return name, help_
+    return None

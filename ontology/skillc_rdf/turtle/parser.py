@@ -1,4 +1,4 @@
-"""Turtle text to statements. After a mistake the reader goes on at the next `;` or `.` and tells further ones too."""
+"""Parses Turtle into statements. After an error the parser continues at the next `;` or `.`."""
 
 from __future__ import annotations
 
@@ -12,31 +12,30 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_rdf.turtle import messages
 from skillc_rdf.turtle.cursor import Cursor, extent
-from skillc_rdf.turtle.declarations import Declarations
-from skillc_rdf.turtle.messages import SyntaxMessage
-from skillc_rdf.turtle.naming import Found, Naming
-from skillc_rdf.turtle.other_formats import other_format
+from skillc_rdf.turtle.declarations import DeclarationParser
+from skillc_rdf.turtle.messages import SyntaxMessage, detect_other_format
 from skillc_rdf.turtle.statements import SOMETHING, Extent, Node, Parsed, Statement
-from skillc_rdf.turtle.terms import RDF, RDF_TYPE, named
+from skillc_rdf.turtle.term_parser import ParsedTerm, TermParser
+from skillc_rdf.turtle.terms import RDF, RDF_TYPE, make_node
 from skillc_rdf.turtle.tokens import Token
 
 NOTHING_KNOWN: Mapping[str, str] = MappingProxyType({})
 DEEPEST = 100
-"""How deep brackets may be nested."""
+"""The greatest depth of nested brackets."""
 MOST_PROBLEMS = 100
-"""A text with so many mistakes is not read to its end."""
+"""The number of errors after which the rest of a text is not read."""
 _SURROGATE = re.compile("[\ud800-\udfff]")
 FIRST, REST, NIL = f"{RDF}first", f"{RDF}rest", f"{RDF}nil"
 
 
 def parse(path: str, text: str, base: str = "", known: Mapping[str, str] = NOTHING_KNOWN) -> Parsed:
-    """Read a Turtle text; relative IRIs are completed by `base`, `known` are the prefixes of the vocabularies."""
+    """Parse a Turtle text. `base` resolves relative IRIs; `known` are the prefixes of the vocabularies."""
     halves = _SURROGATE.search(text)
     if halves is not None:
         line, column = text.count("\n", 0, halves.start()) + 1, halves.start() - text.rfind("\n", 0, halves.start())
         half = Diagnostic("broken-turtle", Span(path, line, column, line, column + 1), "this is half a character")
         return Parsed((), {}, (half,), frozenset({SOMETHING}))
-    other = other_format(text)
+    other = detect_other_format(text)
     if other is not None:
         problem = Diagnostic("not-turtle", Span(path, 1, 1, 1, 2), f"this is {other[0]}, not Turtle", other[1])
         return Parsed((), {}, (problem,), frozenset())
@@ -44,18 +43,18 @@ def parse(path: str, text: str, base: str = "", known: Mapping[str, str] = NOTHI
 
 
 class _Parser:
-    """Reads by recursive descent; a method takes the tokens of what it is called after."""
+    """A recursive descent parser; each method takes the tokens of the construct that it is named after."""
 
     def __init__(self, cursor: Cursor, base: str, known: Mapping[str, str]) -> None:
         self._cursor = cursor
-        self._naming = Naming(cursor, base, known)
-        self._declarations = Declarations(cursor, self._naming)
+        self._naming = TermParser(cursor, base, known)
+        self._declarations = DeclarationParser(cursor, self._naming)
         self._statements: list[Statement] = []
         self._depth = 0
 
     def document(self) -> Parsed:
         cursor = self._cursor
-        subject: Found = None, Extent(0, 0)
+        subject: ParsedTerm = None, Extent(0, 0)
         while not cursor.at_end:
             if len(cursor.problems) >= MOST_PROBLEMS:
                 self._give_up()
@@ -65,7 +64,7 @@ class _Parser:
             elif cursor.at_lost_prefix:
                 self._declarations.read_lost()
             elif cursor.peek.is_mark("."):
-                cursor.report(cursor.peek, messages.no_subject(cursor.take()))
+                cursor.report(cursor.peek, messages.explain_no_subject(cursor.take()))
             else:
                 subject = self._sentence(subject)
         problems = sorted((*cursor.problems, *self._naming.prefixes.problems()), key=lambda problem: problem.span)
@@ -73,25 +72,23 @@ class _Parser:
         return Parsed(tuple(self._statements), prefixes, tuple(problems), frozenset(self._naming.doubtful))
 
     def _give_up(self) -> None:
-        """Leave out the rest of a text that is wrong almost everywhere."""
+        """Skip the rest of a text with too many errors."""
         token = self._cursor.peek
-        message = SyntaxMessage(
-            f"there are {MOST_PROBLEMS} mistakes before this; the rest of the file is not looked at"
-        )
+        message = SyntaxMessage(f"there are {MOST_PROBLEMS} errors before this; the rest of the file is not checked")
         self._cursor.report(token, message)
         self._naming.doubtful.add(SOMETHING)
 
-    def _sentence(self, before: Found) -> Found:
-        """Read what is said of a subject and return it; what goes on with the subject before says more of that."""
+    def _sentence(self, before: ParsedTerm) -> ParsedTerm:
+        """Parse the statements about a subject and return it: `before` if they continue those about that one."""
         cursor = self._cursor
         if cursor.peek.is_mark(";,"):
-            cursor.report(cursor.peek, messages.no_subject(cursor.take()))
+            cursor.report(cursor.peek, messages.explain_no_subject(cursor.take()))
             if before[0] is None:
                 self._declarations.leave_line()
                 return before
             subject = before
         elif cursor.at_value_of_name and before[0] is not None:
-            cursor.report(cursor.before, messages.goes_on())
+            cursor.report(cursor.before, messages.explain_early_end())
             subject = before
         else:
             subject = self._subject()
@@ -102,16 +99,16 @@ class _Parser:
         return subject
 
     def _end(self) -> None:
-        """Take the `.` of a sentence, or say that there is none; what else stands here is told as a sentence."""
+        """Take the `.` of a statement, or report that it is missing."""
         if not self._cursor.take_mark(".") and not self._cursor.peek.is_mark(",;"):
             self._cursor.put(".")
             self._cursor.take()
 
-    def _subject(self) -> Found:
+    def _subject(self) -> ParsedTerm:
         token = self._cursor.peek
         if token.kind in ("iri", "name", "blank") or token.is_mark("(["):
             return self._term()
-        message = messages.no_term(token, self._cursor.names) or messages.no_subject(token)
+        message = messages.explain_invalid_term(token, self._cursor.names) or messages.explain_no_subject(token)
         self._cursor.report(token, message)
         if not token.is_word("a"):
             self._cursor.take()
@@ -119,14 +116,14 @@ class _Parser:
         return None, extent(token)
 
     def _pairs(self, subject: Node | None, at: Extent) -> None:
-        """Read `predicate object, .. ; ..` up to a `.` or a `]`; what is broken is left out."""
+        """Parse `predicate object, .. ; ..` up to a `.` or a `]`; broken pairs are skipped."""
         cursor = self._cursor
         if self._says_nothing(subject):
-            cursor.report(cursor.before, messages.nothing_said(cursor.before))
+            cursor.report(cursor.before, messages.explain_lone_subject(cursor.before))
         while not cursor.peek.is_mark(".])") and not cursor.at_end:
             if cursor.take_mark(";"):
                 if cursor.at_typed_thing and not self._depth:
-                    cursor.replace_last(".", messages.new_statement(cursor.peek))
+                    cursor.replace_last(".", messages.explain_new_statement(cursor.peek))
                 continue
             statements = len(self._statements)
             if self._pair(subject, at):
@@ -136,13 +133,13 @@ class _Parser:
                 self._naming.doubtful.add(subject.value)
 
     def _says_nothing(self, subject: Node | None) -> bool:
-        """Whether a statement ends behind its subject; what is said within `[ ]` is enough."""
+        """Whether a statement ends after its subject; a subject `[ .. ]` alone is a statement."""
         if self._cursor.before.is_mark("]") and self._cursor.peek.is_mark("."):
             return False
         return subject is not None and not self._cursor.peek.begins_term
 
     def _pair(self, subject: Node | None, at: Extent) -> bool:
-        """Read a predicate and its objects; whether they were understood."""
+        """Parse a predicate and its objects; return whether they are valid."""
         cursor, written = self._cursor, self._cursor.peek
         predicate = self._predicate()
         while predicate is not None:
@@ -160,17 +157,17 @@ class _Parser:
         return False
 
     def _at_next_statement(self) -> bool:
-        """Whether a statement begins on a later line: the one before has lost its end."""
+        """Whether a statement begins on a later line, so that the one before lacks its end."""
         return not self._depth and self._cursor.at_typed_thing and self._cursor.at_new_line
 
     def _report_no_object(self, predicate: Token) -> None:
         before = self._cursor.before
         if before.is_mark(","):
             self._cursor.report(
-                before, SyntaxMessage("after this `,` a value is missing", "write it, or delete the `,`")
+                before, SyntaxMessage("a value is missing after this `,`", "write it, or delete the `,`")
             )
         else:
-            self._cursor.report(predicate, messages.no_object(self._cursor.peek, predicate))
+            self._cursor.report(predicate, messages.explain_no_object(self._cursor.peek, predicate))
 
     def _predicate(self) -> str | None:
         token = self._cursor.take()
@@ -178,19 +175,21 @@ class _Parser:
             return RDF_TYPE
         if token.kind in ("iri", "name"):
             return self._naming.iri(token)
-        self._cursor.report(token, messages.no_term(token, self._cursor.names) or messages.no_predicate(token))
+        self._cursor.report(
+            token, messages.explain_invalid_term(token, self._cursor.names) or messages.explain_no_predicate(token)
+        )
         return None
 
     def _mended(self) -> bool:
-        """Say what is wrong between an object and the next mark, and mend it; whether the objects before it count."""
+        """Report and repair an error after an object; return whether the objects before it are valid."""
         token, before = self._cursor.peek, self._cursor.before
         if token.is_mark(")"):
             while self._cursor.peek.is_mark(")"):
                 self._cursor.report(self._cursor.take(), SyntaxMessage("this `)` closes nothing", "delete it"))
         elif before.kind == "number" and token.is_unit:
-            self._cursor.report(self._cursor.take(), messages.number_with_unit(before, token))
+            self._cursor.report(self._cursor.take(), messages.explain_unit(before, token))
         elif self._is_surplus():
-            self._cursor.report(token, messages.surplus(self._cursor.take(), before))
+            self._cursor.report(token, messages.explain_surplus(self._cursor.take(), before))
             self._naming.doubt(token)
             self._cursor.insert(";")
         else:
@@ -200,12 +199,12 @@ class _Parser:
         return self._cursor.peek.is_mark(";.],") or self._mended()
 
     def _is_surplus(self) -> bool:
-        """Whether a term stands in the place of the `;` before another pair on the same line."""
+        """Whether there is a term in the place of the `;` before another pair on the same line."""
         cursor = self._cursor
         return cursor.terms_ahead(most=3) == 3 and not cursor.at_new_line and not cursor.at_typed_thing
 
     def _missing(self) -> str:
-        """Return the mark that is missing here, judged by how many terms come before the next one."""
+        """Return the mark that is missing here, guessed from the number of terms before the next mark."""
         if self._cursor.at_end or self._cursor.at_directive:
             return "]" if self._depth else "."
         count = self._cursor.terms_ahead(most=3)
@@ -214,10 +213,7 @@ class _Parser:
         return ";" if count >= 2 else ","
 
     def _leave_out(self, count: int) -> None:
-        """Go on behind a pair that is broken, and forget its statements, from the number `count` on.
-
-        More may have been said of all that it names.
-        """
+        """Skip a broken pair and discard its statements, from index `count` on; all that it names becomes doubtful."""
         for statement in self._statements[count:]:
             nodes = (statement.subject, statement.object)
             self._naming.doubtful.update(node.value for node in nodes if isinstance(node, ox.NamedNode))
@@ -233,12 +229,12 @@ class _Parser:
             depth += token.is_mark("[(") - (depth > 0 and token.is_mark("])"))
             self._naming.doubt(token)
 
-    def _term(self, predicate: Token | None = None) -> Found:
+    def _term(self, predicate: Token | None = None) -> ParsedTerm:
         token = self._cursor.take()
         return (self._nested(token), extent(token)) if token.is_mark("[(") else self._naming.term(token, predicate)
 
     def _nested(self, bracket: Token) -> Node | None:
-        """Read what stands in brackets; None where it goes too deep."""
+        """Parse the content of brackets; None if they are nested too deeply."""
         if self._depth >= DEEPEST:
             message = SyntaxMessage("brackets are nested too deeply", "give the things in them names")
             self._cursor.report(bracket, message)
@@ -263,7 +259,7 @@ class _Parser:
                 members.append((member, at))
         self._close(bracket, ")")
         opened, lines = extent(bracket), self._cursor.lines
-        rest: Node = named(NIL)
+        rest: Node = make_node(NIL)
         for member, at in reversed(members):
             cell = ox.BlankNode()
             self._statements.append(Statement(cell, FIRST, member, opened, opened, at, lines))

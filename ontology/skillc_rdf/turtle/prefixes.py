@@ -1,4 +1,4 @@
-"""The prefixes of a Turtle text: what each stands for, and what is wrong with those that stand for nothing."""
+"""The prefixes of a Turtle text: their namespaces, and diagnostics of undeclared and misspelt ones."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_rdf.turtle.lines import Lines
 from skillc_rdf.turtle.tokens import Token
 
 ALIKE = 0.85
-"""How alike (0 to 1) two namespaces are when one is the other misspelt."""
+"""The similarity (0 to 1) from which a namespace counts as a misspelling of another."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class _Declared:
 
 
 class Prefixes:
-    """Collects the prefixes declared and used in a text; `known` are those that vocabularies are known by."""
+    """The prefixes declared and used in a text; `known` are those of the vocabularies."""
 
     def __init__(self, known: Mapping[str, str], lines: Lines) -> None:
         self._known = known
@@ -35,15 +35,15 @@ class Prefixes:
         self._missing: dict[str, list[Token]] = {}
 
     def declare(self, name: Token, value: Token, iri: str) -> None:
-        """Take in a declaration; a namespace that is nearly that of the vocabulary so called is taken for it."""
+        """Add a declaration; a namespace that is a misspelling of the known one is replaced by it."""
         self._declared[name.text.removesuffix(":")] = _Declared(self._meant(name, iri), iri, name, value)
 
     def give_up(self, prefix: str) -> None:
-        """Take in that a prefix is declared and nobody understands how."""
+        """Note that the declaration of a prefix could not be parsed."""
         self._lost.add(prefix)
 
     def base_of(self, prefix: str, token: Token) -> str | None:
-        """Return what a prefix stands for where it is used; None if it was not declared, which is told in the end."""
+        """Return the namespace of a prefix at a use; None if it is not declared, which `problems` reports."""
         if prefix in self._declared:
             self._used.add(prefix)
             return self._declared[prefix].iri
@@ -54,11 +54,11 @@ class Prefixes:
         return self._known.get(prefix) or (self._declared[near].iri if near else None)
 
     def all(self) -> dict[str, str]:
-        """Return what each declared prefix stands for."""
+        """Return the namespaces of the declared prefixes."""
         return {prefix: declared.iri for prefix, declared in self._declared.items()}
 
     def problems(self) -> list[Diagnostic]:
-        """Return what is wrong, once for each prefix."""
+        """Return the diagnostics, at most one per prefix."""
         misspelt = [
             self._misspelt_namespace(prefix, declared)
             for prefix, declared in self._declared.items()
@@ -79,12 +79,12 @@ class Prefixes:
         return Diagnostic("unknown-vocabulary", place, message, f"`{prefix}:` is <{declared.iri}>", fix=edit)
 
     def _undeclared(self, prefix: str, uses: list[Token]) -> Diagnostic:
-        """Tell of a prefix where it is used first, or where one that nothing uses was declared under a name like it."""
+        """Report a prefix at its first use, or at the declaration of an unused one with a similar name."""
         near = self._near(prefix)
         first = uses[0]
         if near is not None and near not in self._used and self._known.get(near) != self._declared[near].iri:
             place = self._place(self._declared[near].name)
-            message = f"`{prefix}:` is used and not declared, `{near}:` is declared and not used"
+            message = f"`{prefix}:` is used but not declared, and `{near}:` is declared but not used"
             edit = Fix(place, f"{prefix}:", f"write `{prefix}:`", safe=False)
             return Diagnostic("unknown-prefix", place, message, f"did you mean `{prefix}:`?", fix=edit)
         place = self._lines.place(first.start, first.start + len(prefix) + 1)

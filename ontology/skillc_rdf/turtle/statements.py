@@ -1,4 +1,4 @@
-"""What a Turtle text says: statements with the places of their terms."""
+"""The result of parsing a Turtle text: statements with the extents of their terms."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from skillc_dsl.source import Span
 from skillc_rdf.turtle.lines import Lines
 
 Node: TypeAlias = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
-"""A term; `ox.Triple` only for the type checker, Turtle 1.1 has no statements about statements."""
+"""A term. `ox.Triple` is for the type checker only: Turtle 1.1 has no statements about statements."""
 
 
 SOMETHING = ""
-"""Stands for what a statement is about that has lost its beginning."""
+"""Stands for the unknown subject of a statement without a beginning."""
 
 
 class Extent(NamedTuple):
-    """A stretch of text by the offsets where it begins and ends."""
+    """The offsets where a range of text begins and ends."""
 
     start: int
     end: int
 
 
 class Statement(NamedTuple):
-    """A statement and where its terms stand; of `[ ]` and `( )` the place is that of the opening bracket."""
+    """A statement and the extents of its terms; for `[ ]` and `( )` that of the opening bracket."""
 
     subject: Node
     predicate: str
@@ -39,25 +39,25 @@ class Statement(NamedTuple):
 
     @property
     def subject_place(self) -> Span:
-        """Where its subject stands, once for all that is said of it."""
+        """The span of the subject, which several statements may share."""
         return self.lines.place(*self.subject_at)
 
     @property
     def predicate_place(self) -> Span:
-        """Where its predicate stands."""
+        """The span of the predicate."""
         return self.lines.place(*self.predicate_at)
 
     @property
     def object_place(self) -> Span:
-        """Where its object stands."""
+        """The span of the object."""
         return self.lines.place(*self.object_at)
 
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """The statements of a text in order, its prefixes, and what is wrong with it.
+    """The statements of a text in order, its prefixes, and diagnostics.
 
-    `doubtful` are the IRIs of which more may be said than was understood, with SOMETHING where one is not known.
+    `doubtful` are the IRIs about which the text may state more than could be parsed; SOMETHING if one is unknown.
     """
 
     statements: tuple[Statement, ...]

@@ -1,4 +1,4 @@
-"""Tokens of Turtle as RDF terms: IRIs with prefixes and base, texts without their escapes, numbers."""
+"""Converts tokens to RDF terms: IRIs, prefixed names, texts without escapes, numbers."""
 
 from __future__ import annotations
 
@@ -22,29 +22,29 @@ _SURROGATES = range(0xD800, 0xE000)
 
 
 class TermError(ValueError):
-    """A token that is no term; the message says why, in the middle of a sentence about it."""
+    """A token that is not a valid term; the message completes a sentence that begins with the token."""
 
 
 def text_of(token: Token) -> str:
-    """Return what a text in quotes says; TermError for an escape that there is none of."""
+    """Return the text between quotes without escapes; TermError for an invalid escape."""
     width = 3 if token.text[:3] in ('"""', "'''") and len(token.text) >= 6 else 1
     inside = token.text[width:-width]
     return _ESCAPE.sub(_character, inside) if "\\" in inside else inside
 
 
 def iri_of(token: Token, base: str) -> str:
-    """Return the IRI between angle brackets, relative ones completed; TermError where it is none."""
-    return _completed(_ESCAPE.sub(_code_point, token.text[1:-1]), base)
+    """Return the IRI between angle brackets, resolved against `base`; TermError if it is invalid."""
+    return _resolve(_ESCAPE.sub(_code_point, token.text[1:-1]), base)
 
 
 def local_of(token: Token) -> tuple[str, str]:
-    """Return prefix and local name of a name, the latter without escapes."""
+    """Return the prefix and the local name, without escapes, of a prefixed name."""
     prefix, _, local = token.text.partition(":")
     return prefix, _LOCAL_ESCAPE.sub(r"\1", local) if "\\" in local else local
 
 
 def number_of(token: Token) -> ox.Literal:
-    """Return a number with the datatype that its form says."""
+    """Return a number as a literal with the datatype of its form."""
     if "e" in token.text or "E" in token.text:
         kind = "double"
     else:
@@ -53,22 +53,22 @@ def number_of(token: Token) -> ox.Literal:
 
 
 @lru_cache(maxsize=4096)
-def named(iri: str) -> ox.NamedNode:
-    """Return the node of an absolute IRI; TermError where it is none."""
+def make_node(iri: str) -> ox.NamedNode:
+    """Return the node of an absolute IRI; TermError if it is invalid."""
     try:
         return ox.NamedNode(iri)
     except ValueError as error:
-        raise TermError(f"is no IRI: {str(error).lower()}") from error
+        raise TermError(f"is not an IRI: {str(error).lower()}") from error
 
 
 @lru_cache(maxsize=4096)
-def _completed(iri: str, base: str) -> str:
-    """Return an IRI against a base, as RFC 3986 has it: by the library that also knows which IRIs are well formed."""
+def _resolve(iri: str, base: str) -> str:
+    """Return an IRI resolved against a base (RFC 3986), by the library that also validates IRIs."""
     try:
         (triple,) = ox.parse(f"<{iri}> <x:p> <x:o> .", format=ox.RdfFormat.TURTLE, base_iri=base or None)
     except (SyntaxError, ValueError) as error:
         reason = "it is relative, and there is no base" if "base" in str(error) else "it is not well formed"
-        raise TermError(f"is no IRI: {reason}") from error
+        raise TermError(f"is not an IRI: {reason}") from error
     assert isinstance(triple.subject, ox.NamedNode)
     return triple.subject.value
 
@@ -77,14 +77,14 @@ def _character(match: re.Match[str]) -> str:
     if match.group(3) is None:
         return _code_point(match)
     if match.group(3) not in _CHARACTERS:
-        raise TermError(f"has `\\{match.group(3)}`, which is no escape; a backslash is written `\\\\`")
+        raise TermError(f"has `\\{match.group(3)}`, which is not an escape; write a backslash as `\\\\`")
     return _CHARACTERS[match.group(3)]
 
 
 def _code_point(match: re.Match[str]) -> str:
     if match.group(3) is not None:
-        raise TermError(f"has `\\{match.group(3)}`, which is no escape in an IRI")
+        raise TermError(f"has `\\{match.group(3)}`, which is not an escape in an IRI")
     number = int(match.group(1) or match.group(2), 16)
     if number in _SURROGATES or number > 0x10FFFF:
-        raise TermError(f"has `{match.group()}`, which is no character")
+        raise TermError(f"has `{match.group()}`, which is not a character")
     return chr(number)

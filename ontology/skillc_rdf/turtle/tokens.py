@@ -1,4 +1,4 @@
-"""A Turtle text as tokens, each with its kind and its place; what is no token is one of its own kind.
+"""Splits a Turtle text into tokens with their kinds and offsets; invalid text becomes tokens of own kinds.
 
 Turtle 1.1, section 6.5: https://www.w3.org/TR/turtle/#sec-grammar
 """
@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple, TypeAlias, cast
 Kind: TypeAlias = Literal[
     "iri", "name", "blank", "text", "number", "word", "at", "datatype", "mark", "open-text", "open-iri", "stray", "end"
 ]
-"""`at` is a directive or a language tag, `open-text` and `open-iri` lack their end, `stray` is no Turtle at all."""
+"""`at` is a directive or a language tag, `open-text` and `open-iri` lack their end, `stray` is not Turtle."""
 
 _LETTER = (
     "A-Za-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f"
@@ -63,17 +63,17 @@ class Token(NamedTuple):
 
     @property
     def is_unit(self) -> bool:
-        """Whether this may be a unit that somebody wrote behind a number."""
+        """Whether this may be a unit after a number."""
         return self.kind in ("word", "stray") and self.text not in ("a", "true", "false")
 
     @property
     def begins_term(self) -> bool:
-        """Whether a term may begin here, possibly a wrong one."""
+        """Whether a term, perhaps a wrong one, may begin here."""
         return self.is_mark("[(") or self.kind not in ("mark", "end", "at", "datatype")
 
 
 def tokens(text: str) -> Iterator[Token]:
-    """Yield the tokens of a text, without white space and comments, and one of the kind `end` at last."""
+    """Yield the tokens of a text, without white space and comments, and at the end one of the kind `end`."""
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup
         if kind != "skip":

@@ -1,1 +1,4 @@
-"""Reads vocabularies in Turtle into the terms that libraries speak of."""
+"""Loads ontologies into vocabularies: classes, relations and properties with their axioms, and diagnostics.
+
+Start at `load.load`, then `types`, the result.
+"""

@@ -1,4 +1,4 @@
-"""What follows from relations by sub-relations, inverses and symmetry: the one closure of a vocabulary's axioms."""
+"""The closure of relations: what follows from each by sub-relations, inverses and symmetry."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ Node = TypeVar("Node", bound=Hashable)
 
 
 class Directed(NamedTuple):
-    """A relation, read from object to subject if flipped."""
+    """A relation; if `flipped`, with subject and object exchanged."""
 
     relation: str
     flipped: bool = False
 
     def flip(self, flipped: bool) -> Directed:
-        """Return the relation read the other way round if `flipped`."""
+        """Return the relation in the opposite direction if `flipped`, else itself."""
         return Directed(self.relation, self.flipped != flipped)
 
     def ends(self, subject: T, object_: T) -> tuple[T, T]:
-        """Return which of two things is its subject and which its object."""
+        """Return the two terms as subject and object of the relation itself."""
         return (object_, subject) if self.flipped else (subject, object_)
 
 
 class RelationAxioms(Protocol):
-    """What is stated of a relation and makes others hold."""
+    """The axioms of a relation from which others follow."""
 
     @property
     def parents(self) -> tuple[str, ...]: ...
@@ -43,8 +43,8 @@ class RelationAxioms(Protocol):
 class RelationClosure:
     """What each relation implies and what implies it.
 
-    `implied[r]` holds (x, flipped) when r(s, o) makes x(s, o), or x(o, s) if flipped; r itself is among them, and they
-    are sorted. `sources` is its converse. `transitive` also has the relations that say the same as a transitive one.
+    `implied[r]` contains (x, flipped) if r(s, o) implies x(s, o), or x(o, s) if flipped; r is included; sorted.
+    `sources` is the converse. `transitive` are the transitive relations and those equivalent to one.
     """
 
     implied: Mapping[str, tuple[Directed, ...]]
@@ -52,22 +52,22 @@ class RelationClosure:
     transitive: frozenset[str]
 
     def canonical(self, relation: str) -> Directed:
-        """Return the one relation that stands for all that say the same, inverses included: the first by IRI."""
+        """Return the representative of all relations equivalent to this one, inverses included: the first by IRI."""
         return self._canonical.get(relation, Directed(relation))
 
     @cached_property
     def canonical_implied(self) -> Mapping[str, tuple[Directed, ...]]:
-        """The canonical relations among those that each relation implies, sorted."""
+        """The canonical relations that each relation implies, sorted."""
         return {iri: self._in_canonical(found) for iri, found in self.implied.items()}
 
     @cached_property
     def canonical_sources(self) -> Mapping[str, tuple[Directed, ...]]:
-        """The canonical relations of which a fact makes each relation hold, its own included, sorted."""
+        """The canonical relations that imply each relation, its own included, sorted."""
         return {iri: self._in_canonical(found) for iri, found in self.sources.items()}
 
     @cached_property
     def chained(self) -> frozenset[str]:
-        """The relations of which a fact may follow over any number of steps: transitive ones, and all they imply."""
+        """The relations whose facts may follow from chains of any length: transitive ones and what they imply."""
         return frozenset(each.relation for iri in self.transitive for each in self.implied[iri])
 
     @cached_property
@@ -79,7 +79,7 @@ class RelationClosure:
 
 
 def relation_closure(relations: Mapping[str, RelationAxioms]) -> RelationClosure:
-    """Return the closure of relations by IRI; a relation that is named and not among them is left out."""
+    """Return the closure of relations by IRI; references to relations that are not among them are ignored."""
     steps = _steps(relations)
 
     def following(each: Directed) -> Iterable[Directed]:
@@ -97,7 +97,7 @@ def relation_closure(relations: Mapping[str, RelationAxioms]) -> RelationClosure
 
 
 def reachable(start: Iterable[Node], following: Callable[[Node], Iterable[Node]]) -> set[Node]:
-    """Return all nodes of a graph that can be reached from some, these included."""
+    """Return all nodes of a graph that can be reached from `start`, which is included."""
     reached = set(start)
     todo = list(reached)
     while todo:

@@ -1,4 +1,4 @@
-"""Which type of the language a data property has."""
+"""Determines the types of data properties in the skill language."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_dsl.diagnostics import Diagnostic, did_you_mean
 from skillc_dsl.source import Span
 from skillc_dsl.units import DIMENSIONS
 from skillc_rdf.vocabulary.graph import Graph, Node
-from skillc_rdf.vocabulary.names import EQUAL_CLASS, OWL, RANGE, RDFS, SKILLC, XSD
+from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, RANGE, RDFS, SKILLC, XSD
 from skillc_rdf.vocabulary.types import (
     Bounds,
     DirectionType,
@@ -47,71 +47,68 @@ FACETS = {
     f"{XSD}maxExclusive": "below",
     **{f"{SKILLC}{end}": end for end in ("least", "above", "greatest", "below")},
 }
-"""What restricts numbers in a datatype, or is said of a property, by the names that `Bounds` has for it."""
+"""The facets of datatypes and the annotations of properties that bound numbers, with their fields in `Bounds`."""
 
 
 @dataclass(frozen=True, slots=True)
-class Typed:
-    """A type, and the finite set of its values or the bounds of its numbers where there are any."""
+class PropertyType:
+    """A type, with the finite set of its values or the bounds of its numbers if it has any."""
 
     type: ValueType
     values: tuple[str, ...] = ()
     bounds: Bounds | None = None
 
 
-def value_type(graph: Graph, iri: str) -> Typed | None:
-    """Return a data property's type from its range, `skillc:dimension` and the bounds that are said of it.
-
-    None where the language has no type for it.
-    """
+def value_type(graph: Graph, iri: str) -> PropertyType | None:
+    """Return a data property's type by its range, `skillc:dimension` and bounds; None if the language has none."""
     ranges = graph.objects(iri, RANGE)
     if not ranges:
-        return Typed(PlainType("Text"))
-    typed = _typed(graph, ranges[0], graph.text(iri, f"{SKILLC}dimension") or "Number")
-    return typed and _bounded(typed, graph, [ox.NamedNode(iri)])
+        return PropertyType(PlainType("Text"))
+    typed = _type_of(graph, ranges[0], graph.text(iri, f"{SKILLC}dimension") or "Number")
+    return typed and _with_bounds(typed, graph, [ox.NamedNode(iri)])
 
 
-def ranges_of(graph: Graph, iri: str) -> tuple[str, ...]:
-    """Return the kinds of values that a data property's ranges ask for at once, in words."""
-    types = {_word(typed) for each in graph.objects(iri, RANGE) if (typed := _typed(graph, each, "Number"))}
+def describe_ranges(graph: Graph, iri: str) -> tuple[str, ...]:
+    """Return the kinds of values that a data property's ranges require, in words, sorted."""
+    types = {_word(typed) for each in graph.objects(iri, RANGE) if (typed := _type_of(graph, each, "Number"))}
     return tuple(sorted(types))
 
 
-def value_types_known(graph: Graph, properties: Iterable[str], places: Mapping[str, Position]) -> Iterator[Diagnostic]:
-    """Report the data properties whose range or dimension is none of the language."""
+def check_value_types(graph: Graph, properties: Iterable[str], places: Mapping[str, Position]) -> Iterator[Diagnostic]:
+    """Report the data properties whose range or dimension the language does not have."""
     for iri in sorted(properties):
         place = places.get(iri, Position(iri, 1, 1))
         span = Span(place.path, place.line, 1, place.line, 2)
         found = value_type(graph, iri)
         if found is not None:
-            yield from _dimension_known(graph, iri, found.type, span)
+            yield from _check_dimension(graph, iri, found.type, span)
         else:
             yield Diagnostic(
                 "unknown-datatype",
                 span,
-                f"the range of {iri} is no datatype that skillc knows, so the property cannot be used",
+                f"skillc does not support the range of {iri}, so the property cannot be used",
                 help="use xsd:double, integer, string or boolean, skillc:Pose, skillc:Vector, skillc:Direction "
                 "or an owl:oneOf of texts",
                 severity="warning",
             )
 
 
-def _dimension_known(graph: Graph, iri: str, type_: ValueType, span: Span) -> Iterator[Diagnostic]:
-    """Report a dimension that the language does not have, or that stands at values that have none."""
+def _check_dimension(graph: Graph, iri: str, type_: ValueType, span: Span) -> Iterator[Diagnostic]:
+    """Report a dimension that the language does not have, or on a property whose values are not quantities."""
     dimension = graph.text(iri, f"{SKILLC}dimension")
     if dimension is None:
         return
     if not isinstance(type_, NumberType | VectorType):
-        message = f"{iri} has a dimension, {dimension}, and its values are no quantities"
-        help_ = "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"
+        message = f"{iri} has the dimension {dimension}, but its values are not quantities"
+        help_ = "use xsd:double or skillc:Vector as its range, or remove `skillc:dimension`"
         yield Diagnostic("unknown-dimension", span, message, help_)
     elif dimension not in DIMENSIONS:
         help_ = did_you_mean(dimension, DIMENSIONS)
-        yield Diagnostic("unknown-dimension", span, f"{iri} is of the dimension {dimension}, which is none", help_)
+        yield Diagnostic("unknown-dimension", span, f"{iri} has the dimension {dimension}, which does not exist", help_)
 
 
-def _typed(graph: Graph, range_: Node, dimension: str, within: frozenset[Node] = frozenset()) -> Typed | None:
-    """Return the type of one range; one with restrictions is that which it restricts, in bounds. None in a circle."""
+def _type_of(graph: Graph, range_: Node, dimension: str, within: frozenset[Node] = frozenset()) -> PropertyType | None:
+    """Return the type of one range, for a restricted datatype with bounds; None for a cyclic definition."""
     if range_ in within:
         return None
     around = within | {range_}
@@ -119,28 +116,28 @@ def _typed(graph: Graph, range_: Node, dimension: str, within: frozenset[Node] =
         case ox.BlankNode():
             restricted = graph.objects(range_, f"{OWL}onDatatype")
             if not restricted:
-                return _enumerated(graph, range_)
-            return _restricted(graph, range_, _typed(graph, restricted[0], dimension, around))
+                return _enumeration(graph, range_)
+            return _restrict(graph, range_, _type_of(graph, restricted[0], dimension, around))
         case ox.NamedNode(value=datatype) if datatype in NUMBERS:
-            return Typed(NumberType(dimension))
+            return PropertyType(NumberType(dimension))
         case ox.NamedNode(value=datatype) if datatype == f"{SKILLC}Vector":
-            return Typed(VectorType(dimension))
+            return PropertyType(VectorType(dimension))
         case ox.NamedNode(value=datatype) if datatype in PLAIN:
-            return Typed(PLAIN[datatype])
+            return PropertyType(PLAIN[datatype])
         case ox.NamedNode(value=datatype):
             defined = [each for each in graph.objects(datatype, EQUAL_CLASS) if isinstance(each, ox.BlankNode)]
-            return _typed(graph, defined[0], dimension, around) if defined else None
+            return _type_of(graph, defined[0], dimension, around) if defined else None
     return None
 
 
-def _restricted(graph: Graph, node: ox.BlankNode, typed: Typed | None) -> Typed | None:
-    """Return what a restriction leaves of a type; lengths and patterns of texts are passed over."""
+def _restrict(graph: Graph, node: ox.BlankNode, typed: PropertyType | None) -> PropertyType | None:
+    """Return a restricted type; lengths and patterns of texts are ignored."""
     facets = (each for head in graph.objects(node, f"{OWL}withRestrictions") for each in graph.members(head))
-    return typed and _bounded(typed, graph, facets)
+    return typed and _with_bounds(typed, graph, facets)
 
 
-def _bounded(typed: Typed, graph: Graph, saying: Iterable[Node]) -> Typed:
-    """Return a type with the bounds that some nodes state."""
+def _with_bounds(typed: PropertyType, graph: Graph, saying: Iterable[Node]) -> PropertyType:
+    """Return a type with the bounds that the nodes state."""
     ends = {
         end: number
         for each in saying
@@ -158,7 +155,7 @@ def _number(node: Node) -> float | None:
         return None
 
 
-def _word(typed: Typed) -> str:
+def _word(typed: PropertyType) -> str:
     match typed.type:
         case PlainType(name="Text"):
             return "a text"
@@ -170,8 +167,8 @@ def _word(typed: Typed) -> str:
             return f"a {local_name(type(typed.type).__name__)}"
 
 
-def _enumerated(graph: Graph, node: ox.BlankNode) -> Typed | None:
+def _enumeration(graph: Graph, node: ox.BlankNode) -> PropertyType | None:
     lists = graph.objects(node, f"{OWL}oneOf")
     if not lists:
         return None
-    return Typed(PlainType("Text"), tuple(m.value for m in graph.members(lists[0]) if isinstance(m, ox.Literal)))
+    return PropertyType(PlainType("Text"), tuple(m.value for m in graph.members(lists[0]) if isinstance(m, ox.Literal)))

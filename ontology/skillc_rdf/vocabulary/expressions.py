@@ -1,34 +1,34 @@
-"""What class expressions say that a vocabulary can hold: superclasses, what is disjoint, what each member has.
+"""Reads OWL class expressions: superclasses, complements, required values.
 
-Expressions without a name stand above classes, in domains and ranges. Used are intersections, unions where a class is
-one or a domain is, complements, and restrictions that ask for at least one value; the rest has no effect.
+Anonymous expressions occur above classes and in domains and ranges. Supported are intersections, unions that define a
+class or a domain, complements, and restrictions that require at least one value; others have no effect.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.graph import Graph, Node
-from skillc_rdf.vocabulary.names import EQUAL_CLASS, OWL, SUBCLASS
+from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS
 
 AT_LEAST = tuple(
     f"{OWL}{name}" for name in ("minCardinality", "cardinality", "minQualifiedCardinality", "qualifiedCardinality")
 )
 
 
-class Needed(NamedTuple):
-    """That each member of a class has so many values of a relation or property, those of `filler` where it is given."""
+class RequiredValue(NamedTuple):
+    """Each member of a class has at least `least` values of a relation or property, of the class `filler` if given."""
 
     property: str
     least: int
     filler: str | None
 
 
-def parts(graph: Graph, cls: str) -> Iterator[Node]:
-    """Yield what a class is below of, named or not: superclasses, equals, and what these are intersections of."""
+def superclass_nodes(graph: Graph, cls: str) -> Iterator[Node]:
+    """Yield what is above a class, named or anonymous: superclasses, equivalents, and members of intersections."""
     todo = [*graph.objects(cls, SUBCLASS), *graph.objects(cls, EQUAL_CLASS)]
     seen: set[Node] = set()
     while todo:
@@ -42,19 +42,19 @@ def parts(graph: Graph, cls: str) -> Iterator[Node]:
 
 
 def superclasses(graph: Graph, cls: str) -> set[str]:
-    """Return the classes named above a class, those it is defined by too."""
-    named = {node.value for node in parts(graph, cls) if isinstance(node, ox.NamedNode)}
+    """Return the named classes above a class, including those in its definition."""
+    named = {node.value for node in superclass_nodes(graph, cls) if isinstance(node, ox.NamedNode)}
     heads = graph.objects(cls, f"{OWL}intersectionOf")
     return named | {m.value for head in heads for m in graph.members(head) if isinstance(m, ox.NamedNode)}
 
 
 def complements(graph: Graph, cls: str) -> set[str]:
-    """Return the classes that a class is below the complement of."""
-    return {other for node in parts(graph, cls) for other in graph.iris(node, f"{OWL}complementOf")}
+    """Return the classes of whose complements a class is a subclass."""
+    return {other for node in superclass_nodes(graph, cls) for other in graph.iris(node, f"{OWL}complementOf")}
 
 
 def subclasses(graph: Graph, cls: str) -> set[str]:
-    """Return the classes that a class is the union of, disjoint or not."""
+    """Return the classes of which a class is the union, disjoint or not."""
     equals = [node for node in graph.objects(cls, EQUAL_CLASS) if isinstance(node, ox.BlankNode)]
     nodes: list[Node] = [*equals, ox.NamedNode(cls)]
     heads = [head for node in nodes for head in graph.objects(node, f"{OWL}unionOf")]
@@ -63,7 +63,7 @@ def subclasses(graph: Graph, cls: str) -> set[str]:
 
 
 def alternatives(graph: Graph, iri: str, predicate: str) -> tuple[str, ...]:
-    """Return the classes of a domain or range: those named, and the members of unions, sorted."""
+    """Return the classes of a domain or range: named ones and members of unions, sorted."""
     found = set(graph.iris(iri, predicate))
     for node in graph.objects(iri, predicate):
         heads = graph.objects(node, f"{OWL}unionOf") if isinstance(node, ox.BlankNode) else ()
@@ -71,19 +71,24 @@ def alternatives(graph: Graph, iri: str, predicate: str) -> tuple[str, ...]:
     return tuple(sorted(found))
 
 
-def needs(graph: Graph, cls: str) -> Iterator[Needed]:
-    """Yield what each member of a class has at least one of."""
-    for node in parts(graph, cls):
+def required_values(graph: Graph, cls: str) -> Iterator[RequiredValue]:
+    """Yield the values that each member of a class must have."""
+    for node in superclass_nodes(graph, cls):
         if not isinstance(node, ox.BlankNode):
             continue
         for property_ in graph.iris(node, f"{OWL}onProperty"):
             yield from _needed(graph, node, property_)
 
 
-def _needed(graph: Graph, node: Node, property_: str) -> Iterator[Needed]:
+def _needed(graph: Graph, node: Node, property_: str) -> Iterator[RequiredValue]:
     for filler in graph.objects(node, f"{OWL}someValuesFrom"):
-        yield Needed(property_, 1, filler.value if isinstance(filler, ox.NamedNode) else None)
+        yield RequiredValue(property_, 1, filler.value if isinstance(filler, ox.NamedNode) else None)
     for predicate in AT_LEAST:
         count = graph.text(node, predicate)
         if count is not None and count.isdigit() and int(count) > 0:
-            yield Needed(property_, int(count), next(iter(graph.iris(node, f"{OWL}onClass")), None))
+            yield RequiredValue(property_, int(count), next(iter(graph.iris(node, f"{OWL}onClass")), None))
+
+
+def required_terms(graph: Graph, cls: str, aliases: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the relations and properties that every individual of a class has at least one of, sorted."""
+    return tuple(sorted({aliases.get(need.property, need.property) for need in required_values(graph, cls)}))

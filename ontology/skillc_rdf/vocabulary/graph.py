@@ -1,4 +1,4 @@
-"""Triples as one graph that answers the few questions a vocabulary asks."""
+"""A graph of triples with the look-ups that loading a vocabulary needs."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Node = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
 
 
 class Graph:
-    """Triples by subject and predicate."""
+    """Triples, indexed by subject and predicate."""
 
     def __init__(self, triples: Iterable[ox.Triple | ox.Quad] = ()) -> None:
         self._objects: dict[tuple[Node, str], list[Node]] = defaultdict(list)
@@ -21,7 +21,7 @@ class Graph:
         self.add(triples)
 
     def add(self, triples: Iterable[ox.Triple | ox.Quad]) -> None:
-        """Take in triples."""
+        """Add triples."""
         for triple in triples:
             self._objects[triple.subject, triple.predicate.value].append(triple.object)
             self._subjects[triple.predicate.value][triple.subject] = None
@@ -37,7 +37,7 @@ class Graph:
         return tuple(self._instances[cls])
 
     def subjects(self, predicate: str) -> tuple[str, ...]:
-        """Return the IRIs of which something is said with a predicate, sorted."""
+        """Return the IRIs that are subjects of a predicate, sorted."""
         return tuple(sorted(node.value for node in self._subjects[predicate] if isinstance(node, ox.NamedNode)))
 
     def objects(self, subject: Node | str, predicate: str) -> tuple[Node, ...]:
@@ -50,11 +50,11 @@ class Graph:
         return tuple(sorted({o.value for o in self.objects(subject, predicate) if isinstance(o, ox.NamedNode)}))
 
     def text(self, subject: Node | str, predicate: str) -> str | None:
-        """Return the first object that is a literal, as text."""
+        """Return the text of the first object that is a literal, None without one."""
         return next((o.value for o in self.objects(subject, predicate) if isinstance(o, ox.Literal)), None)
 
     def members(self, head: Node) -> Iterator[Node]:
-        """Yield the members of an RDF list, up to where it is broken or begins again."""
+        """Yield the members of an RDF list, up to the end or to where it is broken or cyclic."""
         seen: set[Node] = set()
         while head not in seen and (values := self.objects(head, f"{RDF}first")):
             seen.add(head)

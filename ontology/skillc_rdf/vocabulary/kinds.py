@@ -1,7 +1,7 @@
-"""Which terms a user's ontologies have and of which kind each is, also where nobody says so.
+"""Infers the kinds (class, relation, property) of terms that a user's ontologies do not declare properly.
 
-Ontologies in use write `owl:class`, give a property its characteristics and no kind, or use terms that another file
-declares, which is not at hand. Such terms are taken for what they are used as.
+Existing ontologies write `owl:class`, state characteristics of a property but not its kind, or use terms of files that
+are missing. The kinds of such terms are inferred from their use.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.graph import Graph
-from skillc_rdf.vocabulary.names import (
+from skillc_rdf.vocabulary.iris import (
     ANNOTATION,
     BUILT_IN,
     CLASS,
@@ -41,19 +41,19 @@ WRITTEN = {
     f"{OWL}objectProperty": RELATION,
     f"{OWL}datatypeProperty": PROPERTY,
 }
-"""Kinds as some ontologies write them."""
+"""The kinds that other declarations, also misspelt ones, stand for."""
 WRITTEN |= {f"{OWL}{name}Property": RELATION for name in ("Transitive", "Symmetric", "Asymmetric", "Irreflexive")}
 WRITTEN |= {f"{OWL}InverseFunctionalProperty": RELATION, f"{OWL}ReflexiveProperty": RELATION}
 UNDECIDED = (f"{OWL}FunctionalProperty", f"{RDF}Property")
-"""What is of these classes is a relation or a property of data, as its range is."""
+"""Instances of these classes are relations or data properties, depending on their ranges."""
 OF_CLASSES = frozenset({SUBCLASS, DISJOINT, f"{OWL}complementOf"})
 """Predicates both of whose ends are classes."""
 
 
-def declarations(graph: Graph, triples: Sequence[ox.Quad]) -> tuple[ox.Triple, ...]:
-    """Return what a user's ontologies leave unsaid: the kinds of terms that they declare in another way or not at all.
+def infer_declarations(graph: Graph, triples: Sequence[ox.Quad]) -> tuple[ox.Triple, ...]:
+    """Return the missing declarations of the terms in a user's ontologies.
 
-    `graph` is all that is said, `triples` the part of it that is the user's.
+    `graph` has all triples, `triples` are the user's among them.
     """
     found = {iri: kind for written, kind in WRITTEN.items() for iri in graph.instances(written)}
     known = {iri: kind for kind in (*KINDS, ANNOTATION, DATATYPE) for iri in graph.instances(kind)}
@@ -66,8 +66,8 @@ def declarations(graph: Graph, triples: Sequence[ox.Quad]) -> tuple[ox.Triple, .
     return tuple(ox.Triple(ox.NamedNode(iri), ox.NamedNode(TYPE), ox.NamedNode(kind)) for iri, kind in missing)
 
 
-def undeclared(graph: Graph, assumed: Iterable[ox.Triple]) -> tuple[tuple[str, str], ...]:
-    """Return those terms of which no statement says what they are, with the kind that is assumed."""
+def find_undeclared(graph: Graph, assumed: Iterable[ox.Triple]) -> tuple[tuple[str, str], ...]:
+    """Return the terms without any declaration, with their assumed kinds."""
     ways = (*WRITTEN, *UNDECIDED)
     declared = {iri for way in ways for iri in graph.instances(way)}
     kinds = {CLASS: "class", RELATION: "relation", PROPERTY: "property"}
@@ -76,14 +76,14 @@ def undeclared(graph: Graph, assumed: Iterable[ox.Triple]) -> tuple[tuple[str, s
 
 
 def _by_range(graph: Graph, iri: str) -> str:
-    """Return the kind of a property whose characteristics alone are known."""
+    """Return the kind of a property of which only characteristics are declared."""
     ranges = graph.objects(iri, RANGE)
     data = any(r.value.startswith((XSD, f"{RDFS}Literal")) for r in ranges if isinstance(r, ox.NamedNode))
     return PROPERTY if data or any(graph.objects(r, f"{OWL}oneOf") for r in ranges) else RELATION
 
 
 def _used(triples: Sequence[ox.Quad], kinds: dict[str, str]) -> Iterator[tuple[str, str]]:
-    """Yield what terms are used as."""
+    """Yield terms with the kinds that their uses imply."""
     alike: dict[str, list[str]] = defaultdict(list)
     for each in triples:
         one, other, said = _iri(each.subject), _iri(each.object), each.predicate.value
@@ -100,7 +100,7 @@ def _used(triples: Sequence[ox.Quad], kinds: dict[str, str]) -> Iterator[tuple[s
 
 
 def _spread(alike: dict[str, list[str]], kinds: dict[str, str]) -> Iterator[tuple[str, str]]:
-    """Yield the kinds of properties that are above, below or equal to others whose kind is known."""
+    """Yield the kinds of properties that are above, below or equivalent to others of known kind."""
     todo = [iri for iri in sorted(alike) if kinds.get(iri) in (RELATION, PROPERTY)]
     reached = {iri: kinds[iri] for iri in todo}
     while todo:

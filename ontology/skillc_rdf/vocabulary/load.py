@@ -1,4 +1,4 @@
-"""From the texts of ontologies to a Vocabulary: classes, relations and properties with their axioms."""
+"""Loads the texts of ontologies as a Vocabulary: classes, relations and properties with their axioms."""
 
 from __future__ import annotations
 
@@ -6,42 +6,41 @@ from collections.abc import Iterator, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
-from skillc_rdf.vocabulary.computed import computed_alone
-from skillc_rdf.vocabulary.contradictions import contradictions
-from skillc_rdf.vocabulary.datatypes import value_types_known
-from skillc_rdf.vocabulary.doubts import doubts
-from skillc_rdf.vocabulary.equal import circles_told, equal
+from skillc_rdf.vocabulary.contradictions import report_contradictions
+from skillc_rdf.vocabulary.datatypes import check_value_types
+from skillc_rdf.vocabulary.equivalents import find_equivalents, report_cycles
 from skillc_rdf.vocabulary.expressions import subclasses, superclasses
 from skillc_rdf.vocabulary.graph import Graph
-from skillc_rdf.vocabulary.kinds import declarations, undeclared
-from skillc_rdf.vocabulary.names import CLASS, KINDS, PROPERTY, SUBCLASS, SUBPROPERTY
-from skillc_rdf.vocabulary.places import Places
-from skillc_rdf.vocabulary.precedence import Split, passed_over, split
-from skillc_rdf.vocabulary.prefixes import preferred, prefixes, taken
-from skillc_rdf.vocabulary.reading import Ontology, read
-from skillc_rdf.vocabulary.terms import Terms, classes, deprecated, properties, relations
+from skillc_rdf.vocabulary.iris import CLASS, KINDS, PROPERTY, SUBCLASS, SUBPROPERTY
+from skillc_rdf.vocabulary.kinds import find_undeclared, infer_declarations
+from skillc_rdf.vocabulary.lints import check_computed_relations, lint_ontology
+from skillc_rdf.vocabulary.places import TermPositions
+from skillc_rdf.vocabulary.precedence import Split, report_ignored, split_statements
+from skillc_rdf.vocabulary.prefixes import choose_prefixes, preferred_prefixes, report_taken_prefixes
+from skillc_rdf.vocabulary.reading import Ontology, read_ontologies
+from skillc_rdf.vocabulary.terms import Terms, find_deprecated, make_classes, make_properties, make_relations
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_rdf.vocabulary.unused import imports, unused
+from skillc_rdf.vocabulary.unused import report_missing_imports, report_unused_axioms
 
 
 def load(sources: Sequence[Source], own: Sequence[Source] = ()) -> Outcome[Vocabulary]:
-    """Read vocabularies: `sources`, and beside them `own`, in which the terms of the former cannot be changed.
+    """Load the shipped ontologies `sources`, and the user's, `own`, which cannot change the terms of the former.
 
-    Diagnostics: files that cannot be read, contradictions, and of `own` also whatever is not used.
+    Diagnostics: unreadable files, contradictions, and for `own` also axioms without effect.
     """
-    shipped, theirs = read(sources), read(own)
+    shipped, theirs = read_ontologies(sources), read_ontologies(own)
     standing = frozenset(iri for each in shipped.value for iri in _terms(Graph(each.triples))) if own else frozenset()
-    parts = [split(each, shipped.value, standing) for each in theirs.value]
+    parts = [split_statements(each, shipped.value, standing) for each in theirs.value]
     graph = Graph(triple for each in shipped.value for triple in each.triples)
-    known = preferred(graph)
+    known = preferred_prefixes(graph)
     graph.add(triple for part in parts for triple in part.counting)
-    assumed = declarations(graph, [triple for part in parts for triple in part.counting])
-    new = undeclared(graph, assumed)
+    assumed = infer_declarations(graph, [triple for part in parts for triple in part.counting])
+    new = find_undeclared(graph, assumed)
     graph.add(assumed)
-    places = Places(each.source for each in (*shipped.value, *theirs.value))
-    understood = _vocabulary(graph, places, standing, prefixes(graph, theirs.value, known))
+    places = TermPositions(each.source for each in (*shipped.value, *theirs.value))
+    understood = _vocabulary(graph, places, standing, choose_prefixes(graph, theirs.value, known))
     problems = (
-        *(*shipped.diagnostics, *theirs.diagnostics, *taken(theirs.value, known)),
+        *(*shipped.diagnostics, *theirs.diagnostics, *report_taken_prefixes(theirs.value, known)),
         *(*understood.diagnostics, *_undeclared(new, places, understood.value)),
         *_of_files(theirs.value, parts, graph, understood.value),
     )
@@ -49,40 +48,40 @@ def load(sources: Sequence[Source], own: Sequence[Source] = ()) -> Outcome[Vocab
 
 
 def _vocabulary(
-    graph: Graph, places: Places, standing: frozenset[str], prefixes: dict[str, str]
+    graph: Graph, places: TermPositions, standing: frozenset[str], prefixes: dict[str, str]
 ) -> Outcome[Vocabulary]:
     kinds = _terms(graph)
     below = _below(graph, kinds)
-    same = equal(graph, kinds, below, standing)
+    same = find_equivalents(graph, kinds, below, standing)
     terms = Terms(graph, kinds, below, same.aliases, standing, places)
     vocabulary = Vocabulary(
         prefixes=prefixes,
         aliases=same.aliases,
-        deprecated=deprecated(terms),
-        classes=classes(terms),
-        relations=relations(terms),
-        properties=properties(terms),
+        deprecated=find_deprecated(terms),
+        classes=make_classes(terms),
+        relations=make_relations(terms),
+        properties=make_properties(terms),
     )
     circles = [each for each in same.circles if kinds[each[0]] == CLASS]
     others = [each for each in same.circles if kinds[each[0]] != CLASS]
     problems = (
-        *value_types_known(graph, [iri for iri, kind in kinds.items() if kind == PROPERTY], places.terms),
-        *circles_told(circles, below, places, SUBCLASS, vocabulary.short),
-        *circles_told(others, below, places, SUBPROPERTY, vocabulary.short),
-        *computed_alone(vocabulary),
-        *contradictions(graph, vocabulary, places),
-        *doubts(graph, vocabulary, places),
+        *check_value_types(graph, [iri for iri, kind in kinds.items() if kind == PROPERTY], places.terms),
+        *report_cycles(circles, below, places, SUBCLASS, vocabulary.short),
+        *report_cycles(others, below, places, SUBPROPERTY, vocabulary.short),
+        *check_computed_relations(vocabulary),
+        *report_contradictions(graph, vocabulary, places),
+        *lint_ontology(graph, vocabulary, places),
     )
     return Outcome(vocabulary, problems)
 
 
 def _terms(graph: Graph) -> dict[str, str]:
-    """Return all terms with their kinds; one that is declared as several is of the first."""
+    """Return all terms with their kinds; for a term of several kinds the first of KINDS."""
     return {iri: kind for kind in reversed(KINDS) for iri in graph.instances(kind)}
 
 
 def _below(graph: Graph, kinds: dict[str, str]) -> dict[str, set[str]]:
-    """Return what each term is below of, by its own declaration or as the member of a union."""
+    """Return the direct super-terms of each term, by its own declaration or as the member of a union."""
     below: dict[str, set[str]] = {}
     for iri, kind in kinds.items():
         above = superclasses(graph, iri) if kind == CLASS else set(graph.iris(iri, SUBPROPERTY))
@@ -94,13 +93,15 @@ def _below(graph: Graph, kinds: dict[str, str]) -> dict[str, set[str]]:
     return below
 
 
-def _undeclared(terms: Sequence[tuple[str, str]], places: Places, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def _undeclared(
+    terms: Sequence[tuple[str, str]], places: TermPositions, vocabulary: Vocabulary
+) -> Iterator[Diagnostic]:
     for iri, kind in terms:
         yield Diagnostic(
             "undeclared-term",
             places.term(iri),
-            f"`{vocabulary.short(iri)}` is used and nowhere declared; it is taken for a {kind}",
-            help="declare it, or put the file that does into the same folder",
+            f"`{vocabulary.short(iri)}` is used but not declared; it is assumed to be a {kind}",
+            help="declare it, or put the file that declares it into the same folder",
             severity="warning",
         )
 
@@ -108,6 +109,6 @@ def _undeclared(terms: Sequence[tuple[str, str]], places: Places, vocabulary: Vo
 def _of_files(
     own: Sequence[Ontology], parts: Sequence[Split], graph: Graph, vocabulary: Vocabulary
 ) -> Iterator[Diagnostic]:
-    yield from imports(own, graph)
-    yield from passed_over(parts, vocabulary)
-    yield from unused(parts, graph)
+    yield from report_missing_imports(own, graph)
+    yield from report_ignored(parts, vocabulary)
+    yield from report_unused_axioms(parts, graph)

@@ -1,4 +1,4 @@
-"""Where ontologies declare their terms and say what they say; lines in every format, columns in Turtle."""
+"""Finds where ontologies declare terms and state axioms: lines in every format, columns in Turtle."""
 
 from __future__ import annotations
 
@@ -13,44 +13,44 @@ import pyoxigraph as ox
 from skillc_dsl.source import Source, Span
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
-from skillc_rdf.vocabulary.formats import format_of
-from skillc_rdf.vocabulary.names import RDF
-from skillc_rdf.vocabulary.positions import positions
+from skillc_rdf.vocabulary.formats import detect_format
+from skillc_rdf.vocabulary.iris import RDF
+from skillc_rdf.vocabulary.positions import find_subjects
 from skillc_rdf.vocabulary.types import Position, local_name
 
 _XML_BASE = "http://www.w3.org/XML/1998/namespace base"
 
 
-class Places:
-    """Knows the places of terms; those of single statements are looked for when somebody asks."""
+class TermPositions:
+    """The positions of terms and statements, computed lazily."""
 
     def __init__(self, sources: Iterable[Source]) -> None:
         self._sources = tuple(sources)
-        self._turtle = tuple(each for each in self._sources if format_of(each) == ox.RdfFormat.TURTLE)
+        self._turtle = tuple(each for each in self._sources if detect_format(each) == ox.RdfFormat.TURTLE)
 
     @cached_property
     def terms(self) -> dict[str, Position]:
-        """Where each IRI is declared, or first said something of."""
+        """Where each IRI is declared, or is a subject for the first time."""
         found: dict[str, Position] = {}
         for source in self._sources:
-            if format_of(source) == ox.RdfFormat.RDF_XML:
+            if detect_format(source) == ox.RdfFormat.RDF_XML:
                 found = {**dict(_elements(source)), **found}
-        return {**found, **positions(self._turtle)}
+        return {**found, **find_subjects(self._turtle)}
 
     def position(self, iri: str) -> Position:
-        """Return where a term is declared, or mentioned at all."""
+        """Return where a term is declared, else where it is mentioned."""
         if iri in self.terms:
             return self.terms[iri]
         span = self._mentions.get(iri) or self._found(iri)
         return Position(span.path, span.line, span.column)
 
     def term(self, iri: str) -> Span:
-        """Return where a term is declared, or mentioned at all, as a span."""
+        """Return where a term is declared, else where it is mentioned, as a span."""
         place = self.position(iri)
         return Span(place.path, place.line, place.column, place.line, place.column + 1)
 
     def statement(self, subject: str, predicate: str, object_: str | None = None) -> Span:
-        """Return where something is said of a term, with this object where one is given; else where the term is."""
+        """Return the span of the object in a statement, or of `subject` if there is no such statement in Turtle."""
         for each in self._said.get(subject, ()):
             if each.predicate == predicate and object_ in (None, _iri(each.object)):
                 place = each.object_place
@@ -67,7 +67,7 @@ class Places:
 
     @cached_property
     def _mentions(self) -> dict[str, Span]:
-        """Where each IRI first is an object in Turtle."""
+        """Where each IRI is an object in Turtle for the first time."""
         found: dict[str, Span] = {}
         for statements in self._said.values():
             for each in statements:
@@ -78,7 +78,7 @@ class Places:
         return found
 
     def _found(self, iri: str) -> Span:
-        """Return the first line that has the IRI, or else its last part; the first line of all where none has."""
+        """Return the first line that contains the IRI, or else its local name; by default the first line of all."""
         for written in (re.escape(iri), rf"\b{re.escape(local_name(iri))}\b"):
             for source in self._sources:
                 if match := re.search(written, source.text):
@@ -89,7 +89,7 @@ class Places:
 
 
 def _elements(source: Source) -> Iterator[tuple[str, Position]]:
-    """Yield the elements of RDF/XML that are about an IRI, the first of each last."""
+    """Yield the IRIs and positions of the elements of RDF/XML about an IRI, in reverse order."""
     found: list[tuple[str, Position]] = []
     bases: list[str] = []
     parser = expat.ParserCreate(namespace_separator=" ")

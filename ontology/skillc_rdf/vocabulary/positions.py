@@ -1,4 +1,4 @@
-"""Where Turtle files speak of their terms. RDF parsers keep no places, so the tokens of the text are walked through."""
+"""Finds the positions of subjects in Turtle files with a light scanner: RDF parsers keep no positions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.types import Position
 
 MOST_FILES = 64
-"""Of so many files it is kept where they speak of what: more than ship."""
+"""The number of files whose positions are cached: more than are shipped."""
 
 TYPE = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type"
 _TOKEN = re.compile(
@@ -29,7 +29,7 @@ _TOKEN = re.compile(
 
 
 class _Subject(NamedTuple):
-    """A subject: its IRI, the offset where it stands, and whether the first thing said is what it is."""
+    """A subject: its IRI, its offset, and whether the statement begins with its class."""
 
     iri: str
     offset: int
@@ -37,14 +37,14 @@ class _Subject(NamedTuple):
 
 
 class _Found(NamedTuple):
-    """Where a subject stands, and whether it is declared there."""
+    """The position of a subject, and whether it is declared there."""
 
     declared: bool
     position: Position
 
 
-def positions(sources: Iterable[Source]) -> dict[str, Position]:
-    """Return for each subject where it is declared (`a ..` comes first), else where it first is a subject."""
+def find_subjects(sources: Iterable[Source]) -> dict[str, Position]:
+    """Return for each subject where it is declared (`a ..` comes first), else where it is a subject first."""
     found: dict[str, _Found] = {}
     for source in sources:
         for iri, here in _in_file(source).items():
@@ -55,7 +55,7 @@ def positions(sources: Iterable[Source]) -> dict[str, Position]:
 
 @lru_cache(maxsize=MOST_FILES)
 def _in_file(source: Source) -> Mapping[str, _Found]:
-    """Return the same for one file; those that ship are read again and again while a vocabulary is edited."""
+    """Return the same for one file; cached, since shipped files are read often while a vocabulary is edited."""
     found: dict[str, _Found] = {}
     line, seen = 1, 0
     for subject in _subjects(source.text):
@@ -68,7 +68,7 @@ def _in_file(source: Source) -> Mapping[str, _Found]:
 
 
 def _subjects(text: str) -> Iterator[_Subject]:
-    """Yield the subjects that stand at the beginning of a statement; what begins with a bracket has no name."""
+    """Yield the named subjects of statements."""
     prefixes: dict[str, str] = {}
     statement: list[re.Match[str]] = []
     depth = 0

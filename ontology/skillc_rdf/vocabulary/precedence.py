@@ -1,8 +1,8 @@
-"""Which statements of a user's ontologies count beside the shipped ones.
+"""Selects the statements of a user's ontologies that take effect beside the shipped ones.
 
-What skillc ships about its terms stands: many copies of the same ontologies are about, some with axioms under which
-nothing can exist. Others may put such a term below terms of their own, call one of their own equal or disjoint to it or
-its inverse; whatever else they say of it is passed over.
+The shipped axioms about shipped terms are final, because many copies of the same ontologies exist, some with axioms
+that make their classes unsatisfiable. Users may put a shipped term below a term of their own, or declare one of their
+own equivalent, disjoint or inverse to it; other statements about shipped terms are ignored.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import pyoxigraph as ox
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.graph import Graph
-from skillc_rdf.vocabulary.names import (
+from skillc_rdf.vocabulary.iris import (
     BUILT_IN,
     DISJOINT,
     DOMAIN,
@@ -32,21 +32,21 @@ from skillc_rdf.vocabulary.reading import Ontology
 from skillc_rdf.vocabulary.types import Vocabulary
 
 LINKS = frozenset({SUBCLASS, SUBPROPERTY, DISJOINT, EQUAL_CLASS, EQUAL_PROPERTY, INVERSE})
-"""What may be said of a shipped term and one of the user's."""
+"""The predicates that users may state between a shipped term and one of their own."""
 AXIOMS = LINKS | {DOMAIN, RANGE, f"{OWL}disjointUnionOf", f"{OWL}propertyChainAxiom", f"{OWL}hasKey"}
 LISTED = 4
 
 
 class Split(NamedTuple):
-    """The statements of an ontology that count, and the shipped terms of which it says more than skillc does."""
+    """The statements of an ontology that take effect, and the shipped terms of those that are ignored."""
 
     ontology: Ontology
     counting: tuple[ox.Quad, ...]
     passed: tuple[str, ...]
 
 
-def split(ontology: Ontology, shipped: Iterable[Ontology], standing: frozenset[str]) -> Split:
-    """Divide what an ontology says; `standing` are the terms that the shipped ones declare."""
+def split_statements(ontology: Ontology, shipped: Iterable[Ontology], standing: frozenset[str]) -> Split:
+    """Divide the statements of an ontology; `standing` are the shipped terms."""
     known = {(each.subject, each.predicate, each.object) for other in shipped for each in other.triples}
     counting: list[ox.Quad] = []
     passed: list[str] = []
@@ -62,8 +62,8 @@ def split(ontology: Ontology, shipped: Iterable[Ontology], standing: frozenset[s
     return Split(ontology, tuple(counting), tuple(passed))
 
 
-def passed_over(parts: Iterable[Split], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
-    """Tell, once for each file, what it says of shipped terms in vain."""
+def report_ignored(parts: Iterable[Split], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+    """Report, once per file, the ignored axioms about shipped terms."""
     for part in parts:
         if not part.passed:
             continue
@@ -73,14 +73,14 @@ def passed_over(parts: Iterable[Split], vocabulary: Vocabulary) -> Iterator[Diag
         yield Diagnostic(
             "shipped-term",
             Span(part.ontology.source.path, 1, 1, 1, 2),
-            f"{count} of this file about terms that skillc declares itself have no effect: {listed}",
-            help="what skillc says of its terms stands; put terms of your own below them to say more",
+            f"{count} of this file about shipped terms have no effect: {listed}",
+            help="shipped terms cannot be changed; declare terms of your own below them",
             severity="warning",
         )
 
 
 def _lists_of_shipped(ontology: Ontology, standing: frozenset[str]) -> dict[ox.BlankNode, list[str]]:
-    """Return the axioms that say of shipped classes alone that they are disjoint, with the first of the classes."""
+    """Return the axioms that declare only shipped classes disjoint, with the first of the classes."""
     graph = Graph(ontology.triples)
     found: dict[ox.BlankNode, list[str]] = {}
     for node in graph.nodes(f"{OWL}AllDisjointClasses"):
@@ -92,14 +92,14 @@ def _lists_of_shipped(ontology: Ontology, standing: frozenset[str]) -> dict[ox.B
 
 
 def _links(triple: ox.Quad, standing: frozenset[str]) -> bool:
-    """Whether a statement about a shipped term leads to one of the user's."""
+    """Whether a statement about a shipped term links it to one of the user's."""
     if triple.predicate.value not in LINKS or not isinstance(triple.object, ox.NamedNode):
         return False
     return triple.object.value not in standing and not triple.object.value.startswith(BUILT_IN)
 
 
 def _is_axiom(triple: ox.Quad) -> bool:
-    """Whether a statement would change what a term means."""
+    """Whether a statement is an axiom rather than an annotation."""
     if triple.predicate.value != TYPE:
         return triple.predicate.value in AXIOMS
     return isinstance(triple.object, ox.NamedNode) and triple.object.value.startswith(OWL)

@@ -1,4 +1,4 @@
-"""By which prefix `use` calls an ontology: the one it prefers, the one its file gives its terms, or the file's name."""
+"""Chooses the prefix of each ontology: its preferred one, the one its file declares, or the file's name."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source, Span
-from skillc_rdf.vocabulary.formats import format_of
+from skillc_rdf.vocabulary.formats import detect_format
 from skillc_rdf.vocabulary.graph import Graph
-from skillc_rdf.vocabulary.names import BUILT_IN, KINDS, OWL, TYPE, VANN
+from skillc_rdf.vocabulary.iris import BUILT_IN, KINDS, OWL, TYPE, VANN
 from skillc_rdf.vocabulary.reading import Ontology
 
 _NAME = re.compile(r"[A-Za-z]\w*")
 _DECLARED = re.compile(r"(?:@?prefix\s+([\w.-]+):\s*<([^>\s]+)>|xmlns:([\w.-]+)\s*=\s*[\"']([^\"'\s]+)[\"'])", re.I)
 
 
-def preferred(graph: Graph) -> dict[str, str]:
-    """Return the prefixes that ontologies themselves say are theirs, with their namespaces."""
+def preferred_prefixes(graph: Graph) -> dict[str, str]:
+    """Return the prefixes that ontologies prefer (`vann`), with their namespaces."""
     pairs = (
         (graph.text(iri, f"{VANN}preferredNamespacePrefix"), graph.text(iri, f"{VANN}preferredNamespaceUri"))
         for iri in graph.instances(f"{OWL}Ontology")
@@ -29,33 +29,33 @@ def preferred(graph: Graph) -> dict[str, str]:
     return {prefix: base for prefix, base in sorted((p or "", b or "") for p, b in pairs) if prefix and base}
 
 
-def prefixes(graph: Graph, own: Sequence[Ontology], known: Mapping[str, str]) -> dict[str, str]:
-    """Return all prefixes; `known` are those of the shipped ontologies, which nobody else gets."""
-    found = {**preferred(graph), **known}
+def choose_prefixes(graph: Graph, own: Sequence[Ontology], known: Mapping[str, str]) -> dict[str, str]:
+    """Return all prefixes; `known` are those of the shipped ontologies, which are reserved."""
+    found = {**preferred_prefixes(graph), **known}
     for ontology in own:
-        base = namespace(ontology)
+        base = find_namespace(ontology)
         if base is not None and base not in found.values():
             name = next(name for name in _candidates(ontology.source, base) if found.get(name, base) == base)
             found[name] = base
     return dict(sorted(found.items()))
 
 
-def taken(own: Iterable[Ontology], known: Mapping[str, str]) -> Iterator[Diagnostic]:
-    """Tell of ontologies that prefer a prefix which is that of a shipped one."""
+def report_taken_prefixes(own: Iterable[Ontology], known: Mapping[str, str]) -> Iterator[Diagnostic]:
+    """Report ontologies that prefer the prefix of a shipped one."""
     for ontology in own:
-        for prefix, base in preferred(Graph(ontology.triples)).items():
+        for prefix, base in preferred_prefixes(Graph(ontology.triples)).items():
             if known.get(prefix, base) != base:
                 yield Diagnostic(
                     "prefix-taken",
                     Span(ontology.source.path, 1, 1, 1, 2),
-                    f"the prefix `{prefix}` of this ontology is that of <{known[prefix]}>",
+                    f"the prefix `{prefix}` of this ontology belongs to <{known[prefix]}>",
                     help="give it another vann:preferredNamespacePrefix",
                     severity="warning",
                 )
 
 
-def namespace(ontology: Ontology) -> str | None:
-    """Return the namespace in which a file declares most terms; None where it declares none of its own."""
+def find_namespace(ontology: Ontology) -> str | None:
+    """Return the namespace in which a file declares most of its terms; None if it declares no terms."""
     kinds = {ox.NamedNode(kind) for kind in (*KINDS, f"{OWL}class")}
     terms = {
         each.subject.value
@@ -67,8 +67,8 @@ def namespace(ontology: Ontology) -> str | None:
 
 
 def _candidates(source: Source, base: str) -> Iterator[str]:
-    """Yield names for a namespace, the best first, without end."""
-    if format_of(source) != ox.RdfFormat.JSON_LD:
+    """Yield names for a namespace, the best first, in an infinite sequence."""
+    if detect_format(source) != ox.RdfFormat.JSON_LD:
         for match in _DECLARED.finditer(source.text):
             name, iri = match[1] or match[3], match[2] or match[4]
             if iri == base and _NAME.fullmatch(name):

@@ -1,4 +1,4 @@
-"""Reads the files of ontologies into triples; a file that cannot be read is left out and told with its line."""
+"""Parses the files of ontologies into triples; unreadable files are skipped and reported."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ import pyoxigraph as ox
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import report_not_text, report_wrong_bytes
 from skillc_dsl.source import Source, Span
-from skillc_rdf.vocabulary.formats import Refused, format_of
+from skillc_rdf.vocabulary.formats import UnsupportedFormat, detect_format
 
 
 @dataclass(frozen=True, slots=True)
 class Ontology:
-    """A file with what it says, in order."""
+    """A file with its triples, in order."""
 
     source: Source
     triples: tuple[ox.Quad, ...]
 
 
-def read(sources: Iterable[Source]) -> Outcome[tuple[Ontology, ...]]:
-    """Read files, each on its own: blank nodes of different files never meet."""
+def read_ontologies(sources: Iterable[Source]) -> Outcome[tuple[Ontology, ...]]:
+    """Read files, each on its own: blank nodes of different files are different."""
     found: list[Ontology] = []
     problems: list[Diagnostic] = []
     for source in sources:
@@ -38,15 +38,15 @@ def _read(source: Source) -> Outcome[tuple[ox.Quad, ...]]:
     problem = report_not_text(source) or report_wrong_bytes(source)
     if problem is not None:
         return Outcome((), (problem,))
-    form = format_of(source)
-    if isinstance(form, Refused):
+    form = detect_format(source)
+    if isinstance(form, UnsupportedFormat):
         place = Span(source.path, 1, 1, 1, 2)
-        message = f"this file is {form.name}, which is not read as a vocabulary"
+        message = f"this file is {form.name}, which is not supported for vocabularies"
         return Outcome((), (Diagnostic("unreadable-vocabulary", place, message, form.help),))
     base = f"file:///{quote(source.path.lstrip('/'))}"
     try:
         if form == ox.RdfFormat.RDF_XML:
-            expat.ParserCreate().Parse(source.text, True)  # which tells of a file that ends too early
+            expat.ParserCreate().Parse(source.text, True)  # reports truncated files
         return Outcome(tuple(ox.parse(source.text, form, base_iri=base, rename_blank_nodes=True)))
     except SyntaxError as error:
         return Outcome((), (_broken(source, form, error),))
@@ -64,5 +64,5 @@ def _broken(source: Source, form: ox.RdfFormat, error: SyntaxError) -> Diagnosti
         "broken-turtle" if turtle else "unreadable-vocabulary",
         place,
         f"this file is not {form.name}: {reason}",
-        help="mend the file; everything it says is ignored until then",
+        help="correct the file; until then all of it is ignored",
     )

@@ -1,4 +1,4 @@
-"""The terms of a vocabulary as a graph declares them."""
+"""Makes the terms of a vocabulary from a graph."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.datatypes import value_type
-from skillc_rdf.vocabulary.expressions import alternatives, complements
+from skillc_rdf.vocabulary.expressions import alternatives, complements, required_terms
 from skillc_rdf.vocabulary.graph import Graph
-from skillc_rdf.vocabulary.mandatory import required
-from skillc_rdf.vocabulary.names import (
+from skillc_rdf.vocabulary.iris import (
     BUILT_IN,
     CLASS,
     DISJOINT,
@@ -28,7 +27,7 @@ from skillc_rdf.vocabulary.names import (
     SKILLC,
     TYPE,
 )
-from skillc_rdf.vocabulary.places import Places
+from skillc_rdf.vocabulary.places import TermPositions
 from skillc_rdf.vocabulary.types import THING, ClassTerm, PropertyTerm, RelationTerm, Signature
 
 COMMENT, REPLACED = f"{RDFS}comment", "http://purl.org/dc/terms/isReplacedBy"
@@ -36,17 +35,17 @@ COMMENT, REPLACED = f"{RDFS}comment", "http://purl.org/dc/terms/isReplacedBy"
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """All terms with their kinds, what each is below of, other names, those that skillc ships, and the places."""
+    """All terms with their kinds, super-terms and aliases, the shipped ones (`standing`), and their positions."""
 
     graph: Graph
     kinds: Mapping[str, str]
     below: Mapping[str, set[str]]
     aliases: Mapping[str, str]
     standing: frozenset[str]
-    places: Places
+    places: TermPositions
 
     def of(self, kind: str) -> Iterator[str]:
-        """Yield the terms of a kind that are no other names, sorted."""
+        """Yield the terms of a kind without aliases, sorted."""
         yield from (iri for iri in sorted(self.kinds) if self.kinds[iri] == kind and iri not in self.aliases)
 
     def named(self, iri: str) -> str:
@@ -58,16 +57,16 @@ class Terms:
         return [iri, *(alias for alias, term in self.aliases.items() if term == iri)]
 
     def above(self, iri: str) -> tuple[str, ...]:
-        """Return what a term is directly below of, sorted."""
+        """Return the direct super-terms of a term, sorted."""
         found = {self.named(other) for name in self.same(iri) for other in self.below.get(name, ())}
         return tuple(sorted(other for other in found - {iri, THING} if self.kinds.get(other) == self.kinds[iri]))
 
     def ancestors(self, iri: str) -> frozenset[str]:
-        """Return all terms above one, itself not included."""
+        """Return all super-terms of a term, itself not included."""
         return frozenset(reachable(self.above(iri), self.above))
 
 
-def classes(terms: Terms) -> dict[str, ClassTerm]:
+def make_classes(terms: Terms) -> dict[str, ClassTerm]:
     """Return the classes."""
     disjoint = _disjoint(terms)
     return {
@@ -83,14 +82,14 @@ def classes(terms: Terms) -> dict[str, ClassTerm]:
     }
 
 
-def relations(terms: Terms) -> dict[str, RelationTerm]:
+def make_relations(terms: Terms) -> dict[str, RelationTerm]:
     """Return the relations."""
-    inverse = inverses(terms)
+    inverse = find_inverses(terms)
     return {iri: _relation(terms, iri, inverse.get(iri)) for iri in terms.of(RELATION)}
 
 
-def properties(terms: Terms) -> dict[str, PropertyTerm]:
-    """Return the properties of data that have a type of the language."""
+def make_properties(terms: Terms) -> dict[str, PropertyTerm]:
+    """Return the data properties that have a type in the language."""
     found: dict[str, PropertyTerm] = {}
     for iri in terms.of(PROPERTY):
         typed = value_type(terms.graph, iri)
@@ -109,16 +108,16 @@ def properties(terms: Terms) -> dict[str, PropertyTerm]:
     return found
 
 
-def deprecated(terms: Terms) -> dict[str, str]:
-    """Return the terms that should not be used any more, with what to use instead."""
+def find_deprecated(terms: Terms) -> dict[str, str]:
+    """Return the deprecated terms with their replacements, "" without one."""
     marked = (iri for iri in sorted(terms.kinds) if terms.graph.text(iri, f"{OWL}deprecated") in ("true", "1"))
     return {iri: next(iter(terms.graph.iris(iri, REPLACED)), "") for iri in marked}
 
 
 def _required(terms: Terms, iri: str) -> tuple[str, ...]:
-    """Return what a class requires; other names of a shipped class require nothing of it."""
+    """Return the relations and properties that a class requires; aliases of a shipped class add none."""
     names = [iri] if iri in terms.standing else terms.same(iri)
-    found = {each for name in names for each in required(terms.graph, name, terms.aliases)}
+    found = {each for name in names for each in required_terms(terms.graph, name, terms.aliases)}
     return tuple(sorted(each for each in found if _is_usable(terms, each)))
 
 
@@ -141,7 +140,7 @@ def _disjoint(terms: Terms) -> dict[str, set[str]]:
 
 
 def _lists(graph: Graph) -> Iterator[list[str]]:
-    """Yield the lists of classes that are disjoint with each other."""
+    """Yield the lists of pairwise disjoint classes."""
     heads = [
         head for axiom in graph.nodes(f"{OWL}AllDisjointClasses") for head in graph.objects(axiom, f"{OWL}members")
     ]
@@ -150,8 +149,8 @@ def _lists(graph: Graph) -> Iterator[list[str]]:
         yield [member.value for member in graph.members(head) if isinstance(member, ox.NamedNode)]
 
 
-def inverses(terms: Terms) -> dict[str, str]:
-    """Return the inverse of each relation that has one; of several, all the others have it for theirs."""
+def find_inverses(terms: Terms) -> dict[str, str]:
+    """Return the inverse of each relation that has one; if several relations name the same inverse, each has it."""
     stated: dict[str, str] = {}
     reverse: dict[str, str] = {}
     for iri in terms.of(RELATION):
@@ -182,7 +181,7 @@ def _relation(terms: Terms, iri: str, inverse: str | None) -> RelationTerm:
 
 
 def _signatures(terms: Terms, iri: str, inverse: str | None) -> tuple[Signature, ...]:
-    """A relation without domain and range has those of its inverse, turned round."""
+    """Return the signatures; a relation without domain and range has those of its inverse, exchanged."""
     domains, ranges = _ends(terms, iri, DOMAIN), _ends(terms, iri, RANGE)
     if inverse and not domains and not ranges:
         domains, ranges = _ends(terms, inverse, RANGE), _ends(terms, inverse, DOMAIN)
@@ -190,9 +189,9 @@ def _signatures(terms: Terms, iri: str, inverse: str | None) -> tuple[Signature,
 
 
 def _ends(terms: Terms, iri: str, predicate: str) -> tuple[str, ...]:
-    """Return the classes in a domain or range, sorted; none where it is everything.
+    """Return the classes in a domain or range, sorted; () if it is unrestricted.
 
-    Of several that stand for themselves each holds: those above others among them add nothing.
+    Of several named classes all apply, so those above others among them are redundant.
     """
     found = {terms.named(cls) for cls in alternatives(terms.graph, iri, predicate)}
     named = {terms.named(cls) for cls in terms.graph.iris(iri, predicate)}

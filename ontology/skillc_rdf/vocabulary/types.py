@@ -1,4 +1,4 @@
-"""The terms a library speaks of: classes, relations, properties and functions, with what follows from their axioms."""
+"""The vocabulary of a library: classes, relations, properties and functions with their axioms."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ T = TypeVar("T")
 
 THING = "http://www.w3.org/2002/07/owl#Thing"
 CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
-"""What may be stated of a relation alone, in the order in which it is told."""
+"""The characteristics of relations, in the order of messages."""
 
 
 class Position(msgspec.Struct, frozen=True, order=True):
-    """Where something is written: path relative to the library (or `std/..`), line and column from 1."""
+    """A position in a file: path relative to the library (or `std/..`), line and column from 1."""
 
     path: str
     line: int
@@ -35,19 +35,19 @@ class ClassType(msgspec.Struct, frozen=True, tag="class"):
 
 
 class NumberType(msgspec.Struct, frozen=True, tag="number"):
-    """A number in SI units; `dimension` is a name of the language (`Force`), `Number` where there is none."""
+    """A number in SI units; `dimension` is a name of the language (`Force`), `Number` without one."""
 
     dimension: str
 
 
 class VectorType(msgspec.Struct, frozen=True, tag="vector"):
-    """Three numbers of one dimension in the world frame; `Number` where they are pure numbers."""
+    """Three numbers of one dimension in the world frame; `Number` if dimensionless."""
 
     dimension: str
 
 
 class DirectionType(msgspec.Struct, frozen=True, tag="direction"):
-    """A vector of pure numbers in the world frame whose length is 1."""
+    """A unit vector in the world frame."""
 
 
 class PlainType(msgspec.Struct, frozen=True, tag="plain"):
@@ -66,7 +66,7 @@ ValueType: TypeAlias = ClassType | NumberType | VectorType | DirectionType | Pla
 
 
 class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):
-    """An ontology class. `required` are the relations and properties that each of its individuals must state."""
+    """An ontology class. `required` are the relations and properties that must be stated of each individual."""
 
     iri: str
     parents: tuple[str, ...] = ()
@@ -86,9 +86,9 @@ class Signature(msgspec.Struct, frozen=True):
 class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
     """An object property with its axioms.
 
-    `computed_by` names a Python class "module:class" that tells from other facts whether the relation holds; nothing
-    else follows from it or makes it true. `computed_from` are the relations and properties that decide it: no plan may
-    read it where skills change one of them. Of an empty one it is not known what decides.
+    `computed_by` names a Python class, "module:class", that computes from other facts whether the relation holds; such
+    a relation has no other axioms. `computed_from` are the relations and properties that it depends on: plans cannot
+    read it if skills change one of them. Empty: the dependencies are unknown.
     """
 
     iri: str
@@ -108,12 +108,12 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
 
     @property
     def characteristics(self) -> tuple[str, ...]:
-        """The axioms about the relation alone, by their names in OWL's words, as `inverse functional`."""
+        """The names of the relation's characteristics, such as `inverse functional`."""
         return tuple(name.replace("_", " ") for name in CHARACTERISTICS if getattr(self, name))
 
 
 class Bounds(msgspec.Struct, frozen=True, kw_only=True):
-    """Which numbers there may be: `least` and `greatest` belong to them, `above` and `below` do not."""
+    """Bounds of a number: `least` and `greatest` are inclusive, `above` and `below` exclusive."""
 
     least: float | None = None
     above: float | None = None
@@ -121,7 +121,7 @@ class Bounds(msgspec.Struct, frozen=True, kw_only=True):
     below: float | None = None
 
     def hold(self, number: float) -> bool:
-        """Whether there may be a number."""
+        """Whether a number is within the bounds."""
         return (
             (self.least is None or number >= self.least)
             and (self.above is None or number > self.above)
@@ -137,9 +137,8 @@ class Bounds(msgspec.Struct, frozen=True, kw_only=True):
 class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     """A data property.
 
-    `values` is the finite set of a text property that has one, `bounds` say which numbers another has. `computed_by`
-    names a Python function
-    "module:function" (world state, individual) -> value that derives it from other facts.
+    `values` is the finite set of values of a text property, () for any; `bounds` are those of a number. `computed_by`
+    names a Python function, "module:function", (world state, individual) -> value.
     """
 
     iri: str
@@ -154,7 +153,7 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
-    """A function in Python, "module:function", called as f(world state, *arguments); numbers in SI units."""
+    """A Python function, "module:function", called as f(world state, *arguments); numbers in SI units."""
 
     name: str
     parameters: tuple[tuple[str, ValueType], ...]
@@ -165,9 +164,9 @@ class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
-    """All terms by IRI (functions by name), the prefixes that shorten IRIs, and accepted other names of terms.
+    """All terms by IRI (functions by name), the prefixes that shorten IRIs, and the aliases of terms.
 
-    `deprecated` holds, for terms that should not be used any more, what to use instead, "" where nothing is named.
+    `deprecated` maps deprecated terms to their replacements, "" without one.
     """
 
     prefixes: dict[str, str] = {}
@@ -192,7 +191,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
 
     @cached_property
     def closure(self) -> RelationClosure:
-        """What follows from relations by sub-relations, inverses and symmetry."""
+        """The closure of the relations by sub-relations, inverses and symmetry."""
         return relation_closure(self.relations)
 
     def implied_links(self, relation: str, subject: T, object_: T) -> Iterator[tuple[RelationTerm, T, T]]:
@@ -206,7 +205,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
 
     @cached_property
     def namespaces(self) -> dict[str, str]:
-        """The prefixes of vocabularies, which have terms; other prefixes are shorthand for anything."""
+        """The prefixes whose namespaces contain terms."""
         iris = (*self.classes, *self.relations, *self.properties)
         bases = {iri.removesuffix(local_name(iri)) for iri in iris}
         return {prefix: base for prefix, base in self.prefixes.items() if base in bases}
@@ -216,7 +215,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         return ancestor in self.ancestors.get(cls, (cls, THING))
 
     def is_computed(self, term: str) -> bool:
-        """Whether a relation or property follows from other facts by a computation."""
+        """Whether a relation or property is computed from other facts."""
         known = self.relations.get(term) or self.properties.get(term)
         return known is not None and known.computed_by is not None
 
@@ -228,7 +227,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         )
 
     def short(self, iri: str) -> str:
-        """Return `prefix:name` where a prefix fits (the longest does), else the IRI."""
+        """Return `prefix:name` by the longest fitting prefix, or the IRI if none fits."""
         fitting = [(len(base), prefix, base) for prefix, base in self.prefixes.items() if iri.startswith(base)]
         if not fitting:
             return iri
@@ -236,7 +235,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         return f"{prefix}:{iri[len(base) :]}"
 
     def expand(self, name: str) -> str:
-        """Return the IRI of `prefix:name`; KeyError names an unknown prefix."""
+        """Return the IRI of `prefix:name`; KeyError for an unknown prefix."""
         prefix, _, local = name.partition(":")
         return self.prefixes[prefix] + local
 

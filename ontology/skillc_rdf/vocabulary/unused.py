@@ -1,4 +1,4 @@
-"""Tells what a user's ontology says that has no effect here, once for each file: what is not used is not hidden."""
+"""Reports axioms of a user's ontologies that have no effect here, and missing imports."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.datatypes import FACETS
 from skillc_rdf.vocabulary.graph import Graph, Node
-from skillc_rdf.vocabulary.names import EQUAL_CLASS, OWL, SUBCLASS, TYPE
+from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS, TYPE
 from skillc_rdf.vocabulary.precedence import Split
 from skillc_rdf.vocabulary.reading import Ontology
 
@@ -22,17 +22,17 @@ PREDICATES = frozenset(
         *("propertyChainAxiom", "propertyDisjointWith", "sameAs", "differentFrom"),
     )
 )
-"""Each statement with one of these is an axiom, or the part of one, that is not used."""
+"""Statements with these predicates are (parts of) axioms without effect."""
 CLASSES = frozenset(
     f"{OWL}{name}"
     for name in ("ReflexiveProperty", "AllDisjointProperties", "AllDifferent", "NegativePropertyAssertion")
 )
-"""Whatever is of these classes is an axiom that is not used."""
+"""Instances of these classes are axioms without effect."""
 RESTRICTIONS = f"{OWL}withRestrictions"
 
 
-def unused(parts: Iterable[Split], graph: Graph) -> Iterator[Diagnostic]:
-    """Tell for each file how many of its axioms have no effect, and which kinds these are."""
+def report_unused_axioms(parts: Iterable[Split], graph: Graph) -> Iterator[Diagnostic]:
+    """Report, once per file, the number of axioms without effect, by kind."""
     for part in parts:
         counts = Counter(kind for triple in part.counting for kind in _kinds(triple, graph))
         if not counts:
@@ -43,13 +43,13 @@ def unused(parts: Iterable[Split], graph: Graph) -> Iterator[Diagnostic]:
             "unused-axiom",
             Span(part.ontology.source.path, 1, 1, 1, 2),
             f"{total} axiom{'s' * (total > 1)} of this file {'have' if total > 1 else 'has'} no effect here: {listed}",
-            help="the rest of the file is used; the reference of the language says what of OWL is",
+            help="the rest of the file is used; the language reference lists the supported part of OWL",
             severity="warning",
         )
 
 
-def imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Diagnostic]:
-    """Tell of imports that are not among the files: nothing is fetched."""
+def report_missing_imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Diagnostic]:
+    """Report imports that are not among the files: nothing is downloaded."""
     here = {iri.rstrip("#/") for iri in graph.instances(f"{OWL}Ontology")}
     for ontology in own:
         for each in ontology.triples:
@@ -59,8 +59,8 @@ def imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Diagnostic]:
                 yield Diagnostic(
                     "missing-import",
                     _place(ontology, each.object.value),
-                    f"<{each.object.value}> is imported and not here",
-                    help="nothing is fetched; put its file into the same folder if its terms are needed",
+                    f"<{each.object.value}> is imported but missing",
+                    help="imports are not downloaded; put the file into the same folder if its terms are needed",
                     severity="warning",
                 )
 
@@ -76,18 +76,18 @@ def _kinds(triple: ox.Quad, graph: Graph) -> Iterator[str]:
 
 
 def _are_bounds(head: Node, graph: Graph) -> bool:
-    """Whether all in a list of restrictions are bounds of numbers."""
+    """Whether all restrictions in a list are bounds of numbers."""
     return all(any(graph.objects(each, facet) for facet in FACETS) for each in graph.members(head))
 
 
 def _expression(node: ox.BlankNode, said: str, graph: Graph) -> Iterator[str]:
-    """Yield what is not used of an expression above a class or equal to it."""
+    """Yield the kinds of axioms without effect in an expression above or equivalent to a class."""
     if said == SUBCLASS and graph.objects(node, f"{OWL}unionOf"):
         yield "owl:unionOf above a class"
     if graph.objects(node, f"{OWL}oneOf") and not graph.objects(node, TYPE):
         yield "owl:oneOf"
     if said == EQUAL_CLASS and (graph.objects(node, f"{OWL}intersectionOf") or graph.objects(node, f"{OWL}onProperty")):
-        yield "definition (nothing is recognised as a member by it)"
+        yield "definition (members are not inferred from it)"
 
 
 def _short(iri: str) -> str:

@@ -1,4 +1,4 @@
-"""How a command ends: the one place where results and errors of services become messages and exit codes."""
+"""Turns the results and errors of services into messages and exit codes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 
 
 class Command(click.Command):
-    """A click command whose function returns its exit code, or None for 0, and may raise errors of services."""
+    """A click command whose function returns the exit code, or None for 0, and may raise errors of services."""
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the function and exit with its code."""

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Terminal:
-    """Reports what services say on stderr."""
+    """Prints the messages of services to stderr."""
 
     def say(self, message: str) -> None:
         """Print a line."""
@@ -42,9 +42,9 @@ def print_json(value: Any) -> None:
 
 
 def rich_console(stderr: bool = False, quiet: bool = False) -> Console:
-    """Return a console that prints text as it is: what looks like markup in a goal, a name or a path is none.
+    """Return a console that prints text unchanged: goals, names and paths may look like markup.
 
-    A spinner and a column of a progress bar parse markup whatever their console says: give these a `Text`.
+    Spinners and columns of progress bars parse markup even with such a console: give them a `Text`.
     """
     from rich.console import Console
 
@@ -52,21 +52,21 @@ def rich_console(stderr: bool = False, quiet: bool = False) -> Console:
 
 
 def has_colours(stream: TextIO) -> bool:
-    """Whether to use colours: on a terminal that has some, unless NO_COLOR is set; anywhere if FORCE_COLOR is."""
+    """Whether to use colours: on a terminal that supports them, always with FORCE_COLOR, never with NO_COLOR."""
     if os.environ.get("NO_COLOR"):
         return False
     return bool(os.environ.get("FORCE_COLOR")) or (stream.isatty() and os.environ.get("TERM") != "dumb")
 
 
 def page_width(stream: TextIO) -> int | None:
-    """Return the cells from edge to edge of a terminal, or what COLUMNS says; None where there is no edge."""
+    """Return the width of the terminal in cells, or COLUMNS if it is set; None if the output has no width."""
     if not stream.isatty() and not os.environ.get("COLUMNS", "").isdigit():
         return None
     return max(shutil.get_terminal_size().columns, 40)
 
 
 def read_stdin() -> bytes:
-    """Return what comes from the standard input; RequestError where it cannot be read."""
+    """Return the bytes of the standard input, at most MOST_BYTES; RequestError if it cannot be read."""
     try:
         return sys.stdin.buffer.read(MOST_BYTES)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""Diagnostics in the forms that people and machines read; nothing heavy is imported here."""
+"""Prints diagnostics in the formats of `--format`; nothing heavy is imported here."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import click
 
 from skillc.cli.console import has_colours, page_width
-from skillc.services.reporting import count_of
+from skillc.services.reporting import format_count
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 
@@ -16,18 +16,18 @@ FORMS = ("full", "concise", "json", "sarif", "github")
 
 
 def print_diagnostics(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source], form: str) -> None:
-    """Print the diagnostics in a form, with a summary on stderr."""
+    """Print the diagnostics in a format of FORMS to stdout, and a summary to stderr."""
     click.echo(render_diagnostics(diagnostics, texts, form), nl=False, color=True)
     click.echo(("\n" if form == "full" and diagnostics else "") + summarise(diagnostics), err=True)
 
 
 def exit_code(diagnostics: Iterable[Diagnostic]) -> int:
-    """Return 1 if there is an error among the diagnostics."""
+    """Return 1 if there is an error among the diagnostics, else 0."""
     return 1 if any(each.severity == "error" for each in diagnostics) else 0
 
 
 def render_diagnostics(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source], form: str) -> str:
-    """Return the diagnostics in one of the forms."""
+    """Return the diagnostics in a format of FORMS."""
     match form:
         case "concise":
             from skillc_dsl.rendering.concise import render as concise
@@ -55,8 +55,8 @@ def summarise(found: Sequence[Diagnostic]) -> str:
         return "no problems"
     errors = sum(each.severity == "error" for each in found)
     counts = ((errors, "error"), (len(found) - errors, "warning"))
-    problems = ", ".join(count_of(count, word) for count, word in counts if count)
-    files = count_of(len({each.span.path for each in found}), "file")
+    problems = ", ".join(format_count(count, word) for count, word in counts if count)
+    files = format_count(len({each.span.path for each in found}), "file")
     fixes = [each.fix for each in found if each.fix is not None]
     safe = sum(fix.safe for fix in fixes)
     ways = ((safe, "can be fixed with --fix"), (len(fixes) - safe, "guessed with --fix --unsafe-fixes"))

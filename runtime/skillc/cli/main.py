@@ -22,14 +22,14 @@ INTERNAL = 70
 """EX_SOFTWARE of sysexits.h."""
 INTERRUPTED = 130
 BROKEN_PIPE = 141
-"""What shells say of a process that ended by SIGINT, and by SIGPIPE."""
+"""The exit codes that shells give to a process ended by SIGINT and by SIGPIPE: 128 + the signal's number."""
 
 
 class Commands(click.Group):
     """A group whose commands are the modules of `commands`; each has a click command named `command`."""
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
-        """Run the command line; a standard output that takes nothing more ends it."""
+        """Run the command line; end it if the standard output cannot be written to."""
         try:
             with streams.guard_streams():
                 return super().main(*args, **kwargs)
@@ -40,7 +40,7 @@ class Commands(click.Group):
             sys.exit(1)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; what goes wrong with skillc itself becomes one message and a report."""
+        """Run the command; an internal error becomes one message and a crash report."""
         try:
             return super().invoke(ctx)
         except (click.ClickException, click.exceptions.Exit, click.Abort, OutputError):
@@ -65,10 +65,10 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command, naming those that exist where there is none."""
+        """Find the command; for an unknown name, fail with the names of all commands."""
         if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
             near = get_close_matches(args[0], self.list_commands(ctx), n=1)
-            hint = f"did you mean '{near[0]}'?" if near else f"there is {', '.join(self.list_commands(ctx))}"
+            hint = f"did you mean '{near[0]}'?" if near else f"the commands are {', '.join(self.list_commands(ctx))}"
             ctx.fail(f"there is no command '{args[0]}'; {hint}")
         return super().resolve_command(ctx, args)
 
@@ -87,10 +87,10 @@ def _first_line(path: Path) -> str:
 @click.command(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(package_name="skillc", message="skillc %(version)s")
 def skillc() -> None:
-    """Check, compile, plan and run robot skills.
+    """A compiler and runtime for robot skills.
 
-    Exit codes: 0 all is well, 1 the input has errors, 2 the command line is wrong, 3 a task failed,
-    70 skillc itself has failed, 130 it was interrupted, 141 nobody reads what it prints.
+    Exit codes: 0 success, 1 errors in the input, 2 wrong command line, 3 task failed or no plan, 70 internal error,
+    130 interrupted, 141 output closed.
     """
 
 

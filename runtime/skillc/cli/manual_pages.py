@@ -1,4 +1,4 @@
-"""Pages of the manual of diagnostics, for the terminal and as JSON."""
+"""Formats pages of the manual of diagnostics for the terminal."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from skillc.cli.console import has_colours, page_width
 from skillc_compiler.manual import Page, group_by_family
 
 _WIDEST = 100
-"""Cells of a line of prose that is read with ease."""
+"""The greatest width of a line of prose, in cells."""
 
 
 def format_page(shown: Page) -> str:
-    """Return a page as text, in colours if the terminal has some."""
+    """Return a page as text, in colours if the terminal supports them."""
     lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {shown.family}", ""]
     for paragraph in filter(None, shown.prose.split("\n\n")):
         lines += [*_paragraph(paragraph), ""]
@@ -40,7 +40,7 @@ def format_contents(pages: Mapping[str, Page]) -> str:
 
 
 def _paragraph(text: str) -> Iterator[str]:
-    """Yield a paragraph in lines of the page's width; what is indented or a list stays as it is."""
+    """Yield a paragraph wrapped to the page's width; indented text and lists are not wrapped."""
     lines = text.split("\n")
     if any(line.startswith((" ", "- ", "* ", "|")) for line in lines):
         yield from lines

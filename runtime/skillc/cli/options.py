@@ -1,4 +1,4 @@
-"""Options that several commands have; nothing heavy is imported here."""
+"""Options that several commands share; nothing heavy is imported here."""
 
 from __future__ import annotations
 
@@ -20,39 +20,39 @@ WITH_ONTOLOGY = ("check", "compile", "doc", "graph", "plan", "run", "world")
 
 def json_option(function: Function) -> Function:
     """Add `--json`, as `as_json`."""
-    return click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")(function)
+    return click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")(function)
 
 
 def store_options(function: Function) -> Function:
     """Add `--store` and `--reset`."""
-    function = click.option("--reset", is_flag=True, help="Empty the store and fill it with the scene again.")(function)
-    help_ = "Keep the world in a folder or on a SPARQL server; the first use fills it with the scene."
+    function = click.option("--reset", is_flag=True, help="Empty the store and load the scene into it again.")(function)
+    help_ = "Keep the world in a folder or on a SPARQL server; the first use loads the scene into it."
     return click.option("--store", metavar="FOLDER|URL", help=help_)(function)
 
 
 def planner_options(function: Function) -> Function:
     """Add `--minimise` and `--no-plan-cache`, as `minimise` and `plan_cache`."""
     cache = click.option(
-        "--plan-cache/--no-plan-cache", default=True, help="Take plans that were found before for the same problem."
+        "--plan-cache/--no-plan-cache", default=True, help="Reuse plans that were found for the same problem."
     )
     measure = click.option(
         "--minimise",
         type=click.Choice(("work", "makespan")),
         default="work",
         show_default=True,
-        help="The time that all steps take together, or the time until the last one is over.",
+        help="Minimise the total duration of all steps, or the time until the last one ends.",
     )
     return cache(measure(function))
 
 
 def looks_option(function: Function) -> Function:
-    """Add `--looks`, whose meshes films show."""
+    """Add `--looks`, the appearance of devices in films."""
     return click.option(
         "--looks",
         default="primitive",
         show_default=True,
         metavar="NAME",
-        help="What devices look like in films and stills: `primitive` shapes, or meshes of `menagerie`, fetched once.",
+        help="The appearance of devices in films: `primitive` shapes, or `menagerie` meshes (downloaded once).",
     )(function)
 
 
@@ -66,14 +66,14 @@ def add_ontology_option(command: click.Command) -> click.Command:
                 type=click.Path(path_type=Path, file_okay=False, exists=True),
                 expose_value=False,
                 callback=_set_folders,
-                help=f"A folder of ontologies to use beside the shipped ones; so are those in {catalogue.VARIABLE}.",
+                help=f"A folder of further ontologies; {catalogue.VARIABLE} can list more.",
             )
         )
     return command
 
 
 def _set_folders(context: click.Context, _option: click.Parameter, value: tuple[Path, ...]) -> tuple[Path, ...]:
-    """Name the folders in the environment for as long as the command runs, before those named there."""
+    """Put the folders first in the environment variable while the command runs."""
     before = os.environ.get(catalogue.VARIABLE)
     if value:
         os.environ[catalogue.VARIABLE] = os.pathsep.join([*map(str, value), *([before] if before else [])])

@@ -12,11 +12,11 @@ from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, descr
 from skillc_runtime.planning.schedule import Scheduled
 
 NAMED = 3
-"""So many of the things that were left out are named in text."""
+"""How many of the things that a planner left out are named in text."""
 
 
 def format_plan(answer: Answer, loaded: LoadedTask) -> str:
-    """Return the steps, one a line, or why there are none; steps of a schedule with their times."""
+    """Return the steps, one per line (those of a schedule with their times), or why there is no plan."""
     match answer:
         case Solved(plan=plan, planner=planner):
             lines = [f"{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, 1)]
@@ -44,12 +44,12 @@ def _quality(answer: Solved | Scheduled) -> str:
 
 
 def _assumed(answer: Solved | Scheduled) -> Iterator[str]:
-    """Yield which durations are not known before the plan is executed."""
+    """Yield the durations that were assumed because they are known only after execution."""
     yield from (f"assumed: {each}" for each in answer.assumptions)
 
 
 def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
-    """Yield what a plan was made without, unless that could never have made a difference."""
+    """Yield what the planner left out, unless that can be proved to make no difference."""
     short = loaded.assignment.state.vocabulary.short
     for each in answer.left_out:
         if not each.harmless:

@@ -1,4 +1,4 @@
-"""Progress on stderr, of a run and of trials: one line or bar that changes on a terminal, a line each elsewhere."""
+"""Shows the progress of runs and trials on stderr: a spinner or bar on a terminal, plain lines elsewhere."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, PlanM
 from skillc_runtime.recording.known_facts import format_status
 
 STEP_DEPTH = 2
-"""Calls this deep are shown where the output is no terminal: the steps of a plan and what they call."""
+"""The greatest depth of calls shown if stderr is not a terminal: the steps of a plan and the calls in them."""
 
 
 class RunProgress:
-    """The monitor of a run, which shows the active skills; with `real_time` no faster than the clock."""
+    """The monitor of a run, which shows the active skills; with `real_time` it slows the run to real time."""
 
     def __init__(self, title: str, quiet: bool, real_time: bool = False) -> None:
         self._console = rich_console(stderr=True)
@@ -46,7 +46,7 @@ class RunProgress:
             self._spinner.stop()
 
     def say(self, message: str) -> None:
-        """Show what happens before the first tick and after the last."""
+        """Show a message."""
         if self._spinner is not None:
             self._spinner.update(Text(f"{self._title}: {message}"))
         elif not self._quiet:
@@ -72,14 +72,14 @@ class RunProgress:
                 pass
 
     def pace(self, now: float) -> None:
-        """Wait until the clock has caught up with simulated time, where that is wanted."""
+        """Wait, with `real_time`, until the wall clock has caught up with `now`, the simulated time in s."""
         if self._real_time:
             self._began = time.monotonic() - now if self._began is None else self._began
             time.sleep(max(0.0, self._began + now - time.monotonic()))
 
     @contextmanager
     def interruption(self) -> Iterator[Callable[[], bool]]:
-        """Take Ctrl-C as the wish to halt and report; a second one ends the program at once."""
+        """Turn the first Ctrl-C into a request to halt; the second one raises KeyboardInterrupt."""
         wanted = False
 
         def interrupt(_signal: int, _frame: FrameType | None) -> None:
@@ -103,7 +103,7 @@ class RunProgress:
 
 
 class TrialProgress:
-    """Shows each trial that is done: a bar on a terminal, a line elsewhere, nothing when it shall be quiet."""
+    """Shows each finished trial: a bar on a terminal, a line elsewhere, nothing if `quiet`."""
 
     def __init__(self, task: str, disturbance: Disturbance, count: int, done: int, quiet: bool) -> None:
         self._console = rich_console(stderr=True, quiet=quiet)
@@ -127,7 +127,7 @@ class TrialProgress:
         self._bar.stop()
 
     def __call__(self, trial: Trial) -> None:
-        """Show a trial; on a terminal the good ones only move the bar."""
+        """Show a finished trial; on a terminal those that ended as expected only advance the bar."""
         self._done += 1
         self._bar.advance(self._row)
         why = find_unmet_criteria(trial, self._disturbance)

@@ -1,4 +1,4 @@
-"""Running a task with progress on stderr, and its result as a table."""
+"""Runs a task with progress on stderr, and prints its result as a table."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from skillc_runtime.evaluation.report.table import render_table
 
 
 def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, real_time: bool = False) -> RunResult:
-    """Run a task and show on stderr what happens, unless `quiet`."""
+    """Run a task and show its progress on stderr, unless `quiet`."""
     with RunProgress(loaded.assignment.name, quiet, real_time) as progress:
         return run_task(loaded, options, progress, Terminal())
 
 
 def print_results(results: Sequence[TaskResult], folder: Path | None) -> None:
-    """Print a table for each result and where its report is."""
+    """Print a table for each result, and the path of its report."""
     console = rich_console()
     for result in results:
         console.print(render_table(result))

@@ -1,4 +1,4 @@
-"""What `skillc world` found in a scene, as text and as JSON."""
+"""Formats the answers of `skillc world` as text and as JSON."""
 
 from __future__ import annotations
 
@@ -6,21 +6,21 @@ import json
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from skillc.services.scenes import Individual, OpenScene, SceneDiff
+from skillc.services.scenes import IndividualFacts, OpenScene, SceneDiff
 from skillc_runtime.scene.query import QueryResult, QueryValue
 from skillc_runtime.world.state.elements import Element
 from skillc_runtime.world.state.values import show, to_json
 
 
 def format_elements(elements: Iterable[Element], scene: OpenScene, as_json: bool) -> str:
-    """Return what is written of individuals: as text a paragraph for each, as JSON a list of objects."""
+    """Return the stated facts about individuals: as text a paragraph for each, as JSON a list of objects."""
     if as_json:
         return _json([_element_data(each, scene) for each in elements])
     return "\n\n".join(_element_text(each, scene) for each in elements)
 
 
-def format_individuals(individuals: Iterable[Individual], scene: OpenScene, as_json: bool) -> str:
-    """Return all that is known of individuals: what is written, what leads to them, and what follows."""
+def format_individuals(individuals: Iterable[IndividualFacts], scene: OpenScene, as_json: bool) -> str:
+    """Return all facts about individuals: stated ones, incoming relations and derived facts."""
     if as_json:
         return _json([_individual_data(each, scene) for each in individuals])
     return "\n\n".join(_individual_text(each, scene) for each in individuals)
@@ -36,7 +36,7 @@ def format_answer(answer: QueryResult, as_json: bool) -> str:
 
 
 def format_diff(diff: SceneDiff, as_json: bool) -> str:
-    """Return the facts that are in the first scene only, with `-`, and in the second only, with `+`; by individual."""
+    """Return the facts of the first scene only, marked `-`, and of the second only, marked `+`, by individual."""
     if as_json:
         return _json({"removed": [each._asdict() for each in diff.removed], "added": [e._asdict() for e in diff.added]})
     lines = [(each.subject, each.predicate, sign, each.value) for sign in (0, 1) for each in diff[sign]]
@@ -44,7 +44,7 @@ def format_diff(diff: SceneDiff, as_json: bool) -> str:
 
 
 def _element_text(element: Element, scene: OpenScene) -> str:
-    """Return what is written of an individual, one statement to a line."""
+    """Return the stated facts about an individual, one per line."""
     short, label = scene.state.vocabulary.short, scene.labels.get(element.iri)
     called = "" if label is None else f'  "{label}"'
     lines = [f"{short(element.iri)}{called}  a {_names(element.types, scene)}"]
@@ -67,7 +67,7 @@ def _element_data(element: Element, scene: OpenScene) -> dict[str, object]:
     }
 
 
-def _individual_text(known: Individual, scene: OpenScene) -> str:
+def _individual_text(known: IndividualFacts, scene: OpenScene) -> str:
     short = scene.state.vocabulary.short
     lines = [_element_text(known.element, scene)]
     lines += [f"  also a   {_names(known.classes, scene)}"] if known.classes else []
@@ -76,7 +76,7 @@ def _individual_text(known: Individual, scene: OpenScene) -> str:
     return "\n".join(lines)
 
 
-def _individual_data(known: Individual, scene: OpenScene) -> dict[str, object]:
+def _individual_data(known: IndividualFacts, scene: OpenScene) -> dict[str, object]:
     short = scene.state.vocabulary.short
     return {
         **_element_data(known.element, scene),

@@ -1,4 +1,4 @@
-"""Explanations of a recorded run as text and as JSON."""
+"""Formats the explanation of a recorded run as text."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def format_overview(story: RunHistory, run: str) -> str:
 
 
 def format_answer(answer: CallSelection) -> str:
-    """Return what is known of the calls that a question is about."""
+    """Return the explanation of the calls that a question is about."""
     if answer.parameter:
         return "\n".join(together.from_iterable(_parameter(call, answer.parameter) for call in answer.calls))
     return "\n\n".join("\n".join(_explained(call)) for call in answer.calls)
@@ -44,7 +44,7 @@ def _ending(story: RunHistory) -> str:
 
 
 def _rests_on(story: RunHistory) -> list[str]:
-    """Return the facts that a success rests on, and what would have to be sensed where they are only assumed."""
+    """Return the facts that a success rests on and, for assumed ones, how to sense them."""
     if not story.known:
         return []
     lines = [f"{format_fact(each.fact)}  ({format_evidence(each)})" for each in story.known]
@@ -69,7 +69,7 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
 
 
 def _arguments(call: RecordedCall) -> str:
-    """Return what is not a default, on one line."""
+    """Return the arguments that are not defaults, on one line."""
     defaults = {each.parameter for each in call.determined if each.how == "default"}
     return ", ".join(f"{name}: {format_value(value)}" for name, value in call.bindings.items() if name not in defaults)
 
@@ -106,9 +106,9 @@ def _explained(call: RecordedCall) -> Iterator[str]:
 
 def _never(call: RecordedCall) -> Iterator[str]:
     if call.status == "skipped":
-        yield "  skipped: what it is for held already when its turn came"
+        yield "  skipped: its postconditions already held"
     if call.status == "not started":
-        yield "  never started: the run ended, or was planned again, before its turn"
+        yield "  not started: the run ended or was planned again before"
 
 
 def _choice(call: RecordedCall) -> Iterator[str]:
@@ -119,7 +119,7 @@ def _choice(call: RecordedCall) -> Iterator[str]:
         yield "rejected:"
         yield from _indented(together.from_iterable(map(_refusal, rejected)))
     if call.untried:
-        yield "not tried, since they rank after it (less specific, less preferred, or declared later):"
+        yield "not tried, because they rank lower (less specific, less preferred, or declared later):"
         yield from (f"  {each.implementation} ({each.source}): {_would(each)}" for each in call.untried)
 
 
@@ -130,7 +130,7 @@ def _ground(call: RecordedCall) -> str:
 
 
 def _others(call: RecordedCall) -> tuple[Rejection, ...]:
-    """Return the implementations that did not do, but for the one chosen last, whose failure is the call's."""
+    """Return the rejected implementations without the last one, whose failure is that of the call."""
     return tuple(each for each in call.rejected if each.implementation != call.implementation)
 
 
@@ -182,7 +182,7 @@ def _causes(causes: Sequence[Failure]) -> Iterator[str]:
 
 
 def _chain(links: Sequence[FailedNode], known: str = "") -> Iterator[str]:
-    """Lead to the innermost one, whose reason is said unless it is known."""
+    """Yield the failed nodes down to the innermost, whose message is omitted if `known` contains it."""
     for depth, link in enumerate(links):
         innermost = f": {link.message}" if link is links[-1] and link.message not in known else ""
         yield f"{'  ' * depth}in {link.kind} {link.name} ({link.source}){innermost}"
@@ -208,6 +208,6 @@ def _indented(lines: Iterable[str], spaces: int = 2) -> Iterator[str]:
 
 
 def _example(story: RunHistory) -> str:
-    """Return a question worth asking: about the last step that failed, else the first."""
+    """Return a question as an example: the last step that failed, else the first step."""
     failed = [call.number for call in story.calls if call.status == "failure" and "." not in call.number]
     return failed[-1] if failed else "1"

@@ -1,4 +1,4 @@
-"""The standard streams as commands see them: closed ones are replaced, and a refusal to print is an OutputError."""
+"""Guards the standard streams: closed ones are replaced, and a failed write to stdout is an OutputError."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc.services.errors import OutputError
 
 
 class _Stream:
-    """A text stream whose refusals to write go to `refused`."""
+    """A text stream that calls `refused` with the error of a failed write."""
 
     def __init__(self, stream: TextIO, refused: Callable[[OSError], None]) -> None:
         self._stream = stream
@@ -37,10 +37,10 @@ class _Stream:
 
 @contextmanager
 def guard_streams() -> Iterator[None]:
-    """Raise OutputError where the standard output cannot be written to; messages that cannot be written are dropped.
+    """Raise OutputError if the standard output cannot be written to; drop messages that stderr does not take.
 
-    A standard input that is closed is empty. A standard output that is closed can be written to no more than a full
-    one, but nothing else is opened in its place.
+    A closed standard input reads as empty. A write to a closed standard output fails like one to a full disk; its file
+    descriptor is taken, so that no other file is opened in its place.
     """
     sys.stdin = sys.stdin or _open_null(os.O_RDONLY, "r")
     sys.stdout = sys.stdout or _open_null(os.O_RDONLY, "w")
@@ -62,7 +62,7 @@ def guard_streams() -> Iterator[None]:
 
 
 def discard(stream: TextIO) -> None:
-    """Send what is still to be written to a stream nowhere."""
+    """Redirect a stream to the null device, so that its buffer is discarded."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, stream.fileno())
     os.close(nowhere)
@@ -73,5 +73,5 @@ def _raise(error: OSError) -> None:
 
 
 def _open_null(flags: int, mode: str) -> TextIO:
-    """Open the null device as text; for reading only although it is to be written to, every write is refused."""
+    """Open the null device as a text stream; opened read-only with mode "w", it refuses every write."""
     return cast(TextIO, os.fdopen(os.open(os.devnull, flags), mode, encoding="utf-8"))

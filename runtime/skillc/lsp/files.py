@@ -1,4 +1,4 @@
-"""Which files a library has: those on disk, and the texts in the editor in their place."""
+"""Finds the files of a library: those on disk, replaced by the texts that are open in the editor."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ _NOT_ENTERED = ("node_modules", "build", "dist", "out")
 
 @dataclass(frozen=True, slots=True)
 class Root:
-    """The folder of a library; outside of the editor's folders, only the files right in it belong to the library."""
+    """The folder of a library. `whole`: subfolders belong to it too; not so outside the editor's folders."""
 
     folder: Path
     whole: bool
 
     def holds(self, file: Path) -> bool:
-        """Whether a file belongs to the library, if it is one of skills."""
+        """Whether a skill file belongs to the library."""
         return self.folder in file.parents if self.whole else file.parent == self.folder
 
 
-def root_of(file: Path, folders: Sequence[Path]) -> Root:
-    """Return the library that a file belongs to: its folder, or the highest above it with a `.skill` file in each.
+def find_root(file: Path, folders: Sequence[Path]) -> Root:
+    """Return the root of a file's library: the highest folder up to which every folder has a `.skill` file.
 
-    `folders` are those open in the editor, beyond which nothing is looked for.
+    The search stops at `folders`, those open in the editor.
     """
     around = [folder for folder in folders if folder == file.parent or folder in file.parents]
     folder = file.parent
@@ -47,27 +47,27 @@ def root_of(file: Path, folders: Sequence[Path]) -> Root:
     return Root(folder, bool(around))
 
 
-def sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
-    """Return the texts of a library by path relative to its folder; `buffers` stand for what is on disk."""
+def read_sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
+    """Return the texts of a library by path relative to its folder; `buffers` replace the files on disk."""
     own = [file for file in buffers if root.holds(file) and not is_turtle(file)]
     files = sorted({*_on_disk(root), *own})
     return {path: _source(file, path, buffers) for file, path in ((f, _relative(f, root)) for f in files)}
 
 
 def is_turtle(file: Path) -> bool:
-    """Whether a file is a scene or a vocabulary by its name."""
+    """Whether the name of a file is that of a scene or a vocabulary."""
     return file.suffix in catalogue.ENDINGS
 
 
-def vocabularies(root: Root) -> tuple[Source, ...]:
-    """Return the vocabularies beside the skills of a library, and those in the folders that were named."""
+def read_own_vocabularies(root: Root) -> tuple[Source, ...]:
+    """Return the vocabularies in a library's folder, and those in the user's ontology folders."""
     candidates = _below(root) if root.whole else root.folder.glob("*")
     own = sorted(file for file in candidates if is_vocabulary(file))
     return read_vocabularies(sorted({**user_vocabularies(), **{_relative(file, root): file for file in own}}.items()))
 
 
-def place(path: str, root: Root) -> Path:
-    """Return the file of a path that a diagnostic shows: of the library, of a shipped library, or of the ontology."""
+def find_file(path: str, root: Root) -> Path:
+    """Return the file of a diagnostic's path: in the library, in a shipped library, or in the ontology."""
     shipped = _shipped().places
     if (root.folder / path).exists() or path not in shipped:
         ontology = catalogue.ROOT / path
@@ -75,7 +75,7 @@ def place(path: str, root: Root) -> Path:
     return shipped[path]
 
 
-def importable() -> Mapping[str, Source]:
+def importable_files() -> Mapping[str, Source]:
     """Return the shipped files that every library may import."""
     return _shipped().importable
 
@@ -103,7 +103,7 @@ def _relative(file: Path, root: Root) -> str:
 
 
 def _source(file: Path, path: str, buffers: Mapping[Path, str]) -> Source:
-    """Return a text; a file that has gone in the meantime is empty."""
+    """Return the text of a file, empty if the file cannot be read."""
     if file in buffers:
         return Source(path, buffers[file])
     try:

@@ -1,4 +1,4 @@
-"""The libraries of the files that are open in the editor, each understood when somebody asks."""
+"""The libraries of the files that are open in the editor, analysed lazily."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pygls.uris import from_fs_path, to_fs_path
 from skillc.lsp import files
 from skillc.lsp.files import Root
 from skillc.lsp.scenes import SceneCache, find_problems
-from skillc.services.libraries import vocabulary_with
+from skillc.services.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import normalise_text
@@ -31,7 +31,7 @@ parse = lru_cache(REMEMBERED_FILES)(parser.parse)
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class FileView:
     """A file in its library."""
 
     root: Root
@@ -41,7 +41,7 @@ class View:
 
 @dataclass
 class Libraries:
-    """What the editor has open, and what was understood of it; `folders` are the editor's folders."""
+    """The open files (`buffers`) and folders of the editor, with cached analyses of their libraries."""
 
     folders: tuple[Path, ...] = ()
     buffers: dict[Path, str] = field(default_factory=dict)
@@ -53,7 +53,7 @@ class Libraries:
     _scenes: dict[Root, TaskScenes | None] = field(default_factory=dict)
 
     def write(self, uri: str, text: str) -> Path:
-        """Take a file's text from the editor, and return its path."""
+        """Store the editor's text of a file, and return its path."""
         file = self.file(uri)
         opened = file not in self.buffers
         self.buffers[file] = normalise_text(text)
@@ -68,20 +68,20 @@ class Libraries:
         return file
 
     def close(self, uri: str) -> Path:
-        """Take a file's text from the disk again, and return its path."""
+        """Use a file's text on disk again, and return its path."""
         file = self.file(uri)
         self.buffers.pop(file, None)
         self.forget(file)
         return file
 
     def forget(self, file: Path) -> None:
-        """Read the libraries that a file belongs to, or a scene may belong to, again when they are asked for."""
+        """Discard what is cached of the libraries that a file belongs to, or that a scene may belong to."""
         for root in [root for root in self._sources if root.holds(file) or file.suffix != ".skill"]:
             self._sources.pop(root)
             self._analyses.pop(root, None)
 
     def file(self, uri: str) -> Path:
-        """Return the file of a URI; a text that is no file yet has a path of its own."""
+        """Return the path of a URI; an unsaved text gets a path of its own."""
         split = urlsplit(uri)
         name = to_fs_path(uri) if split.scheme == "file" else None
         file = Path(name) if name else Path("/", split.scheme, quote(split.path, safe=""))
@@ -89,66 +89,66 @@ class Libraries:
         return file
 
     def uri(self, root: Root, path: str) -> str:
-        """Return the URI of a path that a span has, as the editor itself writes it where it has one."""
-        file = files.place(path, root)
+        """Return the URI of a span's path, as the editor writes it if the editor has sent it."""
+        file = files.find_file(path, root)
         return self._uris.get(file) or from_fs_path(str(file)) or ""
 
-    def view(self, uri: str) -> View:
-        """Return a file with what is understood of its library now."""
+    def view(self, uri: str) -> FileView:
+        """Return a file with the current analysis of its library."""
         file = self.file(uri)
-        root = files.root_of(file, self.folders)
-        return View(root, file.relative_to(root.folder).as_posix(), self.analysis(root))
+        root = files.find_root(file, self.folders)
+        return FileView(root, file.relative_to(root.folder).as_posix(), self.analysis(root))
 
     def root(self, file: Path) -> Root:
         """Return the library of a file."""
-        return files.root_of(file, self.folders)
+        return files.find_root(file, self.folders)
 
     def analysis(self, root: Root) -> Analysis:
-        """Return what is understood of a library now."""
+        """Return the current analysis of a library."""
         if root not in self._analyses:
             self._analyses[root] = self._analyse(root)
         return self._analyses[root]
 
     def roots(self) -> list[Root]:
-        """Return every library that has a file open."""
+        """Return the roots of all libraries with open files."""
         return sorted({self.root(file) for file in self.buffers}, key=lambda root: root.folder)
 
     def known(self) -> Iterator[tuple[Root, Analysis]]:
-        """Yield every library that has a file open."""
+        """Yield the root and analysis of each library with open files."""
         for root in self.roots():
             yield root, self.analysis(root)
 
     def texts(self, root: Root) -> Mapping[str, Source]:
-        """Return the texts of a library by path, whether they can be understood or not."""
-        return self._sources.get(root) or files.sources(root, self.buffers)
+        """Return the texts of a library by path, without analysing them."""
+        return self._sources.get(root) or files.read_sources(root, self.buffers)
 
     def open_in(self, root: Root) -> frozenset[str]:
         """Return the URIs of the open files of a library."""
         return frozenset(self._uris[file] for file in self.buffers if self.root(file) == root)
 
     def problems_of_vocabularies(self, root: Root) -> Iterator[Diagnostic]:
-        """Yield what is wrong with the vocabularies that stand in the folder of a library."""
-        for problem in vocabulary_with(self._vocabularies.get(root, ())).diagnostics:
+        """Yield the diagnostics of the vocabularies in a library's folder."""
+        for problem in load_vocabulary_with(self._vocabularies.get(root, ())).diagnostics:
             if (root.folder / problem.span.path).is_file():
                 yield problem
 
     def problems_of_scenes(self, root: Root) -> tuple[Diagnostic, ...]:
-        """Return what is wrong with the scenes of a library's tasks, and what keeps the tasks from being done there."""
+        """Return the diagnostics of the scenes of a library's tasks, and of the tasks in them."""
         analysis = self.analysis(root)
         return find_problems(self._scenes[root], analysis)
 
     def problems_around(self, root: Root) -> tuple[Diagnostic, ...]:
-        """Return what is wrong in the vocabularies and scenes of a library."""
+        """Return the diagnostics of the vocabularies and scenes of a library."""
         return (*self.problems_of_vocabularies(root), *self.problems_of_scenes(root))
 
     def _analyse(self, root: Root) -> Analysis:
-        """Analyse a library, and once more where the scenes of its tasks have other individuals than the last time."""
+        """Analyse a library; again if the individuals in its tasks' scenes have changed since the last analysis."""
         if root not in self._sources:
-            self._sources[root] = files.sources(root, self.buffers)
-            self._vocabularies[root] = files.vocabularies(root)
+            self._sources[root] = files.read_sources(root, self.buffers)
+            self._vocabularies[root] = files.read_own_vocabularies(root)
         before = _individuals(self._scenes.get(root))
-        terms = vocabulary_with(self._vocabularies[root]).value
-        library = Library(root.folder.name, dict(self._sources[root]), files.importable(), terms, before)
+        terms = load_vocabulary_with(self._vocabularies[root]).value
+        library = Library(root.folder.name, dict(self._sources[root]), files.importable_files(), terms, before)
         found = analyse(library, parse)
         scenes = self._scene_cache.read(found.program, library.vocabulary, root.folder, self.buffers)
         self._scenes[root] = scenes

@@ -1,4 +1,4 @@
-"""What an editor sends, refused where it is no message: pygls trusts headers, and takes any JSON for a message."""
+"""Reads and writes messages with validation: pygls accepts any header and any JSON value as a message."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from skillc.services.errors import ServiceError
 
 LONGEST_HEADER = 1 << 12
 MOST_BYTES = 1 << 28
-"""What is longer is no message that an editor sends; a text of skills is at most a hundredth of it."""
+"""The longest message accepted, in bytes; a skill file is at most a hundredth of it."""
 _HEADER = re.compile(rb"[A-Za-z-]+: [^\r\n]*\r\n")
 _LENGTH = re.compile(rb"Content-Length: (\d{1,10})\r\n")
 
 
-class Malformed(ServiceError):
-    """What was sent is no message, and where the next one begins cannot be known; the text says why."""
+class MalformedMessage(ServiceError):
+    """The input is not a message, so the start of the next one is unknown; the text says why."""
 
 
-class Answers:
-    """The standard output of the server. `refused` is why it takes nothing more; pygls would try again without end."""
+class MessageWriter:
+    """The standard output of the server. `refused` is the first error of a write; pygls would retry for ever."""
 
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
         self.refused: OSError | None = None
 
     def write(self, data: bytes) -> None:
-        """Write a message at once, unless one was refused before."""
+        """Write a message and flush, unless a write has failed before."""
         if self.refused is None:
             try:
                 self._stream.write(data)
@@ -38,49 +38,49 @@ class Answers:
                 self.refused = error
 
     def flush(self) -> None:
-        """Do nothing: all is written already."""
+        """Do nothing: `write` flushes."""
 
     def close(self) -> None:
-        """Do nothing: the stream is the process's own."""
+        """Do nothing: the stream belongs to the process."""
 
 
-class Messages:
-    """The standard input of the server: lines of headers, and as many bytes as they announce."""
+class MessageReader:
+    """The standard input of the server: header lines, then a body of Content-Length bytes."""
 
-    def __init__(self, stream: BinaryIO, answers: Answers) -> None:
+    def __init__(self, stream: BinaryIO, answers: MessageWriter) -> None:
         self._stream = stream
         self._answers = answers
 
     def readline(self) -> bytes:
-        """Return the next line; Malformed where it is no header and not the empty line after them.
+        """Return the next line; Malformed if it is neither a header nor the empty line after the headers.
 
-        An editor that takes no answers has no more questions.
+        If the output is closed, the input counts as ended.
         """
         if self._answers.refused is not None:
             return b""
         line = self._stream.readline(LONGEST_HEADER)
         if line.strip() and not _HEADER.fullmatch(line):
-            raise Malformed(f"{_shown(line)} is no header; `skillc lsp` speaks with editors, not with people")
+            raise MalformedMessage(f"{_shown(line)} is not a header; `skillc lsp` is started by editors")
         if line.lower().startswith(b"content-length"):
             length = _LENGTH.fullmatch(line)
             if length is None or int(length[1]) > MOST_BYTES:
-                raise Malformed(f"{_shown(line)} is no length of a message: a number up to {MOST_BYTES} is")
+                raise MalformedMessage(f"{_shown(line)} is not a valid message length; the maximum is {MOST_BYTES}")
         return line
 
     def read(self, count: int) -> bytes:
-        """Return the bytes of a message; fewer where the input ends."""
+        """Return the bytes of a message; fewer if the input ends."""
         return self._stream.read(count)
 
 
 class Protocol(LanguageServerProtocol):
-    """The protocol, which answers what is JSON and no message with words."""
+    """The protocol, which reports JSON values that are not messages to the editor."""
 
     def handle_message(self, message: Any) -> None:
-        """Handle a message; tell the editor of one that is none."""
+        """Handle a message; show an error in the editor if it is not a JSON-RPC object."""
         if getattr(message, "jsonrpc", None) is not None:
             super().handle_message(message)
             return
-        wrong = "what the editor sent is no JSON-RPC message: an object with `jsonrpc` is; it is left out"
+        wrong = "ignored input that is not a JSON-RPC message (an object with `jsonrpc`)"
         self._server.window_show_message(types.ShowMessageParams(types.MessageType.Error, wrong))
 
 

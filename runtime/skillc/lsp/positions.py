@@ -1,4 +1,4 @@
-"""Places as editors count them: lines from 0, columns in the units of the encoding that was agreed on."""
+"""Converts positions: editors count lines from 0 and columns in units of the negotiated encoding."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from lsprotocol import types
 from skillc_dsl.source import Span
 
 
-def units(text: str, encoding: str) -> int:
+def count_units(text: str, encoding: str) -> int:
     """Return the length of a text in UTF-8, UTF-16 or UTF-32 units."""
     if encoding == types.PositionEncodingKind.Utf8:
         return len(text.encode(errors="surrogatepass"))
@@ -18,18 +18,18 @@ def units(text: str, encoding: str) -> int:
     return len(text) + sum(character > "\uffff" for character in text)
 
 
-def column(line: str, character: int, encoding: str) -> int:
-    """Return the column, from 1, of a place in a line; the line's end for one beyond it."""
+def column_at(line: str, character: int, encoding: str) -> int:
+    """Return the column, from 1, of an editor's offset in a line; the line's end for an offset beyond it."""
     passed = 0
     for index, letter in enumerate(line):
         if passed >= character:
             return index + 1
-        passed += units(letter, encoding)
+        passed += count_units(letter, encoding)
     return len(line) + 1
 
 
-class Lines:
-    """The lines of some files, for telling an editor where a span is."""
+class PositionConverter:
+    """Converts between spans and editor positions, given the texts of the files."""
 
     def __init__(self, texts: Mapping[str, str], encoding: str) -> None:
         self._texts = texts
@@ -38,7 +38,7 @@ class Lines:
 
     def place(self, path: str, position: types.Position) -> tuple[int, int]:
         """Return line and column, from 1, of an editor's position."""
-        return position.line + 1, column(self._line(path, position.line + 1), position.character, self._encoding)
+        return position.line + 1, column_at(self._line(path, position.line + 1), position.character, self._encoding)
 
     def range(self, span: Span) -> types.Range:
         """Return an editor's range for a span."""
@@ -47,7 +47,7 @@ class Lines:
         )
 
     def _position(self, path: str, line: int, column: int) -> types.Position:
-        return types.Position(line - 1, units(self._line(path, line)[: column - 1], self._encoding))
+        return types.Position(line - 1, count_units(self._line(path, line)[: column - 1], self._encoding))
 
     def _line(self, path: str, number: int) -> str:
         if path not in self._lines:

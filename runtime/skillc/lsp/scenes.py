@@ -1,4 +1,4 @@
-"""The scenes of a library's tasks as an editor sees them, cached until a scene or the library's terms change."""
+"""The scenes of a library's tasks, cached until a scene or the library's terms change."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
 
 @dataclass
 class SceneCache:
-    """Caches scene files that were read. The world model is imported only when a task has a scene."""
+    """A cache of scenes. The world model is imported only if a task has a scene."""
 
     _read: dict[tuple[Path, int | str, bytes], Outcome[Scene | None]] = field(default_factory=dict)
 
     def read(self, program: Program, base: Vocabulary, folder: Path, buffers: Mapping[Path, str]) -> TaskScenes | None:
-        """Return the scenes of a program's tasks, None where no task has one; `buffers` replace what is on disk."""
+        """Return the scenes of a program's tasks, None if no task has one; `buffers` replace files on disk."""
         if not any(task.scene for task in program.tasks):
             return None
         from skillc.services.task_scenes import SceneTexts, read_scene, read_task_scenes
@@ -47,14 +47,14 @@ class SceneCache:
 
 
 def find_problems(scenes: TaskScenes | None, analysis: Analysis) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with scenes that do not ship, what keeps tasks from being done, what values name nothing."""
+    """Return the diagnostics of tasks in their scenes and of text values, without those in shipped files."""
     sources = analysis.library.sources.values()
     found = check_with_scenes(analysis.compiled, analysis.program, scenes, str, sources)
     return tuple(each for each in found if not _is_shipped(each.span.path))
 
 
-def texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
-    """Return the texts of the scenes that problems speak of, by the paths they have there; see `SceneCache.read`."""
+def read_scene_texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
+    """Return the texts of the scenes that diagnostics point into, by the diagnostics' paths."""
     paths = {span.path for each in found for span in (each.span, *(label.span for label in each.labels))}
     wanted = sorted(path for path in paths if path.endswith(".ttl") and Path(path).is_file())
     return {path: _text(Path(path), buffers) for path in wanted}
@@ -69,7 +69,7 @@ def _is_shipped(path: str) -> bool:
 
 
 def _own_terms(vocabulary: Vocabulary, base: Vocabulary) -> bytes:
-    """Return what the library adds to the vocabulary, prefixes too, whatever the lines it stands in."""
+    """Return the terms and prefixes that the library adds to the vocabulary, encoded without their positions."""
     pairs = ((vocabulary.classes, base.classes), (vocabulary.relations, base.relations))
     tables: tuple[tuple[Mapping[str, msgspec.Struct], Mapping[str, msgspec.Struct]], ...] = pairs
     own = [term for mine, theirs in tables for iri, term in mine.items() if theirs.get(iri) != term]

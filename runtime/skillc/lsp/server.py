@@ -1,4 +1,4 @@
-"""The language server: which request is answered by which function."""
+"""The language server: maps each request to its handler."""
 
 from __future__ import annotations
 
@@ -11,68 +11,74 @@ from typing import Any, BinaryIO, TypeAlias, cast
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
-from skillc.lsp import documents, reading, writing
+from skillc.lsp import edits as writing
+from skillc.lsp import notifications as documents
+from skillc.lsp import queries as reading
 from skillc.lsp.files import is_turtle
-from skillc.lsp.messages import Answers, Messages, Protocol
+from skillc.lsp.messages import MessageReader, MessageWriter, Protocol
 from skillc.lsp.session import Session
 from skillc.services.errors import OutputError
 
-Answer: TypeAlias = Callable[[Session, Any], object]
+Handler: TypeAlias = Callable[[Session, Any], object]
 
 _LEGEND = types.SemanticTokensLegend(list(reading.TOKEN_KINDS), ["declaration"])
 _FIXES = [types.CodeActionKind.QuickFix, writing.FIX_ALL]
-ANSWERS: tuple[tuple[str, Answer, object], ...] = (
-    (types.INITIALIZED, documents.initialized, None),
-    (types.SHUTDOWN, documents.shut_down, None),
-    (types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, documents.folders_changed, None),
-    (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, documents.changed_on_disk, None),
-    (types.TEXT_DOCUMENT_DID_OPEN, documents.opened, None),
-    (types.TEXT_DOCUMENT_DID_CHANGE, documents.changed, None),
-    (types.TEXT_DOCUMENT_DID_SAVE, documents.saved, None),
-    (types.TEXT_DOCUMENT_DID_CLOSE, documents.closed, None),
-    (types.TEXT_DOCUMENT_HOVER, reading.hovered, None),
-    (types.TEXT_DOCUMENT_DEFINITION, reading.definition, None),
-    (types.TEXT_DOCUMENT_IMPLEMENTATION, reading.implementation, None),
-    (types.TEXT_DOCUMENT_REFERENCES, reading.references, None),
-    (types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, reading.highlights, None),
-    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, reading.document_symbols, None),
-    (types.WORKSPACE_SYMBOL, reading.workspace_symbols, None),
-    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, reading.colours, _LEGEND),
-    (types.TEXT_DOCUMENT_FOLDING_RANGE, reading.folding, None),
-    (types.TEXT_DOCUMENT_SIGNATURE_HELP, reading.signature_help, types.SignatureHelpOptions(["(", ","])),
-    (types.TEXT_DOCUMENT_COMPLETION, writing.completion, types.CompletionOptions([".", "(", ",", ":", '"', " "])),
+HANDLERS: tuple[tuple[str, Handler, object], ...] = (
+    (types.INITIALIZED, documents.on_initialized, None),
+    (types.SHUTDOWN, documents.on_shutdown, None),
+    (types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, documents.on_folders_changed, None),
+    (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, documents.on_disk_change, None),
+    (types.TEXT_DOCUMENT_DID_OPEN, documents.on_open, None),
+    (types.TEXT_DOCUMENT_DID_CHANGE, documents.on_change, None),
+    (types.TEXT_DOCUMENT_DID_SAVE, documents.on_save, None),
+    (types.TEXT_DOCUMENT_DID_CLOSE, documents.on_close, None),
+    (types.TEXT_DOCUMENT_HOVER, reading.show_hover, None),
+    (types.TEXT_DOCUMENT_DEFINITION, reading.find_definition, None),
+    (types.TEXT_DOCUMENT_IMPLEMENTATION, reading.find_implementations, None),
+    (types.TEXT_DOCUMENT_REFERENCES, reading.find_references, None),
+    (types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, reading.find_highlights, None),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, reading.list_document_symbols, None),
+    (types.WORKSPACE_SYMBOL, reading.list_workspace_symbols, None),
+    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, reading.encode_semantic_tokens, _LEGEND),
+    (types.TEXT_DOCUMENT_FOLDING_RANGE, reading.find_folds, None),
+    (types.TEXT_DOCUMENT_SIGNATURE_HELP, reading.show_signature, types.SignatureHelpOptions(["(", ","])),
+    (
+        types.TEXT_DOCUMENT_COMPLETION,
+        writing.offer_completions,
+        types.CompletionOptions([".", "(", ",", ":", '"', " "]),
+    ),
     (types.TEXT_DOCUMENT_PREPARE_RENAME, writing.prepare_rename, None),
     (types.TEXT_DOCUMENT_RENAME, writing.rename, types.RenameOptions(prepare_provider=True)),
-    (types.TEXT_DOCUMENT_CODE_ACTION, writing.code_actions, types.CodeActionOptions(_FIXES)),
-    (types.TEXT_DOCUMENT_FORMATTING, writing.formatting, None),
+    (types.TEXT_DOCUMENT_CODE_ACTION, writing.offer_code_actions, types.CodeActionOptions(_FIXES)),
+    (types.TEXT_DOCUMENT_FORMATTING, writing.format_document, None),
 )
 
-OF_TURTLE = (
+FOR_TURTLE = (
     types.TEXT_DOCUMENT_DID_OPEN,
     types.TEXT_DOCUMENT_DID_CHANGE,
     types.TEXT_DOCUMENT_DID_SAVE,
     types.TEXT_DOCUMENT_DID_CLOSE,
     types.TEXT_DOCUMENT_CODE_ACTION,
 )
-"""What is answered for scenes and vocabularies, too."""
+"""The requests that are also answered for scenes and vocabularies."""
 
 
 def make_session() -> Session:
     """Return a session whose server is ready to start.
 
-    Editors send whole texts: pygls applies parts of texts by lines that end also at form feeds and U+2028, where
-    neither the protocol nor the language ends a line.
+    Editors are asked for whole texts: pygls applies incremental changes with lines that also end at form feeds and
+    U+2028, which end a line neither in the protocol nor in the language.
     """
     server = LanguageServer("skillc", version("skillc"), types.TextDocumentSyncKind.Full, protocol_cls=Protocol)
     session = Session(server)
-    for method, answer, options in ANSWERS:
-        asked = answer if method in OF_TURTLE else partial(_of_skills, answer)
+    for method, answer, options in HANDLERS:
+        asked = answer if method in FOR_TURTLE else partial(_for_skill_files, answer)
         server.feature(method, options)(partial(asked, session))
     return session
 
 
-def _of_skills(answer: Answer, session: Session, params: Any) -> object:
-    """Answer what is asked of a file of skills; nothing of a scene or a vocabulary."""
+def _for_skill_files(answer: Handler, session: Session, params: Any) -> object:
+    """Answer a request about a skill file; return None for a scene or a vocabulary."""
     document = getattr(params, "text_document", None)
     if document is not None and is_turtle(session.file(document.uri)):
         return None
@@ -80,13 +86,13 @@ def _of_skills(answer: Answer, session: Session, params: Any) -> object:
 
 
 def serve() -> bool:
-    """Serve on stdin and stdout until the editor leaves, and return whether it said goodbye.
+    """Serve on stdin and stdout until the input ends, and return whether the editor asked for the shutdown.
 
-    Malformed for what is no message, OutputError where answers cannot be written.
+    Malformed if the input is not a message, OutputError if answers cannot be written.
     """
     session = make_session()
-    answers = Answers(sys.stdout.buffer)
-    session.server.start_io(cast(BinaryIO, Messages(sys.stdin.buffer, answers)), cast(BinaryIO, answers))
+    answers = MessageWriter(sys.stdout.buffer)
+    session.server.start_io(cast(BinaryIO, MessageReader(sys.stdin.buffer, answers)), cast(BinaryIO, answers))
     if answers.refused is not None:
         raise OutputError(answers.refused)
     return session.over

@@ -1,4 +1,4 @@
-"""One editor's session: its libraries, how it counts columns, and when problems are published."""
+"""The state of one editor's session, and the publication of diagnostics."""
 
 from __future__ import annotations
 
@@ -12,38 +12,38 @@ from typing import Protocol
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
-from skillc.lsp import problems
+from skillc.lsp import diagnostics as problems
 from skillc.lsp.files import Root
-from skillc.lsp.libraries import Libraries, View
-from skillc.lsp.positions import Lines
+from skillc.lsp.libraries import FileView, Libraries
+from skillc.lsp.positions import PositionConverter
 from skillc.services import crash_reports
 from skillc_compiler.ide.analysis import Analysis
 
 log = logging.getLogger(__name__)
 PAUSE_S = 0.15
-"""For so long nothing may have been typed before problems are looked for, in seconds."""
+"""Diagnostics are published when nothing has been typed for this time, in s."""
 
 
 @dataclass(frozen=True, slots=True)
 class At:
-    """A view of a file and a place in it, from 1."""
+    """A file and a position in it: line and column from 1."""
 
-    view: View
-    lines: Lines
+    view: FileView
+    lines: PositionConverter
     line: int
     column: int
 
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """The files whose problems the editor has, and of which analysis; None where that failed."""
+    """The analysis (None if it failed) that was published last, and the files that were published."""
 
     analysis: Analysis | None
     uris: frozenset[str]
 
 
-class Placed(Protocol):
-    """A request that speaks of a place in a file."""
+class PositionParams(Protocol):
+    """The parameters of a request about a position in a file."""
 
     @property
     def text_document(self) -> types.TextDocumentIdentifier:
@@ -58,7 +58,7 @@ class Placed(Protocol):
 
 @dataclass
 class Session:
-    """What lasts from the editor's first message to its last; `over` once it has said goodbye."""
+    """The state of a session; `over` once the editor has asked for a shutdown."""
 
     server: LanguageServer
     over: bool = False
@@ -69,28 +69,28 @@ class Session:
 
     @property
     def encoding(self) -> str:
-        """The encoding in whose units columns are counted."""
+        """The negotiated encoding, in whose units columns are counted."""
         agreed = self.server.workspace.position_encoding
         return types.PositionEncodingKind(agreed or types.PositionEncodingKind.Utf16).value
 
-    def lines(self, view: View) -> Lines:
-        """Return the lines of a view's library."""
-        return Lines(view.analysis.texts, self.encoding)
+    def lines(self, view: FileView) -> PositionConverter:
+        """Return the position converter for a view's library."""
+        return PositionConverter(view.analysis.texts, self.encoding)
 
-    def at(self, params: Placed) -> At:
-        """Return what a request speaks of."""
+    def at(self, params: PositionParams) -> At:
+        """Return the file and position of a request."""
         view = self.libraries.view(params.text_document.uri)
         lines = self.lines(view)
         return At(view, lines, *lines.place(view.path, params.position))
 
     def schedule_publishing(self) -> None:
-        """Publish all problems once nothing is typed for a while."""
+        """Publish all diagnostics when nothing has been typed for PAUSE_S."""
         if self._waiting is not None:
             self._waiting.cancel()
         self._waiting = asyncio.get_running_loop().call_later(PAUSE_S, self.publish)
 
     def publish(self) -> None:
-        """Publish the problems of every library that has changed; those that are gone are withdrawn."""
+        """Publish the diagnostics of each library that has changed, and clear those of closed libraries."""
         roots = self.libraries.roots()
         for root in self._published.keys() - set(roots):
             self._withdraw(self._published.pop(root).uris)
@@ -98,23 +98,26 @@ class Session:
             self._publish(root)
 
     def _publish(self, root: Root) -> None:
-        """Publish those of one library. When skillc itself fails, that is published with what is known all the same."""
+        """Publish those of one library; after an internal error, its message and the syntax errors."""
         before = self._published.get(root)
         analysis: Analysis | None
         try:
             analysis = self.libraries.analysis(root)
             if before is not None and before.analysis is analysis:
                 return
-            by_uri = problems.by_uri(self.libraries, root, analysis, self.encoding)
+            by_uri = problems.diagnostics_by_uri(self.libraries, root, analysis, self.encoding)
         except Exception as error:  # noqa: BLE001 - the boundary of a task
-            analysis, by_uri = None, problems.after_failure(self.libraries, root, self._report(error), self.encoding)
+            analysis, by_uri = (
+                None,
+                problems.diagnostics_after_failure(self.libraries, root, self._report(error), self.encoding),
+            )
         self._withdraw(before.uris - by_uri.keys() if before else frozenset())
         for uri, found in by_uri.items():
             self._send(uri, found)
         self._published[root] = Published(analysis, frozenset(by_uri))
 
     def _report(self, error: Exception) -> str:
-        """Log a mistake of skillc's own, and return what is said of it; each one is written to one file only."""
+        """Log an internal error and return its message; the crash report of equal errors is written once."""
         key = "".join(traceback.format_tb(error.__traceback__))
         if key not in self._failures:
             self._failures[key] = crash_reports.write_report(error, ["lsp"])
@@ -122,7 +125,7 @@ class Session:
         return self._failures[key]
 
     def folders(self, uris: list[str]) -> None:
-        """Note which folders are open in the editor."""
+        """Set the folders that are open in the editor."""
         self.libraries.folders = tuple(self.libraries.file(uri) for uri in uris)
 
     def file(self, uri: str) -> Path:

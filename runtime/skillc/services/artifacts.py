@@ -1,4 +1,4 @@
-"""What is made of a library: its artifacts, and a reference to browse."""
+"""Writes the artifacts of a library, and its HTML reference."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from skillc.services import libraries
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.library_files import LibraryFiles, find_library, source_texts
 from skillc.services.reporting import Reporter
-from skillc_compiler.emit.artifacts import artifacts
-from skillc_compiler.emit.headers import is_ours
+from skillc_compiler.emit.artifacts import make_artifacts
+from skillc_compiler.emit.headers import is_generated
 from skillc_compiler.emit.write import EmitError, write
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.files import read_sources
@@ -20,18 +20,18 @@ from skillc_model.skills import SkillLibrary
 def write_artifacts(path: Path, output: Path, reporter: Reporter) -> tuple[Path, ...]:
     """Compile the library at `path` into a folder and return the files written.
 
-    RequestError, DiagnosticsError or ServiceError where that cannot be done; with errors nothing is written.
+    RequestError, DiagnosticsError or ServiceError if it cannot be compiled or written; with errors nothing is written.
     """
-    return _write(artifacts(compile_and_report(find_library(path), reporter)), output)
+    return _write(make_artifacts(compile_and_report(find_library(path), reporter)), output)
 
 
 def write_reference(path: Path, output: Path, reporter: Reporter) -> Path:
-    """Write the reference of a library into a folder and return its first page; otherwise as `write_artifacts`."""
-    from skillc_compiler.emit.docs.site import MARK, site
+    """Write the HTML reference of a library into a folder and return its first page; errors as `write_artifacts`."""
+    from skillc_compiler.emit.docs.site import MARK, make_site
 
     files = find_library(path)
     library = compile_and_report(files, reporter)
-    _write(site(library, read_files(files)), output, lambda text: MARK in text.partition("\n")[0])
+    _write(make_site(library, parse_files(files)), output, lambda text: MARK in text.partition("\n")[0])
     return output / "index.html"
 
 
@@ -44,12 +44,12 @@ def compile_and_report(files: LibraryFiles, reporter: Reporter) -> SkillLibrary:
     return outcome.value
 
 
-def read_files(files: LibraryFiles) -> tuple[ParsedFile, ...]:
-    """Return the parsed files of a library and what they import."""
+def parse_files(files: LibraryFiles) -> tuple[ParsedFile, ...]:
+    """Return the parsed files of a library and of its imports."""
     return read_sources(files.sources, files.importable, files.name).value
 
 
-def _write(texts: Mapping[str, str], output: Path, is_own: Callable[[str], bool] = is_ours) -> tuple[Path, ...]:
+def _write(texts: Mapping[str, str], output: Path, is_own: Callable[[str], bool] = is_generated) -> tuple[Path, ...]:
     try:
         return write(texts, output, is_own)
     except EmitError as error:

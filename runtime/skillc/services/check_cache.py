@@ -1,6 +1,6 @@
-"""What checks found before, so that nothing is done twice; nothing heavy is imported here.
+"""Caches the diagnostics of checks; nothing heavy is imported here.
 
-An entry is stored under the digest of everything that it depends on, so that one that no longer holds is never found.
+The key of an entry is the digest of everything that it depends on, so an outdated entry is never found.
 """
 
 from __future__ import annotations
@@ -20,18 +20,21 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import read_file
 from skillc_dsl.rendering import json
 from skillc_dsl.source import Source
-from skillc_ontology.catalogue import own_models
+from skillc_ontology.catalogue import user_models
 
-PACKAGES = ("skillc_dsl", "skillc_ontology", "skillc_compiler", "skillc_runtime", "skillc_skills", "skillc")
+PACKAGES = (
+    *("skillc_dsl", "skillc_ontology", "skillc_rdf", "skillc_model", "skillc_compiler", "skillc_skills"),
+    *("skillc_runtime", "skillc"),
+)
 _SCENE = re.compile(r'\bscene\s+"([^"\n]+)"')
 _PYTHON = re.compile(r'\bpython\s+"([\w.]+):(\w+)"')
 _MOST = 500
-"""Entries that are kept; of more, the older half is deleted."""
+"""The most entries in the cache; beyond it the older half is deleted."""
 
 
 @dataclass(frozen=True, slots=True)
 class CheckCacheEntry:
-    """A library, with a scene or without, as it was when its `digest` was taken."""
+    """The cache entry of a library, checked with `scene` or without; `digest` is its key."""
 
     library: LibraryFiles
     scene: Path | None
@@ -39,19 +42,19 @@ class CheckCacheEntry:
 
     @staticmethod
     def of(library: LibraryFiles, scene: Path | None) -> CheckCacheEntry:
-        """Take the digest of how things are now."""
-        return CheckCacheEntry(library, scene, digest_of(library, scene))
+        """Return the entry for the current state of all inputs."""
+        return CheckCacheEntry(library, scene, compute_digest(library, scene))
 
     def load(self) -> tuple[Diagnostic, ...] | None:
-        """Return what was found before; None if it was never checked like this."""
+        """Return the cached diagnostics, None if there is no entry."""
         path = self._path()
         body = cache.load(path) if path else None
         return None if body is None else json.read(body.decode())
 
     def store(self, found: Sequence[Diagnostic]) -> None:
-        """Store what was found, unless something has changed meanwhile, so that nobody knows what was checked."""
+        """Store diagnostics, unless an input has changed during the check."""
         path = self._path()
-        if path is not None and digest_of(self.library, self.scene) == self.digest:
+        if path is not None and compute_digest(self.library, self.scene) == self.digest:
             cache.store(path, json.render(found, {}).encode())
             cache.delete_oldest(path.parent, _MOST, _MOST // 2)
 
@@ -60,21 +63,21 @@ class CheckCacheEntry:
         return folder / "checks" / self.digest if folder else None
 
 
-def digest_of(library: LibraryFiles, scene: Path | None) -> str:
-    """Return the digest of a library as it was read, of a scene to be checked with it, and of all else that counts.
+def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
+    """Return the digest of everything that a check depends on.
 
-    That is the scenes the library names, models of the user's, what the Python it names takes, the folder from which
-    paths are shown, and skillc itself with what is installed beside it.
+    That is the library as it was read, the scene checked with it, the scenes that its tasks name, the user's models,
+    the signatures of the Python functions it names, the current folder, skillc itself and the installed packages.
     """
     digest = hashlib.sha256()
-    for part in (*installation(), *_inputs(library, scene)):
+    for part in (*describe_installation(), *_inputs(library, scene)):
         content = part if isinstance(part, bytes) else part.encode("utf-8", "surrogateescape")
         digest.update(b"%d:" % len(content) + content)
     return digest.hexdigest()
 
 
-def installation() -> Iterator[str]:
-    """Yield what tells one state of skillc, Python and the installed packages from another."""
+def describe_installation() -> Iterator[str]:
+    """Yield texts that identify the state of skillc, Python and the installed packages."""
     yield sys.version
     for folder in filter(os.path.isdir, sys.path):
         yield f"{folder} {os.stat(folder).st_mtime_ns}"  # noqa: PTH116
@@ -82,27 +85,27 @@ def installation() -> Iterator[str]:
         yield from sorted(_states(import_module(package).__path__[0]))
 
 
-def scenes_of(library: LibraryFiles) -> Iterator[Path]:
-    """Yield the files beside those of a library that its tasks may name as their scenes; some may not be there."""
+def named_scenes(library: LibraryFiles) -> Iterator[Path]:
+    """Yield the paths, existing or not, of the scenes that the tasks of a library name."""
     for source in (*library.sources, *library.importable.values()):
         for name in _SCENE.findall(source.text):
             yield library.places[source.path].parent / name
 
 
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
-    """Yield everything that a check depends on besides skillc."""
+    """Yield everything that a check depends on other than the installation."""
     yield from (os.getcwd(), library.name, str(library.root))  # noqa: PTH109
     for source in (*library.sources, *library.importable.values()):
         yield from (source.path, str(library.places[source.path]), source.text)
     for source in library.vocabularies:
         yield from (source.path, source.text)
-    for path in (*scenes_of(library), *([scene] if scene else []), *own_models()):
+    for path in (*named_scenes(library), *([scene] if scene else []), *user_models()):
         yield from _file(path)
     yield from _python((*library.sources, *library.importable.values()))
 
 
 def _file(path: Path) -> Iterator[str | bytes]:
-    """Yield a file's content, or that it cannot be read."""
+    """Yield a file's path and content, or the kind of error on reading it."""
     yield str(path)
     try:
         yield read_file(path)
@@ -111,7 +114,7 @@ def _file(path: Path) -> Iterator[str | bytes]:
 
 
 def _python(sources: Iterable[Source]) -> Iterator[str]:
-    """Yield what the Python that is named takes, as far as it is not skillc's own."""
+    """Yield the signatures of the Python functions that the sources name, without those of skillc."""
     named = {target for source in sources for target in _PYTHON.findall(source.text)}
     foreign = sorted(target for target in named if target[0].partition(".")[0] not in PACKAGES)
     if not foreign:
@@ -123,7 +126,7 @@ def _python(sources: Iterable[Source]) -> Iterator[str]:
 
 
 def _states(folder: str) -> Iterator[str]:
-    """Yield name, size and time of change of every file below a folder but compiled Python."""
+    """Yield path, size and modification time of every file below a folder, without compiled Python."""
     with os.scandir(folder) as entries:
         for entry in entries:
             if entry.name == "__pycache__":

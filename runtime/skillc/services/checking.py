@@ -1,4 +1,4 @@
-"""Checking skills and scenes: what is wrong with them, from the cache where nothing has changed.
+"""Checks skills and scenes, with cached results for unchanged files.
 
 Nothing heavy is imported unless something has to be checked.
 """
@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from skillc.services.check_cache import CheckCacheEntry
 from skillc.services.errors import RequestError
-from skillc.services.library_files import LibraryFiles, find_library, library_of_file, source_texts
+from skillc.services.library_files import LibraryFiles, find_library, read_single_file, source_texts
 from skillc.services.reporting import find_texts, sort_diagnostics
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
@@ -21,7 +21,7 @@ STDIN = Path("-")
 
 
 class StdinFile(NamedTuple):
-    """The text that came from the standard input, and the file that it stands for; None for a file nowhere."""
+    """The text from the standard input, and the path of the file that it stands for, None for no file."""
 
     path: Path | None
     content: bytes
@@ -29,9 +29,9 @@ class StdinFile(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class CheckRequest:
-    """What is to be checked, with a scene or without; `-` among the paths is `stdin`.
+    """The paths to check, with `scene` or without; `-` among the paths is `stdin`.
 
-    With `cache`, files that were checked before are not checked again.
+    With `cache`, unchanged libraries are not checked again.
     """
 
     paths: tuple[Path, ...]
@@ -41,7 +41,7 @@ class CheckRequest:
 
 
 class CheckResult(NamedTuple):
-    """What is wrong, each problem once and in order of place, and the texts that the problems point into, by path."""
+    """The diagnostics, each once and sorted by span, and the texts that they point into, by path."""
 
     diagnostics: tuple[Diagnostic, ...]
     texts: dict[str, Source]
@@ -53,19 +53,19 @@ def read_libraries(request: CheckRequest) -> list[LibraryFiles]:
 
 
 def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles]) -> CheckResult:
-    """Return what is wrong with libraries that were read for a request, or changed since."""
+    """Return the diagnostics of libraries that were read for a request, perhaps with changed texts."""
     found: list[Diagnostic] = []
     texts: dict[str, Source] = {}
     for library in libraries:
-        own = check_one(request, library)
+        own = check_with_cache(request, library)
         found += own
         texts |= source_texts(library) if own else {}
     ordered = sort_diagnostics(found)
     return CheckResult(ordered, find_texts(ordered, texts))
 
 
-def check_one(request: CheckRequest, library: LibraryFiles) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with a library, from the cache if nothing has changed."""
+def check_with_cache(request: CheckRequest, library: LibraryFiles) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of a library, from the cache if nothing has changed."""
     entry = CheckCacheEntry.of(library, request.scene) if request.cache else None
     known = entry.load() if entry else None
     if known is not None:
@@ -82,4 +82,4 @@ def _from_stdin(stdin: StdinFile | None) -> LibraryFiles:
     assert stdin is not None
     if stdin.path is not None and stdin.path.suffix != ".skill":
         raise RequestError(f"{stdin.path} is not a .skill file")
-    return library_of_file(*stdin)
+    return read_single_file(*stdin)

@@ -1,6 +1,6 @@
-"""Reports of failures of skillc itself: users see one message, and the traceback is in a file.
+"""Reports of internal errors: users see one message, and the traceback is written to a file.
 
-Every command imports this file: what only a failure needs is imported then.
+Every command imports this module, so it imports what only a report needs inside the functions.
 """
 
 from __future__ import annotations
@@ -11,18 +11,18 @@ from pathlib import Path
 
 
 def write_report(error: BaseException, arguments: Sequence[str]) -> str:
-    """Write a report of `error` to a file; return what the user reads, which names that file."""
+    """Write a report of `error` to a file; return the message for the user, which names the file."""
     import shlex
 
     command = shlex.join(["skillc", *arguments])
     return (
         f"internal error: `{command}` failed with {type(error).__name__}: {_first_line(error)}\n"
-        f"help: this is a mistake in skillc, not in your files; {_write(error, command)}"
+        f"help: this is a bug in skillc, not an error in your files; {_write(error, command)}"
     )
 
 
 def format_report(error: BaseException, command: str) -> str:
-    """Return everything that is needed to find the cause."""
+    """Return a report: versions, platform, command, folder and traceback."""
     import platform
     import traceback
     from importlib.metadata import version

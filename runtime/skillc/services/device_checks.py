@@ -1,4 +1,4 @@
-"""Checks of arms in scenes: unknown controllers, and data sheets that do not fit the controller or the model."""
+"""Checks arms in scenes: unknown controllers, and data sheets that do not fit the controller or the model."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def check_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
     named = [each for each in scene.said if each.predicate == COMPLIANT_CONTROLLER and each.lines.path == path]
     if not named:
         return
-    # The controllers bring the simulator with them, which takes long to import.
+    # The controllers import the simulator, which is slow to import.
     from skillc_runtime.control.gains import CONTROLLERS
 
     known = tuple(CONTROLLERS)
@@ -39,7 +39,7 @@ def check_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
 
 
 def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
-    """Yield the places in the scene file at `path` where an arm names a sheet that lacks what it needs."""
+    """Yield the places in the scene file at `path` where an arm names a data sheet that lacks required data."""
     for each in scene.said:
         arm = iri_of(each.subject)
         if each.predicate == HAS_SHEET and each.lines.path == path and scene.state.is_a(arm, ARM_DEVICE):
@@ -53,7 +53,7 @@ def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
 
 
 def _misspelt_home(scene: Scene, path: str, sheet: DataSheet, message: str) -> Diagnostic | None:
-    """Return what is reported at the name of a posture in this file that is close to the one that is missing."""
+    """Return the diagnostic at a posture in this file whose name is close to the missing one; None without one."""
     near = get_close_matches(HOME, sheet.posture_names, n=1) if HOME not in sheet.posture_names else []
     for each in scene.said:
         named = each.predicate == POSTURE_NAME and iri_of(each.subject) in sheet.postures and each.lines.path == path
@@ -65,8 +65,8 @@ def _misspelt_home(scene: Scene, path: str, sheet: DataSheet, message: str) -> D
 
 
 def _missing_from(state: WorldState, arm: str, sheet: DataSheet) -> str | None:
-    """Return what a sheet lacks for an arm; what keeps its controller from being known is told elsewhere."""
-    # The simulator takes long to import.
+    """Return what a sheet lacks for an arm, or None; unknown controllers are reported by `check_controllers`."""
+    # The simulator is slow to import.
     import mujoco
 
     controller = state.value(arm, COMPLIANT_CONTROLLER)

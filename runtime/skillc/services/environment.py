@@ -1,4 +1,4 @@
-"""What of the things that skillc can use is installed here."""
+"""Finds which of the programs and packages that skillc can use are installed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from skillc_runtime.planning.fast_downward import solver as fast_downward
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that was looked for; `meaning` says what works, or what to do."""
+    """A program or package; `meaning` says what works with it or, if it is missing, how to install it."""
 
     name: str
     found: bool
@@ -25,7 +25,7 @@ class Finding:
 
 
 def diagnose_environment() -> list[Finding]:
-    """Look for everything that skillc can use."""
+    """Return a finding for each program and package that skillc can use."""
     return [
         Finding("python", True, platform.python_version(), platform.platform(), required=True),
         Finding("skillc", True, version("skillc"), "", required=True),
@@ -37,7 +37,7 @@ def diagnose_environment() -> list[Finding]:
 
 
 def _required() -> list[str]:
-    """Return the names of the packages that skillc always needs."""
+    """Return the names of the packages that skillc requires."""
     needed = [line for line in requires("skillc") or () if "extra ==" not in line]
     return sorted(re.split(r"[^\w.-]", line, maxsplit=1)[0] for line in needed)
 
@@ -51,15 +51,15 @@ def _package(name: str) -> Finding:
 
 def _planners() -> Iterator[Finding]:
     if fast_downward.find_fast_downward():
-        can = "plans: the least work, proved"
+        can = "plans with proved minimal work"
         yield Finding("Fast Downward", True, version("up-fast-downward"), can)
     else:
         yield Finding("Fast Downward", False, "", "plans for larger scenes; pip install 'skillc[planner]'")
-    yield Finding("built-in A*", True, version("skillc"), "plans for small scenes: the least work, proved")
+    yield Finding("built-in A*", True, version("skillc"), "plans for small scenes, with proved minimal work")
     if aries.find_aries():
-        yield Finding("aries", True, version("up-aries"), "schedules that are over early (--minimise makespan)")
+        yield Finding("aries", True, version("up-aries"), "schedules with a short makespan (--minimise makespan)")
     else:
-        missing = "better schedules than those of the plan with the least work; pip install 'skillc[temporal]'"
+        missing = "schedules with a shorter makespan; pip install 'skillc[temporal]'"
         yield Finding("aries", False, "", missing)
 
 
@@ -74,4 +74,4 @@ def _video() -> Finding:
     try:
         return Finding("av", True, version("av"), "films are written as MP4")
     except PackageNotFoundError:
-        return Finding("av", False, "", "films are left out; pip install 'skillc[video]'")
+        return Finding("av", False, "", "needed for films; pip install 'skillc[video]'")

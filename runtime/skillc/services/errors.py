@@ -1,4 +1,4 @@
-"""How services fail: exceptions whose messages are for users, with the exit code that a command ends with."""
+"""The exceptions of services: messages for users, with the exit code of a command."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from skillc_dsl.source import Source
 
 
 class ServiceError(Exception):
-    """What was asked for cannot be done; the message says why."""
+    """A request cannot be fulfilled; the message says why."""
 
     exit_code = 1
 
 
 class RequestError(ServiceError):
-    """The request is wrong: it names something that does not exist, or options that do not go together."""
+    """The request is wrong: it names something that does not exist, or combines options that conflict."""
 
     exit_code = 2
 
 
 class DiagnosticsError(ServiceError):
-    """A library, a scene, a goal or a call has errors: `diagnostics`, and the texts that they point into by path."""
+    """A library, scene, goal or call has errors: `diagnostics`, and the texts that they point into, by path."""
 
     def __init__(self, diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> None:
         super().__init__(f"{len(diagnostics)} problems")
@@ -30,7 +30,7 @@ class DiagnosticsError(ServiceError):
 
 
 class OutputError(Exception):
-    """The standard output accepts nothing more; `reason` is what the system says."""
+    """The standard output cannot be written to; `reason` is the system's error."""
 
     def __init__(self, reason: OSError) -> None:
         super().__init__(f"cannot write to the standard output: {reason.strerror or reason}")

@@ -1,4 +1,4 @@
-"""Files and folders that a user names: what they are, rewriting a file whole or not at all, folders to write to."""
+"""Inspects paths that a user names, rewrites files atomically, and checks that folders are writable."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ Kind = Literal["file", "folder", "missing", "unusable"]
 
 @dataclass(frozen=True, slots=True)
 class PathStatus:
-    """What a path leads to. `is_what` completes a sentence that begins with the path: `is a folder`."""
+    """What is at a path. `is_what` completes a sentence that begins with the path: `is a folder`."""
 
     kind: Kind
     is_what: str
 
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-_BROKEN_LINK = PathStatus("unusable", "is a link that leads nowhere")
+_BROKEN_LINK = PathStatus("unusable", "is a broken link")
 
 
 def inspect_path(path: Path) -> PathStatus:
-    """Return what a path leads to; pipes, devices, broken links and impossible names are `unusable`."""
+    """Return what is at a path; pipes, devices, broken links and invalid names are `unusable`."""
     try:
         mode = path.stat().st_mode
     except (FileNotFoundError, NotADirectoryError):
@@ -49,22 +49,22 @@ def inspect_path(path: Path) -> PathStatus:
 
 
 def rewrite_file(path: Path, old: str, new: str) -> None:
-    """Replace the decoded text `old` of a file by `new`; line ends, byte order mark and permissions stay.
+    """Replace the decoded text `old` of a file by `new`, atomically; line ends, byte order mark and permissions stay.
 
-    ServiceError if the file has changed meanwhile or cannot be written; it is as it was then.
+    ServiceError if the file has changed meanwhile or cannot be written; then it is not changed.
     """
     target = path.resolve()
     try:
         content = target.read_bytes()
         if decode("", content).text != old:
-            raise ServiceError(f"{path} was changed by someone else meanwhile; it is left as it is")
+            raise ServiceError(f"{path} was changed by another program meanwhile; it is not overwritten")
         _replace(target, _encode(new, content))
     except OSError as error:
-        raise ServiceError(f"{path} cannot be written: {error.strerror}; it is left as it was") from error
+        raise ServiceError(f"{path} cannot be written: {error.strerror}; it is unchanged") from error
 
 
 def _encode(text: str, before: bytes) -> bytes:
-    """Return the bytes of a text with the line ends and the mark that the file had."""
+    """Return the bytes of a text with the line ends and byte order mark of the file's content `before`."""
     dos = before.count(b"\r\n") > before.count(b"\n") // 2
     mac = b"\n" not in before and b"\r" in before
     content = text.replace("\n", "\r\n" if dos else "\r" if mac else "\n").encode()
@@ -87,7 +87,7 @@ def _replace(target: Path, content: bytes) -> None:
 
 @contextmanager
 def writing_to(folder: Path) -> Iterator[None]:
-    """Turn an OSError inside into a ServiceError that says that the folder cannot be written to."""
+    """Convert an OSError inside into a ServiceError: the folder cannot be written to."""
     try:
         yield
     except OSError as error:
@@ -95,7 +95,7 @@ def writing_to(folder: Path) -> Iterator[None]:
 
 
 def check_writable(folder: Path | None) -> None:
-    """Raise ServiceError where a folder, if one is wanted, cannot be made or written to; nothing is left behind."""
+    """Raise ServiceError if a folder (unless None) cannot be created or written to; no files or folders remain."""
     if folder is None:
         return
     with writing_to(folder):

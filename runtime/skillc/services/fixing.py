@@ -1,4 +1,4 @@
-"""Applying the fixes of diagnostics: to a library until none is left, then to scenes and vocabularies around it."""
+"""Applies the fixes of diagnostics: to a library until none is left, then to its scenes and vocabularies."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from skillc.services.checking import STDIN, CheckRequest, check_one, read_libraries
+from skillc.services.checking import STDIN, CheckRequest, check_with_cache, read_libraries
 from skillc.services.errors import RequestError
 from skillc.services.files import rewrite_file
 from skillc.services.library_files import SHIPPED, LibraryFiles
@@ -20,12 +20,12 @@ from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 
 _ROUNDS = 20
-"""So often at most, fixes are applied to what other fixes left."""
+"""The most times that a library is fixed and checked again."""
 
 
 @dataclass(frozen=True, slots=True)
 class FileChange:
-    """A file's text before and after its fixes; `shown` is its path as a user can open it from here."""
+    """A file's text before and after its fixes; `shown` is its path relative to the current folder."""
 
     path: Path
     shown: str
@@ -35,9 +35,9 @@ class FileChange:
 
 @dataclass(frozen=True, slots=True)
 class Fixes:
-    """Libraries after their fixes, what remains wrong, the files that change, and how many problems are fixed.
+    """The result of fixing: libraries, remaining diagnostics, changed files, and the number of fixed problems.
 
-    `beside` are the changes of scenes and vocabularies.
+    `skills` are the changes of skill files, `beside` those of scenes and vocabularies.
     """
 
     libraries: tuple[LibraryFiles, ...]
@@ -52,14 +52,14 @@ class Fixes:
 
 
 def find_fixes(request: CheckRequest, unsafe: bool) -> Fixes:
-    """Return what the safe fixes, or all of them, change; nothing is written. RequestError for shipped libraries."""
+    """Return the changes by the safe fixes, or by all; nothing is written. RequestError for shipped libraries."""
     read = read_libraries(request)
     for library in read:
         if library.root.resolve().is_relative_to(SHIPPED):
-            raise RequestError(f"the shipped library {library.name} is not changed; copy it and fix the copy")
+            raise RequestError(f"the shipped library {library.name} cannot be changed; copy it and fix the copy")
     if STDIN in request.paths and len(read) > 1:
         raise RequestError("with fixes, `-` must be the only path")
-    fixed = [_fix_library(library, lambda files: check_one(request, files), unsafe) for library in read]
+    fixed = [_fix_library(library, lambda files: check_with_cache(request, files), unsafe) for library in read]
     remaining = tuple(problem for each in fixed for problem in each.remaining)
     beside = {} if STDIN in request.paths else _fixes_beside(remaining, unsafe)
     return Fixes(
@@ -72,7 +72,7 @@ def find_fixes(request: CheckRequest, unsafe: bool) -> Fixes:
 
 
 def write_fixes(fixes: Fixes) -> int:
-    """Write the files that change and return their number. ServiceError at the first that cannot be written."""
+    """Write the changed files and return their number. ServiceError at the first that cannot be written."""
     changes = (*fixes.skills, *fixes.beside)
     for each in changes:
         rewrite_file(each.path, each.before, each.after)
@@ -80,7 +80,7 @@ def write_fixes(fixes: Fixes) -> int:
 
 
 def unified_diff(old: str, new: str, shown: str, shown_after: str | None = None, context: int = 2) -> str:
-    """Return how a text changes, with so many lines of context, as a unified diff."""
+    """Return the change of a text as a unified diff, with `context` lines of context."""
     lines = difflib.unified_diff(split_lines(old), split_lines(new), shown, shown_after or shown, n=context)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
 
@@ -95,7 +95,7 @@ class _Fixed:
 def _fix_library(
     library: LibraryFiles, check: Callable[[LibraryFiles], tuple[Diagnostic, ...]], unsafe: bool
 ) -> _Fixed:
-    """Apply fixes to the sources of a library, and those of what is found then, and so on."""
+    """Apply fixes to the sources of a library and check again, until no fix is left."""
     after, count, found = library, 0, check(library)
     seen = {library.sources}
     for _ in range(_ROUNDS):
@@ -109,7 +109,7 @@ def _fix_library(
 
 
 def _apply_once(library: LibraryFiles, found: Sequence[Diagnostic], unsafe: bool) -> tuple[LibraryFiles, int]:
-    """Return the library with all fixes that go together applied once, and their number."""
+    """Return the library with all fixes that do not overlap applied once, and their number."""
     fixes: dict[str, list[Fix]] = defaultdict(list)
     for fix in _chosen(found, unsafe):
         fixes[fix.span.path].append(fix)
@@ -126,7 +126,7 @@ def _chosen(found: Iterable[Diagnostic], unsafe: bool) -> Iterator[Fix]:
 
 
 def _fitting(source: Source, fixes: Sequence[Fix]) -> Sequence[Fix]:
-    """Return those of the fixes after which the file is read with no more errors than before."""
+    """Return the fixes that do not add syntax errors."""
     if not fixes or REPLACEMENT in source.text:
         return ()
     most = _count_errors(source, ())

@@ -1,4 +1,4 @@
-"""Formatting skill files."""
+"""Formats skill files."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from skillc_dsl.source import Source
 
 @dataclass(frozen=True, slots=True)
 class FormattedFile:
-    """A source, its formatted text, and why it has none; `path` is where it is written, None for a text without file.
+    """A source and its formatted text; `path` is its file, None for a text without one.
 
-    With `problems` the text is as it was.
+    With `problems`, the reasons why it cannot be formatted, the text is unchanged.
     """
 
     source: Source
@@ -39,7 +39,7 @@ class FormattedFile:
         return unified_diff(self.source.text, self.text, name, f"{name} (formatted)", context=3)
 
     def write(self) -> None:
-        """Write the text to its file. ServiceError where that cannot be done."""
+        """Write the text to its file. ServiceError if it cannot be written."""
         assert self.path is not None
         rewrite_file(self.path, self.source.text, self.text)
 

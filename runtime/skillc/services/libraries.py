@@ -1,4 +1,4 @@
-"""Compiling a skill library, with the shipped ontology and the user's as its vocabulary."""
+"""Compiles skill libraries, with the shipped ontology and the user's as vocabulary."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ _MOST_VOCABULARIES = 4
 
 
 def compile_library(library: LibraryFiles, find_individuals: IndividualsByTask | None = None) -> Outcome[SkillLibrary]:
-    """Compile, with the shipped ontology and the library's own as vocabulary; diagnostics show paths as from here.
+    """Compile, with the shipped and the library's own ontology as vocabulary; diagnostics have displayable paths.
 
-    `find_individuals` gives those that the tasks of a program may name; those of other tasks are not checked.
+    `find_individuals` returns the individuals that each task may name; the names in other tasks are not checked.
     """
     with gc_disabled():
-        known = vocabulary_with(library.vocabularies)
+        known = load_vocabulary_with(library.vocabularies)
         files = read_sources(library.sources, library.importable, library.name, _parse)
         program = resolve_program(files.value, known.value, library.name, pipeline.NO_SCENES)
         individuals = find_individuals(program.value) if find_individuals else {}
@@ -62,14 +62,14 @@ def compile_valid(files: LibraryFiles) -> SkillLibrary:
     return outcome.value
 
 
-def vocabulary() -> Vocabulary:
-    """Load the shipped ontology, and those in the folders that were named."""
-    return vocabulary_with(read_vocabularies(sorted(user_vocabularies().items()))).value
+def load_vocabulary() -> Vocabulary:
+    """Load the shipped ontology and those in the user's ontology folders."""
+    return load_vocabulary_with(read_vocabularies(sorted(user_vocabularies().items()))).value
 
 
 @lru_cache(_MOST_VOCABULARIES)
-def vocabulary_with(own: tuple[Source, ...]) -> Outcome[Vocabulary]:
-    """Load the shipped ontology with others beside it, and say what is wrong with these."""
+def load_vocabulary_with(own: tuple[Source, ...]) -> Outcome[Vocabulary]:
+    """Load the shipped ontology together with others, with the diagnostics of the others."""
     outcome = load(_shipped(), own)
     if outcome.diagnostics and not own:
         raise RuntimeError(f"the shipped ontology is broken: {outcome.diagnostics[0].message}")
@@ -82,7 +82,7 @@ def _shipped() -> tuple[Source, ...]:
 
 
 def split_reference(reference: str) -> tuple[LibraryFiles, str]:
-    """Split `LIBRARY:NAME` into the library and the name of a task; a bare name is one of the wiping library."""
+    """Split `LIBRARY:NAME` into the library and the name of a task; without LIBRARY it is the wiping library."""
     path, colon, name = reference.rpartition(":")
     return find_library(Path(path) if colon else SHIPPED / "wiping"), name
 

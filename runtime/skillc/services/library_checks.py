@@ -1,4 +1,4 @@
-"""All that a check does to a library, and to a scene with it."""
+"""Checks a library with the scenes of its tasks, and further scenes with it."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 def check_library(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with a library, the scenes of its tasks, and `scene`; paths are shown as from here."""
-    found = _Found(library, () if scene is None else (scene,))
+    """Return the diagnostics of a library, of its tasks' scenes and of `scene`, with displayable paths."""
+    found = _SceneReader(library, () if scene is None else (scene,))
     outcome = libraries.compile_library(library, found.individuals)
-    assert found.program is not None, "a library that was compiled was understood"
+    assert found.program is not None, "a compiled library has a program"
     sources = [Source(library.display_path(each.path), each.text) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources)
     return sort_diagnostics((*outcome.diagnostics, *around))
@@ -37,10 +37,10 @@ def check_with_scenes(
     display_path: Callable[[str], str],
     sources: Iterable[Source],
 ) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with scenes, what keeps tasks from being done there, and which values name nothing.
+    """Return the diagnostics of scenes, of tasks in them, and of text values that name nothing.
 
-    `display_path` returns how diagnostics show a path of the library. What the `sources`, which have those paths,
-    suppress is left out.
+    `display_path` maps a path of the library to a displayable one. Diagnostics that the `sources` (with displayable
+    paths) suppress are omitted.
     """
     found: tuple[Diagnostic, ...] = ()
     if scenes is not None:
@@ -51,10 +51,10 @@ def check_with_scenes(
     return without_suppressed((*found, *values), sources)
 
 
-class _Found:
-    """The program, and the scenes of its tasks and others where there are any, once the compiler asked for them.
+class _SceneReader:
+    """Reads the scenes of a program's tasks, and others, when the compiler asks for their individuals.
 
-    The world model, which reading scenes takes, is heavy to import.
+    Reading scenes imports the world model, so it is done only if there are scenes.
     """
 
     def __init__(self, library: LibraryFiles, others: Sequence[Path]) -> None:
@@ -63,7 +63,7 @@ class _Found:
         self.scenes: TaskScenes | None = None
 
     def individuals(self, program: Program) -> Mapping[str, Mapping[str, Sequence[str]]]:
-        """Read the scenes and return the individuals that each task may name, with their classes."""
+        """Read the scenes; return the individuals that each task may name, with their classes."""
         self.program = program
         if not self._others and not any(task.scene for task in program.tasks):
             return {}

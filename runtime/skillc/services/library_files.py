@@ -1,4 +1,4 @@
-"""Finding and reading the files of a skill library, without the compiler: nothing heavy is imported here."""
+"""Finds and reads the files of a skill library; nothing heavy is imported here."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import skillc_skills
 from skillc.services.errors import RequestError
 from skillc.services.files import inspect_path
-from skillc_compiler.emit.headers import is_ours
+from skillc_compiler.emit.headers import is_generated
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
@@ -23,10 +23,10 @@ _VOCABULARY = re.compile(r"^[^#\n]*(?:owl:Ontology\b|owl#Ontology[>\"])", re.MUL
 
 @dataclass(frozen=True, slots=True)
 class LibraryFiles:
-    """A library: `sources` under paths relative to `root`, `importable` what they may import besides, by name.
+    """The texts of a library: `sources` with paths relative to `root`; `importable`, other files to import, by name.
 
-    `vocabularies` are ontologies of the user's: those beside the skills, and those in the folders that were named.
-    `places` are the files of all of them on disk.
+    `vocabularies` are the user's ontologies: those in the library's folder and those in the user's ontology folders.
+    `places` are the files on disk of all these texts, by path.
     """
 
     name: str
@@ -37,15 +37,15 @@ class LibraryFiles:
     vocabularies: tuple[Source, ...] = ()
 
     def display_path(self, path: str) -> str:
-        """Return a source's path as a user can open it from here; ontology files are below the ontology."""
+        """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""
         file, here = self.places.get(path) or catalogue.ROOT / path, Path.cwd()
         return str(file.relative_to(here) if file.is_relative_to(here) else file)
 
 
 def find_library(path: Path) -> LibraryFiles:
-    """Read the library at a folder, the single file at `path` with its neighbours, or the shipped library of that name.
+    """Read the library in the folder `path`, the single file at `path`, or the shipped library of that name.
 
-    RequestError for a path that is none of these, that cannot be read, or that holds no `.skill` file.
+    RequestError for a path that is none of these, cannot be read, or has no `.skill` file.
     """
     found = inspect_path(path)
     if found.kind == "missing" and inspect_path(SHIPPED / path).kind == "folder":
@@ -64,11 +64,11 @@ def find_library(path: Path) -> LibraryFiles:
         return _library(path.resolve().name, path, texts, sources, {}, beside)
     if path.suffix != ".skill":
         raise RequestError(f"{path} is not a .skill file")
-    return library_of_file(path, _bytes(path))
+    return read_single_file(path, _bytes(path))
 
 
-def library_of_file(path: Path | None, content: bytes) -> LibraryFiles:
-    """Take `content` as that of the file at `path`, which can import its neighbours there; None for a file nowhere."""
+def read_single_file(path: Path | None, content: bytes) -> LibraryFiles:
+    """Return a library of one file at `path` (None: no file) with this content, which can import its neighbours."""
     path = path or _STDIN
     others = (file for file in sorted(path.parent.glob("*.skill")) if file.name != path.name and file.is_file())
     neighbours = {file.name: (file.name, file) for file in others}
@@ -78,7 +78,7 @@ def library_of_file(path: Path | None, content: bytes) -> LibraryFiles:
 
 
 def source_texts(library: LibraryFiles) -> dict[str, Source]:
-    """Return every text of the library and of what it may import, by the path that diagnostics show."""
+    """Return every text of the library and of its possible imports, by displayed path."""
     every = (*library.sources, *library.importable.values(), *library.vocabularies)
     return {library.display_path(s.path): Source(library.display_path(s.path), s.text) for s in every}
 
@@ -89,38 +89,35 @@ def find_scene(scene: Path) -> Path:
     if found.kind == "file":
         return scene
     try:
-        return catalogue.scene(str(scene))
+        return catalogue.scene_path(str(scene))
     except FileNotFoundError as error:
         missing = f"there is no file {scene}, and {error}"
         raise RequestError(missing if found.kind == "missing" else f"{scene} {found.is_what}") from error
 
 
 def user_vocabularies() -> dict[str, Path]:
-    """Return the ontologies in the folders that `--ontology` and SKILLC_ONTOLOGY name, by the path that is shown.
+    """Return the ontologies in the folders of `--ontology` and SKILLC_ONTOLOGY, by displayed path.
 
     RequestError for a folder that does not exist.
     """
-    for folder in catalogue.folders():
+    for folder in catalogue.user_folders():
         found = inspect_path(folder)
         if found.kind == "missing":
-            raise RequestError(f"{catalogue.VARIABLE} names {folder}, and there is no such folder")
+            raise RequestError(f"{catalogue.VARIABLE} names {folder}, which does not exist")
         if found.kind != "folder":
             raise RequestError(f"{catalogue.VARIABLE} names {folder}, which {found.is_what}")
-    return dict(catalogue.own_files())
+    return dict(catalogue.user_files())
 
 
 def is_vocabulary(path: Path) -> bool:
-    """Whether a file beside skills is a vocabulary: it says that it is an owl:Ontology, which scenes do not.
-
-    What skillc itself made of the library is none.
-    """
+    """Whether a file is a vocabulary: it declares an owl:Ontology, which scenes do not, and skillc did not write it."""
     if path.suffix not in catalogue.ENDINGS:
         return False
     try:
         text = read_file(path).decode("utf-8", errors="replace")
     except OSError:
         return False
-    return bool(_VOCABULARY.search(text)) and not is_ours(text)
+    return bool(_VOCABULARY.search(text)) and not is_generated(text)
 
 
 def read_vocabularies(files: Iterable[tuple[str, Path]]) -> tuple[Source, ...]:
@@ -144,7 +141,7 @@ def _library(
 
 
 def _shipped() -> dict[str, tuple[str, Path]]:
-    """Return the shipped files by the name that imports them, with the path that is shown."""
+    """Return the shipped files by the name that imports them, with their displayed paths."""
     files = sorted(SHIPPED.glob("*/*.skill"))
     named = ((file, f"{file.parent.name}/{file.name}") for file in files)
     return {file.name if file.parent.name == "std" else shown: (shown, file) for file, shown in named}

@@ -1,4 +1,4 @@
-"""The files of a new library, made from the templates beside this module and tried before they are written."""
+"""Creates a new library from the templates in this package; the files are compiled before they are written."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
-from skillc.services.libraries import vocabulary
+from skillc.services.libraries import load_vocabulary
 from skillc.services.library_files import find_library
 from skillc_compiler import pipeline
 from skillc_dsl.source import Source
@@ -28,34 +28,34 @@ FILES = (
     (".gitignore", "gitignore.j2"),
 )
 SCENE_PREFIX = "lab"
-"""The prefix that the templates give to what is in the cell."""
+"""The prefix of the individuals in the template's scene."""
 NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 
 
 def create_library(folder: Path) -> tuple[Path, ...]:
-    """Write a new library into a new folder, whose last part is its name, and return its files.
+    """Write a new library into a new folder, whose last part is the library's name, and return the files.
 
-    RequestError for a folder that exists or a name that cannot be one; ServiceError, and nothing written, where the
-    folder cannot be made.
+    RequestError if the folder exists or the name is invalid; ServiceError if the folder cannot be created. With an
+    error nothing is written.
     """
     found = inspect_path(folder)
     if found.kind == "unusable":
         raise RequestError(f"{folder} {found.is_what}; choose another name")
     if found.kind != "missing":
-        raise RequestError(f"{folder} exists already; choose another name, or remove it first")
+        raise RequestError(f"{folder} already exists; choose another name or remove it")
     texts = _texts(folder.name)
     try:
         return _write(texts, folder)
     except OSError as error:
-        raise ServiceError(f"cannot make {folder}: {error.strerror}; nothing was written") from error
+        raise ServiceError(f"cannot create {folder}: {error.strerror}; nothing was written") from error
 
 
 def _texts(name: str) -> dict[str, str]:
-    """Return the files of the library `name` by relative path; RequestError for a name that cannot be one."""
+    """Return the texts of the library `name` by relative path; RequestError for an invalid name."""
     if not NAME.fullmatch(name):
         near = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_0123456789")
         hint = f"; try `{near}`" if NAME.fullmatch(near) else ""
-        raise RequestError(f"`{name}` is no name for a library: small letters, digits and `_`, a letter first{hint}")
+        raise RequestError(f"`{name}` is not a valid library name: use a-z, 0-9 and `_`, starting with a letter{hint}")
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
         undefined=StrictUndefined,
@@ -71,9 +71,9 @@ def _texts(name: str) -> dict[str, str]:
 
 
 def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
-    """Write the files into a new folder and return their paths; OSError when that cannot be done, and nothing is left.
+    """Write the files into a new folder and return their paths; with an OSError nothing remains.
 
-    They are written beside it and moved there together.
+    They are written into a temporary folder beside it, which is renamed.
     """
     above = [each for each in (folder.parent, *folder.parent.parents) if not each.exists()]
     try:
@@ -93,10 +93,10 @@ def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
 
 
 def _try_out(name: str, texts: Mapping[str, str]) -> None:
-    """Compile the files; RequestError where the name means something else already."""
-    if name in {*vocabulary().prefixes, SCENE_PREFIX}:
-        raise RequestError(f"the library cannot be called `{name}`: that is the prefix of a vocabulary")
+    """Compile the files; RequestError if the name conflicts with another."""
+    if name in {*load_vocabulary().prefixes, SCENE_PREFIX}:
+        raise RequestError(f"the library cannot be called `{name}`: it is the prefix of a vocabulary")
     sources = [Source(path, text) for path, text in texts.items() if path.endswith(".skill")]
-    outcome = pipeline.compile(sources, vocabulary(), find_library(Path("std")).importable, name)
+    outcome = pipeline.compile(sources, load_vocabulary(), find_library(Path("std")).importable, name)
     if outcome.diagnostics:
         raise RequestError(f"the library cannot be called `{name}`: {outcome.diagnostics[0].message}")

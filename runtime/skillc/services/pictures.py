@@ -1,4 +1,4 @@
-"""Pictures of skills, tasks and plans, as boxes to be drawn."""
+"""Makes pictures of skills, tasks and plans, as nested boxes."""
 
 from __future__ import annotations
 
@@ -6,50 +6,50 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import assert_never
 
-from skillc.services.artifacts import read_files
+from skillc.services.artifacts import parse_files
 from skillc.services.errors import RequestError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc.services.reporting import Reporter
 from skillc.services.task_loading import TaskRequest, load_task
-from skillc_compiler.emit.picture.boxes import Box
-from skillc_compiler.emit.picture.find import drawable, picture_of
+from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
 from skillc_dsl.diagnostics import did_you_mean
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
 from skillc_runtime.planning.solve import solve
 
 
-def draw_declaration(path: Path, name: str) -> Box:
-    """Return the picture of a skill or a task of the library at `path`. RequestError where there is neither."""
+def draw_declaration(path: Path, name: str) -> PictureBox:
+    """Return the picture of a skill or task of the library at `path`. RequestError if it has no such declaration."""
     library = find_library(path)
     compile_valid(library)
-    files = read_files(library)
-    box = picture_of(name, files)
+    files = parse_files(library)
+    box = make_picture(name, files)
     if box is None:
-        hint = did_you_mean(name, drawable(files)) or "it has none"
+        hint = did_you_mean(name, list_drawable(files)) or "it has none"
         raise RequestError(f"there is no skill or task `{name}` in {library.name}: {hint}")
     return box
 
 
-def draw_plan(path: Path, task: str, reporter: Reporter) -> Box | Unsolvable | GaveUp:
-    """Plan for a task of the library at `path` and return the steps in a box. RequestError where it has no goal."""
+def draw_plan(path: Path, task: str, reporter: Reporter) -> PictureBox | Unsolvable | GaveUp:
+    """Plan for a task of the library at `path` and return the picture of the plan. RequestError without a goal."""
     with load_task(TaskRequest(f"{path}:{task}"), reporter) as loaded:
         aim, state = loaded.assignment.objective, loaded.assignment.state
         if not isinstance(aim, AchieveGoal):
-            raise RequestError(f"the task `{task}` says itself what to do; draw it without --plan")
+            raise RequestError(f"the task `{task}` has a body, not a goal; draw it without --plan")
         answer = solve(loaded.library, state, aim.goal)
     match answer:
         case Solved(plan=plan):
             good = describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
             steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
-            return Box("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
+            return PictureBox("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
         case Unsolvable() | GaveUp():
             return answer
         case _:
             assert_never(answer)
 
 
-def _step(skill: str, arguments: Mapping[str, str], short: Callable[[str], str]) -> Box:
+def _step(skill: str, arguments: Mapping[str, str], short: Callable[[str], str]) -> PictureBox:
     bound = ", ".join(f"{name}: {short(iri)}" for name, iri in arguments.items())
-    return Box("call", "▶", skill, (bound,) if bound else (), (), skill)
+    return PictureBox("call", "▶", skill, (bound,) if bound else (), (), skill)

@@ -1,4 +1,4 @@
-"""Planning for the goal of a task, with the planners of this installation and the plans that they made before."""
+"""Plans for the goal of a task, with the installed planners and a cache of their answers."""
 
 from __future__ import annotations
 
@@ -19,39 +19,39 @@ from skillc_runtime.planning.solve import solve
 Answer: TypeAlias = PlanResult | Scheduled
 Measure: TypeAlias = Literal["work", "proven work", "makespan"]
 MOST_PLANS = 500
-"""So many answers of planners are cached."""
+"""The most answers in the plan cache."""
 
 
 class FolderPlanCache:
-    """Answers of planners as files of a folder, for several processes at once."""
+    """A plan cache as files in a folder, which several processes can share."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
     def get(self, key: str) -> bytes | None:
-        """Return what was put under a key, None where there is nothing or where it is damaged."""
+        """Return the content stored under a key, None if there is none or it is damaged."""
         return cache.load(self._folder / key)
 
     def put(self, key: str, content: bytes) -> None:
-        """Store something, and delete the oldest where there is too much."""
+        """Store content under a key, and delete the oldest entries beyond MOST_PLANS."""
         cache.store(self._folder / key, content)
         cache.delete_oldest(self._folder, MOST_PLANS, MOST_PLANS)
 
 
 def prepare_planners(use_cache: bool) -> Planners:
-    """Return the planners of this installation, with the answers in the user's cache folder if wanted."""
+    """Return the installed planners, with the plan cache in the user's cache folder if `use_cache`."""
     folder = cache.cache_folder() if use_cache else None
     return find_planners(None if folder is None else FolderPlanCache(folder / "plans"))
 
 
 def plan_goal(loaded: LoadedTask, measure: Measure, planners: Planners, deadline_s: float) -> Answer:
-    """Plan for the goal of a task: with little work, also proven to be the least of the whole scene, or to end early.
+    """Plan for the goal of a task: with little work, with work proved minimal in the whole scene, or a short makespan.
 
-    RequestError for a task that is a body.
+    RequestError if the task has a body instead of a goal.
     """
     library, assignment = loaded.library, loaded.assignment
     if not isinstance(assignment.objective, AchieveGoal):
-        raise RequestError(f"the task `{assignment.name}` says itself what to do; run it with `skillc run`")
+        raise RequestError(f"the task `{assignment.name}` has a body, not a goal; run it with `skillc run`")
     goal = assignment.objective.goal
     if measure == "makespan":
         return minimise_makespan(library, assignment.state, goal, planners, deadline_s)
@@ -59,8 +59,8 @@ def plan_goal(loaded: LoadedTask, measure: Measure, planners: Planners, deadline
 
 
 def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:
-    """Return a task whose plan is to end early; RequestError where there is nothing to plan."""
+    """Return the task with the objective of a minimal makespan; RequestError if it has no goal."""
     assignment = loaded.assignment
     if not isinstance(assignment.objective, AchieveGoal):
-        raise RequestError(f"`{assignment.name}` says itself what to do: there is no plan to minimise")
+        raise RequestError(f"`{assignment.name}` has a body, not a goal: there is no plan to minimise")
     return replace(loaded, assignment=replace(assignment, objective=AchieveGoal(assignment.objective.goal, "makespan")))

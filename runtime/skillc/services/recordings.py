@@ -1,4 +1,4 @@
-"""Reading what `skillc run --out` recorded."""
+"""Reads the recordings of `skillc run --out`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NAME = "events.jsonl"
 
 
 def read_run(run: Path, reporter: Reporter) -> RunHistory:
-    """Read what happened in a run, given by its folder or its file of events. ServiceError where it cannot be read."""
+    """Read the recording of a run, given its folder or its event file. ServiceError if it cannot be read."""
     path = run / NAME if inspect_path(run).kind == "folder" else run
     found = inspect_path(path)
     if found.kind == "missing":
@@ -31,14 +31,14 @@ def read_run(run: Path, reporter: Reporter) -> RunHistory:
     except OSError as error:
         raise ServiceError(f"{path} cannot be read: {error.strerror or error}") from error
     if story is None:
-        raise ServiceError(f"{path} has nothing of a task: the run ended before it began")
+        raise ServiceError(f"{path} has no events of a task: the run ended before the task began")
     if reader.is_truncated:
         reporter.say(f"note: the last line of {path} is incomplete; the recording ends at {story.last:.1f} s")
     return story
 
 
 def answer_question(story: RunHistory, question: str) -> CallSelection:
-    """Return what a recording says to a question. RequestError for one about something that is not in it."""
+    """Return the answer to a question. RequestError if it is about something that is not in the recording."""
     try:
         return select_calls(story, question)
     except QuestionError as error:

@@ -1,4 +1,4 @@
-"""Reporting what is no result: the seam to whoever shows messages, and diagnostics ready to be shown."""
+"""The protocol through which services report messages, and helpers that prepare diagnostics for display."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_dsl.source import Source
 
 
 class Reporter(Protocol):
-    """Receives what a service reports while it works: warnings, and what a store was filled with."""
+    """Receives the messages and warnings of a service while it works."""
 
     def say(self, message: str) -> None:
         """Report one line, such as `warning: ..`."""
@@ -23,8 +23,8 @@ class Reporter(Protocol):
         ...
 
 
-class Silent:
-    """A reporter for those who want the result only."""
+class SilentReporter:
+    """A reporter that discards everything."""
 
     def say(self, message: str) -> None:
         """Do nothing."""
@@ -34,19 +34,19 @@ class Silent:
 
 
 def sort_diagnostics(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Return each of the diagnostics once, in order of place."""
+    """Return each diagnostic once, sorted by span and name."""
     return tuple(sorted(set(diagnostics), key=lambda each: (each.span, each.name)))
 
 
 def find_texts(diagnostics: Iterable[Diagnostic], known: Mapping[str, Source]) -> dict[str, Source]:
-    """Return the texts of all files that diagnostics point into, from `known` or from the disk, where there is one."""
+    """Return the texts of all files that diagnostics point into, from `known` or else from disk."""
     spans = (span for each in diagnostics for span in (each.span, *(label.span for label in each.labels)))
     found = {path: known.get(path) or _read(path) for path in sorted({span.path for span in spans})}
     return {path: source for path, source in found.items() if source is not None}
 
 
-def count_of(count: int, word: str) -> str:
-    """Return a number of things in words, such as `2 files`."""
+def format_count(count: int, word: str) -> str:
+    """Return a count with its noun, such as `2 files`."""
     return f"{count} {word}{'s' * (count != 1)}"
 
 

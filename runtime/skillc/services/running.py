@@ -1,4 +1,4 @@
-"""Running a task in simulation: preparation, execution, recording, film and report."""
+"""Runs a task in simulation: preparation, execution, recording, film and report."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ from skillc_runtime.world.state.transactions import StoreError
 
 PRIMITIVE_LOOKS = "primitive"
 POLL_PERIOD_S = 0.2
-"""How often a store is polled, by the clock: a server takes a millisecond or more to answer."""
+"""How often a store is polled, in s of wall time: a server takes a millisecond or more to answer."""
 
 
 @dataclass(frozen=True, slots=True)
 class RunOptions:
-    """How to run: the folder of recording and report (None: neither), the seed, the planners, the meshes in films.
+    """The folder of recording and report (None: neither), the seed, the planners, and the meshes in films.
 
-    RequestError for meshes that no film would show.
+    RequestError for meshes without a folder, because then no film is made.
     """
 
     out: Path | None = None
@@ -53,14 +53,14 @@ class RunOptions:
 
     def __post_init__(self) -> None:
         if self.looks != PRIMITIVE_LOOKS and self.out is None:
-            raise RequestError(f"--looks {self.looks} is about films and stills; say with --out where they shall go")
+            raise RequestError(f"--looks {self.looks} applies to films and stills, which require --out")
 
 
 @dataclass(frozen=True, slots=True)
 class RunResult:
-    """What became of a task, and what is drawn of its wipings; nothing where no report was asked for.
+    """The result of a task, and the drawings of its wipings for the report (none without a report).
 
-    `written` is False where a report was asked for and could not be written.
+    `written` is False if a report was requested and could not be written.
     """
 
     result: TaskResult
@@ -69,29 +69,29 @@ class RunResult:
 
 
 class RunMonitor(Protocol):
-    """Whoever watches a run: called with each event, and asked after each tick."""
+    """Monitors a run: called with each event and after each tick."""
 
     def __call__(self, event: Event) -> None:
-        """Note an event."""
+        """Receive an event."""
         ...
 
     def say(self, message: str) -> None:
-        """Note what happens before the first tick and after the last."""
+        """Receive a message about the preparation or the report."""
         ...
 
     def pace(self, now: float) -> None:
-        """Wait if simulated time, in seconds, is to pass no faster than the clock."""
+        """Called after each tick with the simulated time in s; may wait, to slow the run down."""
         ...
 
     def interruption(self) -> AbstractContextManager[Callable[[], bool]]:
-        """Return a context in which the run can be interrupted, and whether it shall be."""
+        """Return a context in which the run can be interrupted; its value returns whether it has been."""
         ...
 
 
 class StorePoller:
-    """Lets a world model follow what other processes write to its store.
+    """Updates a world model with what other processes write to its store.
 
-    A store that cannot be read is reported once, and polled again.
+    A store that cannot be read is reported once and polled again later.
     """
 
     def __init__(self, world: WorldModel, reporter: Reporter) -> None:
@@ -99,7 +99,7 @@ class StorePoller:
         self._next, self._reported = 0.0, ""
 
     def poll(self) -> None:
-        """Follow the store, if it is time."""
+        """Update the world model if POLL_PERIOD_S has passed since the last time."""
         now = time.monotonic()
         if now < self._next:
             return
@@ -114,9 +114,9 @@ class StorePoller:
 
 
 def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter) -> RunResult:
-    """Plan, run and report a task; one that cannot start has the status `refused`.
+    """Plan, run and report a task; if it cannot start, its status is `refused`.
 
-    ServiceError where the folder of the report cannot be made, or there are no meshes of that name.
+    ServiceError if the report's folder cannot be created, or there are no meshes of that name.
     """
     monitor.say("preparing")
     prepared = prepare_task(task.assignment, task.library, planners=options.planners)
@@ -134,7 +134,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
 
 
 def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | None:
-    """Write the figure that compares what several runs wiped and return its file; None where nothing was wiped."""
+    """Write the figure that compares the wipings of several runs and return its file; None without wipings."""
     with writing_to(folder):
         return folder / "wiping.png" if write_figure(folder, drawings) is not None else None
 
@@ -183,7 +183,7 @@ def _run(
 
 
 def _model_with_meshes(cell: SimulatedCell, looks: str) -> Any:
-    """Return the model of a cell with the meshes of that name, for films. ServiceError if there are none."""
+    """Return the MuJoCo model of a cell with the meshes of that name. ServiceError if there are none."""
     from skillc_runtime.backends.mujoco.model_builder import describe_model
     from skillc_runtime.film.look_meshes import build_look_model
     from skillc_runtime.film.looks import LooksError, read_looks
@@ -196,7 +196,7 @@ def _model_with_meshes(cell: SimulatedCell, looks: str) -> Any:
 
 
 def _write_film(film: Film, folder: Path, wanted: Sequence[Moment], reporter: Reporter) -> FilmFiles | None:
-    """Write the film and the stills that are wanted; report where there can be none."""
+    """Write the film and the stills of the moments; report if they cannot be made."""
     try:
         return film.write(folder, wanted)
     except (FilmError, RenderingError) as error:

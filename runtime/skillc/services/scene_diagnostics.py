@@ -1,4 +1,4 @@
-"""The diagnostics of a scene, with paths that people can open."""
+"""Gives the diagnostics of a scene displayable paths."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_runtime.scene.documents import Document, SceneError
 
 
 def with_shown_paths(problems: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Return the diagnostics of a scene with the paths that people can open."""
+    """Return the diagnostics of a scene with displayable paths."""
     return [
         replace(
             each, span=with_shown_path(each.span), labels=tuple(map(_shown_label, each.labels)), fix=_shown_fix(each)
@@ -23,7 +23,7 @@ def with_shown_paths(problems: Iterable[Diagnostic]) -> list[Diagnostic]:
 
 
 def with_shown_path(span: Span) -> Span:
-    """Return a place in a Turtle file; a file of the shipped ontology gets its path on this machine."""
+    """Return a span in a Turtle file; a file of the shipped ontology gets its path on this machine."""
     shipped, here = catalogue.ROOT / span.path, Path.cwd()
     if Path(span.path).exists() or not shipped.is_file():
         return span
@@ -38,8 +38,8 @@ def _shown_fix(problem: Diagnostic) -> Fix | None:
     return problem.fix and replace(problem.fix, span=with_shown_path(problem.fix.span))
 
 
-def scene_text(scene: Path) -> dict[str, Source]:
-    """Return the scene's text by its path, for excerpts; nothing when it cannot be read."""
+def read_scene_text(scene: Path) -> dict[str, Source]:
+    """Return the scene's text by its path, for excerpts; empty if it cannot be read."""
     try:
         return {str(scene): Source(str(scene), Document.read(scene).text)}
     except SceneError:

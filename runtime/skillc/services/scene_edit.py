@@ -1,4 +1,4 @@
-"""Editing a scene's file: all edits are made or none, and only if the scene has no errors afterwards."""
+"""Edits a scene file: either all edits are applied or none, and only if the scene has no errors afterwards."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc.services.files import rewrite_file
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import decode
 from skillc_ontology import catalogue
-from skillc_rdf.turtle.editing import Editor, NotWritten
+from skillc_rdf.turtle.editing import Editor, StatementNotFound
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Node
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -26,7 +26,7 @@ FORMS = "`SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVI
 
 
 class Edit(NamedTuple):
-    """A statement, or an individual alone, that is to be added, or else removed."""
+    """A statement to add or remove, or an individual (without predicate) to remove."""
 
     added: bool
     subject: str
@@ -35,25 +35,25 @@ class Edit(NamedTuple):
 
 
 def edit_file(scene: Path, state: WorldState, edits: Sequence[str]) -> str:
-    """Edit a scene's file and return what was done. ServiceError, and the file as it was, where that cannot be done."""
+    """Edit a scene file and return a summary. ServiceError, and the file unchanged, if an edit cannot be applied."""
     if catalogue.ROOT in scene.resolve().parents:
-        raise ServiceError(f"the shipped scene {scene.name} is not changed; copy it and edit the copy")
+        raise ServiceError(f"the shipped scene {scene.name} cannot be changed; copy it and edit the copy")
     before = decode(str(scene), scene.read_bytes()).text
     editor = Editor(before, BASE, lambda iri: state.vocabulary.aliases.get(iri, iri))
     prefixes = {**state.vocabulary.prefixes, **parse(str(scene), before, BASE).prefixes}
     for text in edits:
         _apply(editor, text, _parse(text, prefixes, state.vocabulary), state)
     if editor.text == before:
-        return f"{scene} says so already"
+        return f"{scene} already states this"
     after = read_documents([Document(str(scene), editor.text), *sheet_documents()], state.vocabulary)
     if not after.ok:
         raise ServiceError(_errors_after(scene, after.problems))
     rewrite_file(scene, before, editor.text)
-    return f"{scene}: {len(edits)} edit{'s' * (len(edits) > 1)} made"
+    return f"{scene}: {len(edits)} edit{'s' * (len(edits) > 1)} applied"
 
 
 def _apply(editor: Editor, text: str, edit: Edit, state: WorldState) -> None:
-    """Make an edit in the text; what has one value only is set."""
+    """Apply an edit to the text; the value of a functional relation or property is replaced."""
     subject, predicate, object_ = edit.subject, edit.predicate, edit.object
     try:
         if predicate is None or object_ is None:
@@ -64,7 +64,7 @@ def _apply(editor: Editor, text: str, edit: Edit, state: WorldState) -> None:
             editor.set(subject, predicate, object_)
         else:
             editor.add(subject, predicate, object_)
-    except NotWritten:
+    except StatementNotFound:
         raise ServiceError(_not_written(text, edit, state)) from None
 
 
@@ -77,12 +77,12 @@ def _not_written(text: str, edit: Edit, state: WorldState) -> str:
     said = text.strip().removeprefix("not ")
     object_ = iri_of(edit.object) if edit.object is not None else ""
     if edit.predicate in state.vocabulary.relations and state.holds(edit.subject, edit.predicate, object_):
-        return f"the scene's file does not say `{said}`: it follows from something else, which is to be taken away"
-    return f"the scene's file does not say `{said}`"
+        return f"the scene file does not state `{said}`: it follows from other statements; remove those"
+    return f"the scene file does not state `{said}`"
 
 
 def _parse(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> Edit:
-    """Read an edit; ServiceError where it makes no sense."""
+    """Parse an edit; ServiceError if it is not a valid one."""
     said = text.strip().removesuffix(".").strip()
     wanted = not said.startswith("not ")
     said = said if wanted else said.removeprefix("not ").strip()
@@ -103,7 +103,7 @@ def _parse(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> Edit:
 
 
 def _errors_after(scene: Path, problems: Sequence[Diagnostic]) -> str:
-    """Return why the scene would have errors."""
+    """Return the message about the errors that the scene would have."""
     errors = (each for each in problems if each.severity == "error")
     lines = (f"  {each.message}" + (f" ({each.help})" if each.help else "") for each in errors)
-    return "\n".join((f"{scene} is left as it is, for after the edit it would have errors", *lines))
+    return "\n".join((f"{scene} is unchanged, because the edit would cause errors", *lines))

@@ -1,11 +1,11 @@
-"""A scene as a picture: what holds what, in boxes below each other; other relations stand in the boxes."""
+"""Makes the picture of a scene: nested boxes show what holds what, their lines the other relations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from skillc_compiler.emit.picture.boxes import Box, Look
+from skillc_compiler.emit.picture.boxes import Look, PictureBox
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     CONTAINER_STATE,
@@ -35,10 +35,10 @@ LOOKS: tuple[tuple[str, Look, str], ...] = (
     (SURFACE, "code", "▤"),
     (MANIPULATABLE, "guard", "●"),
 )
-"""How individuals of a class look; the first that fits counts."""
+"""The look and symbol of individuals by class; the first matching row applies."""
 OTHER: tuple[Look, str] = ("heading", "·")
 PROPERTIES = (DEVICE_STATE, IS_CLEAN, CONTAINER_STATE)
-"""Values that say in which state something is."""
+"""The properties that describe the state of an individual."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +49,8 @@ class _Scene:
     holding: tuple[str, ...]
 
 
-def picture(state: WorldState, own: frozenset[str], labels: dict[str, str], title: str) -> Box:
-    """Return the picture of a scene's own individuals under a title."""
+def draw_boxes(state: WorldState, own: frozenset[str], labels: dict[str, str], title: str) -> PictureBox:
+    """Return the picture of a scene's own individuals, with a title."""
     above = state.vocabulary.super_relations
     scene = _Scene(
         state, own, labels, tuple(sorted(iri for iri in above if HOLDS_DEEP in above[iri] and iri != HOLDS_DEEP))
@@ -64,27 +64,27 @@ def picture(state: WorldState, own: frozenset[str], labels: dict[str, str], titl
     seen: set[str] = set()
     boxes = [_box(scene, one, held, seen) for one in sorted(own - inside)]
     boxes += [_box(scene, one, held, seen) for one in sorted(own) if one not in seen]
-    return Box("heading", "◇", title, (f"{len(own)} individuals",), tuple(boxes))
+    return PictureBox("heading", "◇", title, (f"{len(own)} individuals",), tuple(boxes))
 
 
 def _holder(scene: _Scene, one: str) -> str | None:
-    """Return what holds something: the first of those nearest to it."""
+    """Return the holder of an individual, the first by IRI; None without one."""
     holders = {h for relation in scene.holding for h in scene.state.subjects(relation, one)} & scene.own - {one}
     return min(holders, default=None)
 
 
-def _box(scene: _Scene, one: str, held: dict[str, list[str]], seen: set[str]) -> Box:
+def _box(scene: _Scene, one: str, held: dict[str, list[str]], seen: set[str]) -> PictureBox:
     seen.add(one)
     look, symbol = _look(scene.state, one)
     short = scene.state.vocabulary.short
     types = ", ".join(map(short, sorted(scene.state.types(one))))
     lines = [f"{scene.labels[one]}, {types}" if one in scene.labels else types, *_relations(scene, one, held)]
     children = tuple(_box(scene, each, held, seen) for each in held.get(one, ()) if each not in seen)
-    return Box(look, symbol, short(one), tuple(lines), children)
+    return PictureBox(look, symbol, short(one), tuple(lines), children)
 
 
 def _relations(scene: _Scene, one: str, held: dict[str, list[str]]) -> Iterable[str]:
-    """Yield the relations that the boxes below do not show, and in which state something is."""
+    """Yield the relations that the nested boxes do not show, and the state of the individual."""
     state, short = scene.state, scene.state.vocabulary.short
     below = held.get(one, ())
     for relation, links in sorted(state.asserted.items()):

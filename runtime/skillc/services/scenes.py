@@ -1,4 +1,4 @@
-"""Looking into a scene, or into the world in a store: lists, searches, queries, comparisons, pictures."""
+"""Lists, searches, queries, compares, draws and edits a scene, or the world in a store."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class OpenScene:
-    """A scene as it is written, its world, the labels of individuals, and those that are meant if none is named.
+    """A scene's document, its world, the labels of individuals, and the individuals that are listed by default.
 
-    `path` is None where the world comes from a store; `vocabulary` is that of the library.
+    `path` is None if the world comes from a store; `vocabulary` is that of the library.
     """
 
     path: Path | None
@@ -46,8 +46,11 @@ class OpenScene:
 
 
 @dataclass(frozen=True, slots=True)
-class Individual:
-    """All that is known of an individual: what is written of it, further classes, what leads to it, what follows."""
+class IndividualFacts:
+    """All facts about an individual: stated ones, derived classes, incoming and derived relations.
+
+    `leading` has (subject, relation), `follows` (relation, object).
+    """
 
     element: Element
     classes: tuple[str, ...]
@@ -64,7 +67,7 @@ class FactText(NamedTuple):
 
 
 class SceneDiff(NamedTuple):
-    """The facts of one scene that another does not have, and those that only the other has; sorted."""
+    """The facts that only the first scene has, and those that only the second has; sorted."""
 
     removed: list[FactText]
     added: list[FactText]
@@ -74,13 +77,13 @@ class SceneDiff(NamedTuple):
 def open_scene(
     scene: Path | None, library: Path | None, store: StoreChoice, everything: bool, reporter: Reporter
 ) -> Iterator[OpenScene]:
-    """Open a scene file, a shipped scene or the world in a store; errors as of `open_world`.
+    """Open a scene file, a shipped scene or the world in a store; errors as `open_world`.
 
-    The terms are those of `library`, else of the skills beside the scene, else of the shipped library. Individuals of
-    the shipped data sheets are meant only if `everything` is.
+    The terms are those of `library`, else of the library in the scene's folder, else of the shipped library. With
+    `everything`, the individuals of the shipped data sheets are listed too.
     """
     if scene is None and store.place is None:
-        raise RequestError("say which SCENE, or --store for the world in a store")
+        raise RequestError("name a SCENE, or the world in a store with --store")
     path = None if scene is None else find_scene(scene)
     compiled = compile_valid(find_library(library or _library_beside(path) or SHIPPED / "wiping"))
     with open_world(store, path, compiled.vocabulary, reporter) as world:
@@ -93,19 +96,19 @@ def open_scene(
 
 
 def find_individuals(scene: OpenScene, words: str | None) -> tuple[Element, ...]:
-    """Return what is written of the individuals, or of those in whose names, labels, classes or texts words occur."""
+    """Return the stated facts about all individuals, or about those whose names, labels, classes or texts match."""
     if words is None:
         return elements_of(scene.state, scene.individuals)
     wanted = words.casefold().split()
     labelled = {iri for iri, label in scene.labels.items() if all(word in label.casefold() for word in wanted)}
     found = ({each.iri for each in search_elements(scene.state, words)} | labelled) & scene.individuals
     if not found:
-        raise ServiceError(f"nothing in the scene is called, or of a class called, or says `{words}`")
+        raise ServiceError(f"no individual matches `{words}` by name, label, class or text")
     return elements_of(scene.state, found)
 
 
-def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individual]:
-    """Return all there is to know of individuals. ServiceError for a name of none."""
+def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[IndividualFacts]:
+    """Return all facts about individuals. ServiceError for an unknown name."""
     try:
         chosen = [resolve_individual(name, scene.state) for name in names]
     except NoSuchName as error:
@@ -114,7 +117,7 @@ def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individ
 
 
 def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
-    """Answer a query over the scene and the shipped ontology. ServiceError for what is not SPARQL."""
+    """Answer a query over the scene and the shipped ontology. ServiceError if it is not valid SPARQL."""
     try:
         return run_query([scene.document, *sheet_documents()], sparql, scene.state.vocabulary)
     except QueryError as error:
@@ -122,46 +125,46 @@ def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
 
 
 def compare_scenes(scene: OpenScene, other: Path, reporter: Reporter) -> SceneDiff:
-    """Return what the other scene takes away and adds."""
+    """Return the facts that the other scene removes and adds."""
     state = load_world(find_scene(other), scene.vocabulary, reporter)
     ours, theirs = frozenset(all_triples(scene.state)), frozenset(all_triples(state))
     return SceneDiff(_texts(ours - theirs, scene.state.vocabulary), _texts(theirs - ours, state.vocabulary))
 
 
 def draw_scene(scene: OpenScene, file: Path) -> None:
-    """Draw the scene into an SVG file. ServiceError where it cannot be written."""
+    """Draw the scene as an SVG file. ServiceError if it cannot be written."""
     title = scene.path.name if scene.path else scene.document.path
-    box = scene_picture.picture(scene.state, scene.individuals, scene.labels, title)
+    box = scene_picture.draw_boxes(scene.state, scene.individuals, scene.labels, title)
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(svg.document(box), encoding="utf-8")
+        file.write_text(svg.draw_document(box), encoding="utf-8")
     except OSError as error:
         raise ServiceError(f"cannot write {file}: {error.strerror}") from error
 
 
 def edit_scene(scene: OpenScene, edits: Sequence[str]) -> str:
-    """Make all edits in the scene's file, or none, and return what was done. ServiceError where one cannot be made."""
+    """Apply all edits to the scene file, or none; return a summary. ServiceError if one cannot be applied."""
     assert scene.path is not None
     return scene_edit.edit_file(scene.path, scene.state, edits)
 
 
 def _library_beside(scene: Path | None) -> Path | None:
-    """Return the folder of a scene where it is a library too."""
+    """Return the folder of a scene if it is a library, else None."""
     return scene.parent if scene is not None and any(scene.parent.glob("*.skill")) else None
 
 
 def _stored_document(place: str, state: WorldState) -> Document:
-    """Return as a document what the world in a store says beside the shipped ontology."""
+    """Return a document of the facts of a stored world that the shipped ontology does not state."""
     shipped = frozenset(all_triples(load_documents(sheet_documents(), state.vocabulary)))
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_triples(state) if fact not in shipped)))
 
 
-def _describe(element: Element) -> Individual:
+def _describe(element: Element) -> IndividualFacts:
     state, one, written = element.state, element.iri, set(element.relations)
     types = state.types(one)
     implied = ((relation, other) for relation in state.facts for other in state.objects(one, relation))
     leading = ((other, relation) for relation, links in state.asserted.items() for other in links.backward.get(one))
-    return Individual(
+    return IndividualFacts(
         element,
         tuple(sorted(state.axioms.superclasses(types) - types)),
         tuple(sorted(leading)),

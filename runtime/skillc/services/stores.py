@@ -1,4 +1,4 @@
-"""The world model of a scene, or of a store: filled with the scene at first, afterwards as it was left."""
+"""Opens the world model of a scene, or of a store, which is filled with the scene at its first use."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
-from skillc.services.reporting import Reporter, count_of
-from skillc.services.scene_diagnostics import scene_text, with_shown_paths
+from skillc.services.reporting import Reporter, format_count
+from skillc.services.scene_diagnostics import read_scene_text, with_shown_paths
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
@@ -28,9 +28,9 @@ _BEGINNING = re.compile(r"scene (.*) ([0-9a-f]{12})")
 
 @dataclass(frozen=True, slots=True)
 class StoreChoice:
-    """The store of a world, a folder or the address of a SPARQL server, and whether it is emptied; None for no store.
+    """The store of a world (a folder, the URL of a SPARQL server, or None) and whether to empty it first.
 
-    The address may have a password, so it is not shown; `name` is the place without it.
+    The URL may contain a password, so it is not shown; `name` is the place without it.
     """
 
     place: str | None = field(default=None, repr=False)
@@ -38,11 +38,11 @@ class StoreChoice:
 
     def __post_init__(self) -> None:
         if self.reset and self.place is None:
-            raise RequestError("--reset empties a store; say which with --store")
+            raise RequestError("--reset requires --store")
 
     @property
     def name(self) -> str:
-        """What the place is called in messages."""
+        """The place without credentials, for messages."""
         return without_credentials(self.place or "")
 
 
@@ -52,9 +52,11 @@ NO_STORE = StoreChoice()
 def load_world(scene: Path, vocabulary: Vocabulary, reporter: Reporter) -> WorldState:
     """Load a scene and report its warnings. DiagnosticsError if it has errors, ServiceError if it cannot be read."""
     try:
-        return load_scene(scene, vocabulary, lambda found: reporter.show(with_shown_paths(found), scene_text(scene)))
+        return load_scene(
+            scene, vocabulary, lambda found: reporter.show(with_shown_paths(found), read_scene_text(scene))
+        )
     except SceneError as error:
-        raise DiagnosticsError(with_shown_paths(error.problems), scene_text(scene)) from error
+        raise DiagnosticsError(with_shown_paths(error.problems), read_scene_text(scene)) from error
     except OSError as error:
         raise ServiceError(f"the scene {scene} cannot be read: {error.strerror}") from error
 
@@ -63,9 +65,9 @@ def load_world(scene: Path, vocabulary: Vocabulary, reporter: Reporter) -> World
 def open_world(
     choice: StoreChoice, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter
 ) -> Iterator[WorldModel]:
-    """Open the world in a store, which is filled with the scene if it is empty, or that of the scene without a store.
+    """Open the world in a store, filled with the scene if it is empty; without a store, the world of the scene.
 
-    DiagnosticsError or ServiceError where the scene or the store cannot be used.
+    DiagnosticsError or ServiceError if the scene or the store cannot be used.
     """
     if choice.place is None:
         assert scene is not None
@@ -80,7 +82,7 @@ def open_world(
 
 def _open(choice: StoreChoice, place: str, scene: Path | None) -> OpenStore:
     if scene is None and "://" not in place and not Path(place).exists():
-        raise ServiceError(f"there is no store {place}; name the scene to begin with")
+        raise ServiceError(f"there is no store {place}; name the scene to fill it with")
     try:
         return open_store(place, choice.reset)
     except StoreError as error:
@@ -108,7 +110,7 @@ def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporte
     stored = store.read()
     if not stored.triples:
         if scene is None:
-            raise ServiceError(f"{store} is empty; name the scene to begin with")
+            raise ServiceError(f"{store} is empty; name the scene to fill it with")
         state = load_world(scene, vocabulary, reporter)
         event = ChangeEvent((), _beginning(scene), WorldState.empty(vocabulary), state)
         if store.append(event, stored.sequence):
@@ -117,25 +119,25 @@ def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporte
         stored = store.read()
     _compare(stored, scene, store, reporter)
     state = build_world(stored.triples, vocabulary, str(store))
-    count = count_of(stored.sequence, "transaction")
-    reporter.say(f"{store}: the world after {count}, which began as {_name(stored)}")
+    count = format_count(stored.sequence, "transaction")
+    reporter.say(f"{store}: the world after {count}, filled with {_name(stored)}")
     return WorldModel(state, store, stored.sequence)
 
 
 def _compare(stored: StoredWorld, scene: Path | None, store: OpenStore, reporter: Reporter) -> None:
-    """Refuse a store that began with another scene than the one named; warn of one that has changed since."""
+    """ServiceError for a store that was filled with another scene; a warning if that scene has changed since."""
     if scene is None or stored.beginning == _beginning(scene):
         return
     if _name(stored) != scene.name:
         raise ServiceError(
-            f"{store} holds a world that began as {_name(stored)}, not as {scene.name}; "
+            f"{store} was filled with {_name(stored)}, not with {scene.name}; "
             "name another store, or fill this one again with --reset"
         )
-    reporter.say(f"warning: {scene} is not what {store} began with; --reset would fill it again")
+    reporter.say(f"warning: {scene} has changed since {store} was filled with it; --reset fills it again")
 
 
 def _beginning(scene: Path) -> str:
-    """Return how a world that begins with a scene is marked: by the name and a digest of its file."""
+    """Return the identity of the scene that a store is filled with: its name and a digest of its file."""
     return f"scene {scene.name} {sha256(scene.read_bytes()).hexdigest()[:12]}"
 
 

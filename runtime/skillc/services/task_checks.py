@@ -1,6 +1,6 @@
-"""Problems of tasks in their scenes that are found before they run: goals out of reach, calls that cannot start.
+"""Checks tasks in their scenes before they run: unreachable goals, calls that cannot start.
 
-Paths are shown as from here, with labels at the individuals that a message names.
+Diagnostics have displayable paths, and labels at the individuals that a message names.
 """
 
 from __future__ import annotations
@@ -27,21 +27,20 @@ from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
 
 LABELLED = 6
-"""How many individuals are shown beside a message at most."""
+"""The most individuals that are labelled in a diagnostic."""
 DisplayPath: TypeAlias = Callable[[str], str]
-"""Returns how diagnostics show the path of a source."""
+"""Maps the path of a source to a displayable one."""
 LONGEST_TASK = 10
-"""How many lines below its name a task's goal stands at most."""
+"""The most lines between the name of a task and its goal."""
 
 
 def check_tasks_in_scenes(
     compiled: Outcome[SkillLibrary], program: Program, scenes: TaskScenes, display_path: DisplayPath
 ) -> list[Diagnostic]:
-    """Return what keeps tasks from being done in their scenes, individuals that no implementation fits, unusable arms.
+    """Return the diagnostics of tasks that cannot succeed, individuals without implementations, and unusable arms.
 
-    `program` is what was compiled. `display_path` returns how diagnostics show a path of the library. Libraries and
-    scenes with errors are left out, and so is what compiling has reported. What keeps several tasks from being done
-    is reported at the first.
+    `program` is the compiled program. Libraries and scenes with errors are skipped, and so is what compiling has
+    reported. What affects several tasks is reported at the first.
     """
     if not compiled.ok:
         return []
@@ -62,7 +61,7 @@ def check_tasks_in_scenes(
 
 
 def _is_reported(problem: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
-    """Whether compiling has reported, some lines below the task's first, that no skill does what a goal asks."""
+    """Whether compiling has reported, in the same task, that no skill achieves the goal."""
     goals = [each.span for each in compiled if each.name == "unachievable-goal"]
     first = problem.span
     return problem.name == "unreachable-goal" and any(
@@ -73,7 +72,7 @@ def _is_reported(problem: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
 def _of_task(
     task: Task, library: SkillLibrary, display_path: DisplayPath, scene: Scene, places: Mapping[Origin, Span]
 ) -> Iterator[Diagnostic]:
-    """Yield what keeps a task from being done in its scene; `places` is where values are written."""
+    """Yield the diagnostics of a task in its scene; `places` are the spans of values in the source."""
     of_task = _TaskDiagnostics(display_path, scene, task)
     if task.goal is not None:
         found = explain_unreachable(library, scene.state, task.goal)
@@ -88,7 +87,7 @@ def _of_task(
 
 
 def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
-    """Yield the individuals of the scene file at `path` that no implementation of some skill fits."""
+    """Yield the diagnostics of individuals in the scene file at `path` that no implementation of a skill accepts."""
     own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
     here = {iri: each for iri, each in own.items() if each.lines.path == path}
     for each in unsupported_individuals(library, scene.state, frozenset(here)):
@@ -110,7 +109,7 @@ class _TaskDiagnostics:
         return self.diagnostic(name, f"{refusal.message}{around}", refusal, "error")
 
     def misnamed(self, refusal: Refusal, places: Mapping[Origin, Span]) -> Iterator[Diagnostic]:
-        """Yield those of the texts for which a call can never start, where they are written or else at the call."""
+        """Yield those of the unknown names because of which a call can never start, at the text or at the call."""
         for origin, wrong in refusal.unknown_names.items():
             message = wrong.message(self._scene.state.vocabulary)
             at_call = self.diagnostic("unknown-value", message, replace(refusal, rejected=()), "error")
@@ -123,19 +122,19 @@ class _TaskDiagnostics:
             yield value_checks.unknown_value(wrong, message, span, "error", labels)
 
     def cannot_start(self, refusal: Refusal) -> Diagnostic:
-        """Return the diagnostic of a call that cannot start as the scene is."""
+        """Return the diagnostic of a call that cannot start in the initial state of the scene."""
         message = f"`{self._task.name}` begins with a call that cannot start in this scene: {refusal.message}"
         return self.diagnostic(_problem_name(refusal, "cannot-start"), message, refusal, "warning")
 
     def unreachable(self, found: UnreachableGoal) -> Diagnostic:
-        """Return the diagnostic of a goal."""
+        """Return the diagnostic of an unreachable goal."""
         what = "cannot be reached" if found.proved else "no plan can be made for"
         message = f"`{self._task.name}` has a goal that {what} in its scene: {found.why}"
         place = self._span(self._task.source)
         return Diagnostic("unreachable-goal", place, message, labels=tuple(self._named(message)))
 
     def diagnostic(self, name: str, message: str, refusal: Refusal, severity: Severity) -> Diagnostic:
-        """Return a diagnostic at the call, or at the task where the call is not in it."""
+        """Return a diagnostic at the call, or at the task if the call is inside another skill."""
         labels = [Label(self._span(refusal.source), "this call")] if refusal.within else []
         labels += (Label(self._span(each.source), f"asked here by {each.implementation}") for each in refusal.rejected)
         labels += self._named(message)
@@ -143,7 +142,7 @@ class _TaskDiagnostics:
         return Diagnostic(name, self._span(place), message, "", severity, tuple(dict.fromkeys(labels)))
 
     def _named(self, message: str) -> list[Label]:
-        """Return where the individuals that a message names are declared."""
+        """Return labels at the declarations of the individuals that a message names."""
         short = self._scene.state.vocabulary.short
         words = set(re.findall(r"[\w.-]*:[\w-]+", message))
         typed = {iri_of(each.subject): each for each in reversed(self._scene.said) if each.predicate == RDF_TYPE}
@@ -156,7 +155,7 @@ class _TaskDiagnostics:
 
 
 def _problem_name(refusal: Refusal, otherwise: str) -> str:
-    """Return the name of what is wrong: with inferred parameters, with preconditions, or another thing."""
+    """Return the name of the diagnostic: of inferred parameters, of preconditions, or `otherwise`."""
     stages = {each.stage for each in refusal.rejected}
     if stages != {"inference"}:
         return "cannot-start" if stages == {"pre"} else otherwise

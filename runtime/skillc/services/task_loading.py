@@ -1,4 +1,4 @@
-"""From the name of a task, or the text of a goal or a call, to a compiled library, a world and an assignment."""
+"""Loads a task by name, or a goal or call from its text: compiled library, world and assignment."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from skillc_runtime.world.state.model import WorldModel
 
 @dataclass(frozen=True, slots=True)
 class TaskRequest:
-    """What is to be done: the task `LIBRARY:NAME`, or a goal or a call of a skill in a scene or in what a store holds.
+    """The task `LIBRARY:NAME`, or a goal or a skill call in a scene or in a stored world.
 
-    The library is the shipped one unless a path is given. RequestError for what does not go together.
+    The library of a goal or call is the shipped one unless `library` is given.
     """
 
     task: str | None = None
@@ -37,18 +37,18 @@ class TaskRequest:
     store: StoreChoice = NO_STORE
 
     def check(self, calls: bool = True) -> None:
-        """Raise RequestError where more is said than goes together, or less than is needed; `calls` are a choice."""
+        """Raise RequestError if options conflict or are missing; `calls`: whether a call is possible too."""
         if self.task is not None and (self.scene or self.goal or self.call or self.library):
-            raise RequestError("a TASK has its own scene, goal and library; leave the options out")
+            raise RequestError("a TASK cannot be used with --scene, --goal, --skill or --library")
         nothing = (self.goal is None) == (self.call is None)
         if self.task is None and ((self.scene or self.store.place) is None or nothing):
             choice = "--goal TEXT or --skill CALL" if calls else "--goal TEXT"
-            raise RequestError(f"say either a TASK or --scene FILE (or --store) with {choice}")
+            raise RequestError(f"name either a TASK, or --scene FILE (or --store) with {choice}")
 
 
 @dataclass(frozen=True, slots=True)
 class LoadedTask:
-    """A compiled library, what is to be done with it, and the world in which."""
+    """A compiled library, the assignment to carry out, and its world."""
 
     library: SkillLibrary
     assignment: Assignment
@@ -57,14 +57,14 @@ class LoadedTask:
 
 @contextmanager
 def load_task(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
-    """Find, compile and load what is asked for; a store that holds its world is closed at the end."""
+    """Find, compile and load what is requested; a store is closed at the end."""
     loading = _load_goal(request, reporter) if request.task is None else _load_named(request.task, request, reporter)
     with loading as loaded:
         yield loaded
 
 
 def find_task_in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
-    """Find and compile the task `LIBRARY:NAME`, or the shipped task of that name; return it with its scene's file."""
+    """Find and compile the task `LIBRARY:NAME`, or the shipped task of that name; return it with its scene file."""
     files, name = split_reference(reference)
     library = compile_valid(files)
     task = find_task(library, name)
@@ -110,7 +110,7 @@ def _load_goal(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]
 
 
 def _valid(outcome: Outcome[Any], text: str) -> Any:
-    """Return what a text means; DiagnosticsError if it has errors."""
+    """Return the value of a parsed text; DiagnosticsError if it has errors."""
     if outcome.value is None:
         raise DiagnosticsError(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
     return outcome.value

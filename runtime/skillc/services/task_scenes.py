@@ -1,4 +1,4 @@
-"""The scenes of a library's tasks: their files, the individuals in them, and what is wrong with them."""
+"""Reads the scenes of a library's tasks: their files, individuals and diagnostics."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ from skillc_runtime.world.state.world_state import WorldState
 Individuals: TypeAlias = dict[str, list[str]]
 """The IRIs of a scene with their classes."""
 ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
-"""Reads a scene file with the terms of a vocabulary; None, with what is wrong, where it cannot be read."""
+"""Reads a scene file with the terms of a vocabulary; None, with diagnostics, if it cannot be read."""
 
 
 @dataclass(frozen=True, slots=True)
 class SceneTexts:
-    """Where the files of a library are: its places on disk, and how diagnostics show them, both by path."""
+    """Maps the paths of a library to files on disk and to displayable paths."""
 
     place: Callable[[str], Path]
     shown: Callable[[str], str]
 
     @staticmethod
     def of(files: LibraryFiles) -> SceneTexts:
-        """Return where the files of a library on disk are."""
+        """Return those of a library on disk."""
         return SceneTexts(files.places.__getitem__, files.display_path)
 
 
 @dataclass(frozen=True, slots=True)
 class TaskScenes:
-    """The scenes of tasks, and others: `files` by task, `valid` those without errors by file, and what is wrong.
+    """The scenes of tasks, and others: `files` by task, `valid` scenes without errors by file, and diagnostics.
 
-    `individuals` are those of each task's scene.
+    `individuals` are those in each task's scene, by task.
     """
 
     files: Mapping[str, Path]
@@ -53,7 +53,7 @@ class TaskScenes:
 
 
 def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[Scene | None]:
-    """Read a scene file, or a text that stands for it."""
+    """Read a scene file, or `text` in its place."""
     try:
         document = Document.read(path) if text is None else Document(str(path), text)
         scene = read_with_sheets(document, vocabulary)
@@ -65,9 +65,9 @@ def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> O
 def read_task_scenes(
     program: Program, texts: SceneTexts, others: Collection[Path] = (), read: ReadScene = read_scene
 ) -> TaskScenes:
-    """Read the scenes of a program's own tasks, and others; `read` may cache what it read before."""
+    """Read the scenes of a program's own tasks, and others; `read` may be a cached `read_scene`."""
     written = list(_written(program))
-    found = {task: find_scene(text.value, texts.place(text.span.path).parent) for task, text in written}
+    found = {task: resolve_scene(text.value, texts.place(text.span.path).parent) for task, text in written}
     files = {task: path for task, path in found.items() if path is not None}
     scenes = {path: read(path, program.vocabulary) for path in sorted({*files.values(), *others})}
     valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
@@ -79,23 +79,23 @@ def read_task_scenes(
 
 
 def find_task_scene(task: Task, files: LibraryFiles) -> Path | None:
-    """Return the file of a compiled task's scene; None where there is no such file."""
+    """Return the file of a compiled task's scene, None if it does not exist."""
     assert task.scene is not None
-    return find_scene(task.scene, files.places[task.source.path].parent)
+    return resolve_scene(task.scene, files.places[task.source.path].parent)
 
 
-def find_scene(scene: str, beside: Path) -> Path | None:
-    """Return the file of a scene, beside the task's file or shipped; None where there is no such file."""
+def resolve_scene(scene: str, beside: Path) -> Path | None:
+    """Return the file of a scene, in the folder `beside` or shipped; None if it does not exist."""
     if inspect_path(beside / scene).kind == "file":
         return beside / scene
     try:
-        return catalogue.scene(scene)
+        return catalogue.scene_path(scene)
     except FileNotFoundError:
         return None
 
 
 def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individuals:
-    """Return the individuals of a world with their classes, as a library knows them: the scene may have its own."""
+    """Return the individuals of a world with their classes that the library's vocabulary has, or the nearest above."""
     known = vocabulary.classes.keys()
     above = state.vocabulary.ancestors
     return {
@@ -105,7 +105,7 @@ def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individu
 
 
 def _written(program: Program) -> Iterator[tuple[str, s.Text]]:
-    """Yield each task with its scene as written, those of other libraries left out."""
+    """Yield the name of each of the library's own tasks with its scene as written."""
     for unit in program.files:
         for declaration in unit.file.declarations:
             if isinstance(declaration, s.TaskDeclaration) and declaration.scene and unit.library == program.name:
@@ -113,16 +113,16 @@ def _written(program: Program) -> Iterator[tuple[str, s.Text]]:
 
 
 def why_missing(scene: str, beside: Path) -> str:
-    """Return why there is no such file as that of a scene, after its name."""
+    """Return why a scene is not found, to complete a sentence that begins with its name."""
     found = inspect_path(beside / scene)
     return "is neither beside this file nor shipped" if found.kind == "missing" else found.is_what
 
 
 def _missing(scene: s.Text, texts: SceneTexts) -> Diagnostic:
-    """Return the problem of a scene that is not there, or that is there and no file."""
+    """Return the diagnostic of a scene that does not exist or is not a file."""
     beside = texts.place(scene.span.path).parent
     message = f'the scene "{scene.value}" {why_missing(scene.value, beside)}'
     span = replace(scene.span, path=texts.shown(scene.span.path))
     if inspect_path(beside / scene.value).kind != "missing":
         return Diagnostic("unreadable-scene", span, message)
-    return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, catalogue.scenes()))
+    return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, catalogue.scene_names()))

@@ -1,4 +1,4 @@
-"""Running a task many times in realities that differ; trials that were run before are taken from a folder."""
+"""Runs a task many times with different seeds; trials recorded in a folder are not run again."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.workers import run_in_processes
 
 PAGE = "trials.html"
-Watch: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[Trial], None]]]
-"""Watches trials of a task, so many of which are done: calls what the context returns with each one."""
+StartMonitor: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[Trial], None]]]
+"""Takes a task's name and the number of trials already done; the value of the context is called with each trial."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrialRequest:
-    """Trials: of which task, disturbed by what, with which seeds, so many at a time, kept in which folder."""
+    """The task of the trials, their disturbance and seeds, the number of parallel `jobs`, and the folder to write."""
 
     reference: str
     disturbance: Disturbance
@@ -39,10 +39,10 @@ class TrialRequest:
     out: Path | None
 
 
-def run_trials(request: TrialRequest, watch: Watch, reporter: Reporter) -> Series:
-    """Run the trials that were not run before; return all of them, judged. Ctrl-C ends what runs.
+def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -> Series:
+    """Run the trials that are not recorded yet; return all of them, judged. Ctrl-C ends the running ones.
 
-    RequestError, DiagnosticsError or ServiceError for what is wrong with the library, the scene or the folder.
+    RequestError, DiagnosticsError or ServiceError if the library, the scene or the folder cannot be used.
     """
     library, task, scene = find_task_in_scene(request.reference)
     load_world(scene, library.vocabulary, reporter)
@@ -52,13 +52,13 @@ def run_trials(request: TrialRequest, watch: Watch, reporter: Reporter) -> Serie
 
 
 def write_page(result: Series, out: Path) -> None:
-    """Write the page of a series into its folder. ServiceError where that cannot be done."""
+    """Write the HTML page of a series into its folder. ServiceError if it cannot be written."""
     with writing_to(out):
         (out / PAGE).write_text(page.render_page(result), encoding="utf-8")
 
 
 def _run(
-    request: TrialRequest, experiment: Experiment, heading: Heading, watch: Watch, reporter: Reporter
+    request: TrialRequest, experiment: Experiment, heading: Heading, watch: StartMonitor, reporter: Reporter
 ) -> tuple[Trial, ...]:
     with nullcontext() if request.out is None else _journal(request.out, heading) as journal:
         known = () if journal is None else journal.trials
@@ -85,11 +85,11 @@ def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
 
 
 def _until_interrupted(trials: Iterator[Trial], reporter: Reporter) -> Iterator[Trial]:
-    """Yield trials; on Ctrl-C end what runs and report it."""
+    """Yield trials; on Ctrl-C end the running ones and report it."""
     try:
         yield from trials
     except KeyboardInterrupt:
-        reporter.say("interrupted; what is kept with --out is not run again by the same command")
+        reporter.say("interrupted; with --out, the same command continues with the remaining trials")
 
 
 @contextmanager

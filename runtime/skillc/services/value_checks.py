@@ -1,4 +1,4 @@
-"""Text values of a library that name nothing, such as a misspelt posture."""
+"""Checks the text values of a library: those that name nothing, such as a misspelt posture."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class _GivenText:
-    """A text that is given to the parameter of a skill, or a local name of an implementation that has a text."""
+    """A text that is the value of a skill's parameter, or of a local name of `implementation`."""
 
     text: str
     span: Span
@@ -33,10 +33,10 @@ class _GivenText:
 
 
 def value_places(program: Program) -> dict[tuple[Position, str], Span]:
-    """Return where the arguments, defaults and local values of a library's own files are written, by their origin.
+    """Return the spans of the arguments, defaults and local values in a library's own files, by origin.
 
-    An origin is the place of the call and the name of the argument, or the place of the implementation and the name of
-    its parameter or local value.
+    An origin is the position of a call and the name of an argument, or the position of an implementation and the name
+    of its parameter or local value.
     """
     found: dict[tuple[Position, str], Span] = {}
     for call in walk.all_calls(program):
@@ -56,10 +56,10 @@ def check_values(
     reported: Collection[Diagnostic],
     display_path: Callable[[str], str],
 ) -> Iterator[Diagnostic]:
-    """Yield the texts of a library's own files that name nothing in any of its scenes, nor in the shipped data sheets.
+    """Yield warnings for texts in a library's own files that name nothing in its scenes and the shipped data sheets.
 
-    Another scene may have what they name, so they are warnings. Those that are `reported` as errors are left out,
-    and nothing is reported of a library with errors, or where a scene has errors.
+    They are warnings because another scene may have what they name. Texts `reported` as errors are omitted; libraries
+    and scenes with errors are not checked.
     """
     broken = not compiled.ok or (scenes and any(each.severity == "error" for each in scenes.problems))
     given = [] if broken else list(_given(program))
@@ -91,14 +91,14 @@ def check_values(
 def unknown_value(
     wrong: UnknownName, message: str, span: Span, severity: Severity, labels: tuple[Label, ...] = ()
 ) -> Diagnostic:
-    """Return what is reported at a text that names nothing."""
+    """Return the diagnostic of a text that names nothing."""
     near = get_close_matches(wrong.text, wrong.known, n=2, cutoff=0.75)
     fix = Fix(span, f'"{near[0]}"', f'write "{near[0]}"', safe=False) if len(near) == 1 else None
     return Diagnostic("unknown-value", span, message, did_you_mean(wrong.text, wrong.known), severity, labels, fix)
 
 
 def _given(program: Program) -> Iterator[_GivenText]:
-    """Yield the texts that a library's own files give to parameters, as arguments, defaults and local values."""
+    """Yield the texts in a library's own files that are arguments, defaults and local values."""
     own = _own(program)
     every = (*_arguments(program), *_defaults(program), *_local(program))
     for value, to, skill, implementation in every:

@@ -1,4 +1,4 @@
-"""Checking again whenever a file of the libraries or a scene changes."""
+"""Checks again whenever a file of the libraries or a scene changes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NoReturn, TypeAlias
 
-from skillc.services.check_cache import scenes_of
+from skillc.services.check_cache import named_scenes
 from skillc.services.checking import CheckRequest, CheckResult, check_sources, read_libraries
 from skillc.services.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles
@@ -17,16 +17,16 @@ from skillc.services.reporting import Reporter
 
 _ENDINGS = (".skill", ".ttl", ".py")
 _PAUSE_MS = 300
-"""How often it is looked whether a folder is gone, or back."""
+"""How often folders are polled for their existence, in ms."""
 Folders: TypeAlias = frozenset[tuple[Path, int]]
-"""Folders with their inode, which is another one when a folder is made again."""
+"""Folders with their inodes, which change when a folder is deleted and created again."""
 Show: TypeAlias = Callable[[CheckResult], None]
 
 
 def watch_sources(request: CheckRequest, show: Show, reporter: Reporter) -> NoReturn:
-    """Check and show what is found, wait for a change, and so on for ever; changes during a check are noticed after it.
+    """Check and show the result after each change, for ever; changes during a check lead to another one.
 
-    RequestError without the package that watches files, or where there is nothing to check at first.
+    RequestError without the package watchfiles, or if there is nothing to check at first.
     """
     if find_spec("watchfiles") is None:
         raise RequestError("--watch needs the package watchfiles: pip install 'skillc[editor]'")
@@ -38,10 +38,10 @@ def watch_sources(request: CheckRequest, show: Show, reporter: Reporter) -> NoRe
         while folders == _folders(wanted):
             wanted = _check(request, show, reporter) or wanted
             if folders == _folders(wanted):
-                reporter.say("waiting for a change; Ctrl-C ends")
+                reporter.say("waiting for changes; press Ctrl-C to stop")
                 _await(changes, folders, wanted)
         if not _folders(wanted):
-            reporter.say("nothing is there any more; waiting until it is back")
+            reporter.say("the files were removed; waiting until they are back")
 
 
 def _changes(folders: Folders) -> Iterator[object]:
@@ -57,14 +57,14 @@ def _changes(folders: Folders) -> Iterator[object]:
 
 
 def _await(changes: Iterator[object], folders: Folders, wanted: Sequence[Path]) -> None:
-    """Wait for a change, or until a wanted folder is another one, gone or back."""
+    """Wait for a change of a file, or until a wanted folder is removed or created."""
     for change in changes:
         if change or folders != _folders(wanted):
             return
 
 
 def _present(wanted: Sequence[Path]) -> Folders:
-    """Return the folders that there are, as soon as there is one."""
+    """Return the existing folders, waiting until there is one."""
     while not (folders := _folders(wanted)):
         time.sleep(_PAUSE_MS / 1000)
     return folders
@@ -83,7 +83,7 @@ def _number(path: Path) -> int | None:
 
 
 def _check(request: CheckRequest, show: Show, reporter: Reporter) -> tuple[Path, ...]:
-    """Show what is found now and report how long it took; return the folders of all files, none if unreadable."""
+    """Check, show the result and the time it took; return the folders of all files, none if unreadable."""
     reporter.say(f"[{datetime.now():%H:%M:%S}] checking")
     start = time.perf_counter()
     try:
@@ -98,8 +98,8 @@ def _check(request: CheckRequest, show: Show, reporter: Reporter) -> tuple[Path,
 
 
 def _roots(request: CheckRequest, libraries: Sequence[LibraryFiles]) -> tuple[Path, ...]:
-    """Return the folders of libraries and of their scenes, the shipped ones left out."""
-    files = (scene for library in libraries for scene in scenes_of(library))
+    """Return the folders of libraries and of their scenes, without shipped scenes."""
+    files = (scene for library in libraries for scene in named_scenes(library))
     scenes = {scene.parent for scene in files if not scene.is_relative_to(SHIPPED)}
     if request.scene:
         scenes.add(request.scene.parent)

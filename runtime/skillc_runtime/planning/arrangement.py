@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from skillc_model.conditions import Condition
-from skillc_model.pddl.devices import devices
+from skillc_model.pddl.devices import locked_parameters
 from skillc_model.read_write import ReadWriteSet, facts_read
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Plan, Step
@@ -97,7 +97,7 @@ def _connected_components(steps: Iterable[int], linked: Callable[[int, int], boo
 
 
 def _read_write_sets(steps: Iterable[Step], library: SkillLibrary, state: WorldState) -> list[ReadWriteSet]:
-    locked = devices(library)
+    locked = locked_parameters(library)
     found = []
     for step in steps:
         after = apply_step(step, library, state)

@@ -15,7 +15,7 @@ import msgspec
 
 from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.text import domain_text, problem_text, temporal_problem_text, temporal_text
+from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
 from skillc_runtime.planning.schedule import Schedule, Scheduler
 
@@ -71,7 +71,7 @@ class CachingPlanner:
         """Return the cached plan, or solve the problem and store the plan."""
         if problem.goal == FALSE:
             return self._planner.plan(problem, deadline_s)
-        key = _key(self._program, domain_text(problem.domain), problem_text(problem), *_cached_names(problem))
+        key = _key(self._program, format_domain(problem.domain), format_problem(problem), *_cached_names(problem))
         cached = _decode(self._cache.get(key), CachedPlan)
         if cached is not None and _is_reusable(cached, deadline_s):
             return cached.solved
@@ -99,7 +99,10 @@ class CachingScheduler:
         if problem.goal == FALSE:
             return self._scheduler.schedule(problem, deadline_s)
         key = _key(
-            self._program, temporal_text(problem.domain), temporal_problem_text(problem), *_cached_names(problem)
+            self._program,
+            format_temporal_domain(problem.domain),
+            format_temporal_problem(problem),
+            *_cached_names(problem),
         )
         cached = _decode(self._cache.get(key), CachedSchedule)
         if cached is not None and _is_reusable(cached, deadline_s):

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from skillc_model.conditions import Condition
-from skillc_model.pddl.costs import ASSUMED_SECONDS, duration_of
+from skillc_model.pddl.costs import ASSUMED_SECONDS, find_duration
 from skillc_model.skills import Implementation, Parameter, Requirement, SkillLibrary
 from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.planning.plan import Plan, Step
@@ -93,7 +93,7 @@ def compute_step_duration_s(step: Step, library: SkillLibrary, state: WorldState
     """
     try:
         implementation = find_startable_implementations(step, library, state)[0]
-        duration = duration_of(library.skills[step.skill], implementation)
+        duration = find_duration(library.skills[step.skill], implementation)
         if duration is None:
             return ASSUMED_SECONDS
         seconds = evaluate_duration_s(duration, before, _bind(implementation.parameters, step, before))

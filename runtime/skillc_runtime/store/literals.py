@@ -10,7 +10,7 @@ from difflib import get_close_matches
 import numpy as np
 import pyoxigraph as ox
 
-from skillc_model.words import SI_UNITS
+from skillc_model.format_type import SI_UNITS
 from skillc_rdf.turtle.terms import XSD
 from skillc_rdf.vocabulary.types import DirectionType, NumberType, PlainType, PropertyTerm, VectorType
 from skillc_runtime.world.state.terms import SKILLC

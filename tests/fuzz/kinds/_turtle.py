@@ -98,7 +98,7 @@ def _statement(random: Random) -> str:
 @cache
 def _terms() -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
     """Return classes, relations and properties; those of which much is said in scenes more than once."""
-    vocabulary = libraries.vocabulary()
+    vocabulary = libraries.load_vocabulary()
     often = ("skiros:contain", "skiros:hasA", "skiros:at", "skiros:contain", "skillc:attachedTo")
     shorts = (sorted(map(vocabulary.short, each)) for each in (vocabulary.classes, vocabulary.properties))
     classes, properties = shorts
@@ -107,7 +107,7 @@ def _terms() -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
 
 
 def _prefixes() -> str:
-    prefixes = libraries.vocabulary().prefixes.items()
+    prefixes = libraries.load_vocabulary().prefixes.items()
     return HEAD + "".join(f"@prefix {name}: <{base}> .\n" for name, base in sorted(prefixes) if f"{name}:" not in HEAD)
 
 

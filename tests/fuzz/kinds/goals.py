@@ -13,8 +13,8 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_model.conditions import Condition
-from skillc_model.reading import free_variables
 from skillc_model.skills import SkillLibrary
+from skillc_model.traversal import free_variables
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import PlainType
 from skillc_runtime.scene.load import load_scene
@@ -183,7 +183,7 @@ def _library_of() -> SkillLibrary:
 def _lab(scene: str) -> Lab:
     library = _library_of()
     vocabulary = library.vocabulary
-    state = load_scene(catalogue.scene(scene), vocabulary)
+    state = load_scene(catalogue.scene_path(scene), vocabulary)
     individuals = task_scenes.classes_by_individual(state, vocabulary)
     short = state.vocabulary.short
     flags = (iri for iri, term in vocabulary.properties.items() if term.type == PlainType("Bool"))

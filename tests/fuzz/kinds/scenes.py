@@ -58,12 +58,12 @@ def _text(random: Random) -> str:
 
 @cache
 def _vocabulary() -> Vocabulary:
-    return libraries.vocabulary()
+    return libraries.load_vocabulary()
 
 
 @cache
 def _scenes() -> tuple[str, ...]:
-    return tuple(catalogue.scene(name).read_text("utf-8") for name in catalogue.scenes())
+    return tuple(catalogue.scene_path(name).read_text("utf-8") for name in catalogue.scene_names())
 
 
 @cache

@@ -10,7 +10,7 @@ from pathlib import Path
 from random import Random
 
 from fuzz.kinds._texts import make_text
-from skillc_compiler.emit.artifacts import artifacts
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -41,7 +41,7 @@ def try_text(source: Source, format: str) -> None:
     outcome = compile([source], vocabulary(), shelf(), "own", parsed_by=_parse)
     _try_rendering(source, outcome.diagnostics, format)
     if not any(problem.severity == "error" for problem in outcome.diagnostics):
-        assert artifacts(outcome.value)
+        assert make_artifacts(outcome.value)
 
 
 def _try_format(source: Source) -> None:

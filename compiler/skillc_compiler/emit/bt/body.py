@@ -7,17 +7,17 @@ from dataclasses import dataclass, field
 from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt.model import Kind, Model, Port
-from skillc_compiler.emit.bt.names import Names, entry, port
-from skillc_compiler.emit.bt.ports import plain_value, port_type
+from skillc_compiler.emit.bt.names import NodeIds, entry_name, port_name
+from skillc_compiler.emit.bt.ports import format_plain_value, port_type
 from skillc_model.conditions import Condition, Expression, Variable
 from skillc_model.format_condition import format_expression
-from skillc_model.reading import free_variables_in_order
 from skillc_model.skills import Parameter, Post, SkillLibrary
+from skillc_model.traversal import free_variables_in_order
 from skillc_rdf.vocabulary.types import Position, ValueType
 
 
 @dataclass(frozen=True)
-class Bound:
+class Binding:
     """Where a local name has its value: an entry of the blackboard and the C++ type of that (None: not known)."""
 
     entry: str
@@ -25,18 +25,18 @@ class Bound:
 
 
 @dataclass
-class Writer:
+class TreeWriter:
     """Writes into one tree; `owner` is the path of names of whom the tree belongs to.
 
     `posts` are the postconditions that the body may apply, `bound` the names in scope where the writer is.
     """
 
     library: SkillLibrary
-    names: Names
+    names: NodeIds
     model: Model
     owner: tuple[str, ...]
     posts: Sequence[Post] = ()
-    bound: Mapping[str, Bound] = field(default_factory=dict)
+    bound: Mapping[str, Binding] = field(default_factory=dict)
     start: list[str] = field(default_factory=list)
     """Scripts that the tree runs first, each time it starts."""
     _made: dict[str, int] = field(default_factory=dict)
@@ -50,13 +50,13 @@ class Writer:
 
     def entry(self, word: str) -> str:
         """Return a new entry of the blackboard."""
-        return entry(word, self.number(f"entry {word}"))
+        return entry_name(word, self.number(f"entry {word}"))
 
-    def at(self, name: str) -> Bound:
+    def at(self, name: str) -> Binding:
         """Return where a name has its value."""
-        return self.bound.get(name, Bound(port(name)))
+        return self.bound.get(name, Binding(port_name(name)))
 
-    def bind(self, name: str, type_: ValueType | None) -> Bound:
+    def bind(self, name: str, type_: ValueType | None) -> Binding:
         """Bring a name of this type (None: not known) into scope, unless it is there, and return where its value goes.
 
         An entry keeps its type for good, so a name that was used for another type elsewhere gets another entry.
@@ -64,16 +64,16 @@ class Writer:
         if name not in self.bound:
             plain = port_type(type_) if type_ else None
             held = plain or type_
-            unused = port(name) not in self._held
-            again = held is not None and self._held.get(port(name)) == held
-            entry = port(name) if unused or again else self.entry(name)
+            unused = port_name(name) not in self._held
+            again = held is not None and self._held.get(port_name(name)) == held
+            entry = port_name(name) if unused or again else self.entry(name)
             self._held[entry] = held
-            self.bound = {**self.bound, name: Bound(entry, plain)}
+            self.bound = {**self.bound, name: Binding(entry, plain)}
         return self.bound[name]
 
     def apart(self, parts: Sequence[Callable[[], Element]]) -> list[Element]:
         """Return parts of which none sees the names of another; those that follow see the names of all."""
-        before, found = self.bound, dict[str, Bound]()
+        before, found = self.bound, dict[str, Binding]()
         elements = []
         for part in parts:
             self.bound = before
@@ -84,11 +84,11 @@ class Writer:
 
     def ports(self, names: Sequence[str]) -> list[Port]:
         """Return the ports through which a node reads variables."""
-        return [Port(port(name), type=self.at(name).type, parameter=name) for name in names]
+        return [Port(port_name(name), type=self.at(name).type, parameter=name) for name in names]
 
     def reads(self, names: Sequence[str]) -> dict[str, str]:
         """Return the attributes through which a node reads variables."""
-        return {port(name): pointer(self.at(name).entry) for name in names}
+        return {port_name(name): pointer(self.at(name).entry) for name in names}
 
     def condition(self, path: tuple[str, ...], condition: Condition, text: str, source: Position) -> Element:
         """Return the test of a condition, declared as a node of its own."""
@@ -104,7 +104,7 @@ class Writer:
         """Return a node that reads variables, declared with a text that says what it does."""
         identity = self.names.of(*path)
         self.model.declare(kind, identity, path, self.ports(variables), text)
-        return leaf(identity, self.reads(variables), source)
+        return make_leaf(identity, self.reads(variables), source)
 
     def evaluate(self, expression: Expression, into: str, type_: str | None = None) -> Element:
         """Return the node that puts the value of an expression, of a C++ type if known, into an entry."""
@@ -117,14 +117,14 @@ class Writer:
         self.model.declare("Action", identity, path, ports, text)
         return Element(identity, {**self.reads(read), result: pointer(into)})
 
-    def converted(self, name: str, found: Bound, target: Bound) -> Element:
+    def converted(self, name: str, found: Binding, target: Binding) -> Element:
         """Return the node that gives a name the value that is found, which is of another type."""
         path = (*self.owner, "evaluate", found.entry)
         identity = self.names.of(*path)
         result = _result([name])
-        ports = [Port(port(name), type=found.type, parameter=name), Port(result, "output", target.type)]
+        ports = [Port(port_name(name), type=found.type, parameter=name), Port(result, "output", target.type)]
         self.model.declare("Action", identity, path, ports, f"Computes: {name}")
-        return Element(identity, {port(name): pointer(found.entry), result: pointer(target.entry)})
+        return Element(identity, {port_name(name): pointer(found.entry), result: pointer(target.entry)})
 
     def value(self, word: str, expression: Expression, before: list[Element], type_: str | None = None) -> str:
         """Return what a port of a C++ type is given for an expression; what must be computed is, by the nodes `before`.
@@ -133,7 +133,7 @@ class Writer:
         """
         if isinstance(expression, Variable) and type_ in (None, self.at(expression.name).type or type_):
             return pointer(self.at(expression.name).entry)
-        plain = plain_value(expression, type_)
+        plain = format_plain_value(expression, type_)
         if plain is not None:
             return plain
         into = self.entry(word)
@@ -143,15 +143,15 @@ class Writer:
 
 def _result(read: Sequence[str]) -> str:
     """Return the name of the port of a result, beside those of the variables that are read for it."""
-    name, taken = "value", {port(each) for each in read}
+    name, taken = "value", {port_name(each) for each in read}
     while name in taken:
         name += "_"
     return name
 
 
-def bound_by(parameters: Sequence[Parameter]) -> Mapping[str, Bound]:
+def bind_parameters(parameters: Sequence[Parameter]) -> Mapping[str, Binding]:
     """Return where the tree of a skill finds its parameters."""
-    return {each.name: Bound(port(each.name), port_type(each.type)) for each in parameters}
+    return {each.name: Binding(port_name(each.name), port_type(each.type)) for each in parameters}
 
 
 def pointer(name: str) -> str:
@@ -159,22 +159,22 @@ def pointer(name: str) -> str:
     return f"{{{name}}}"
 
 
-def leaf(identity: str, attributes: Mapping[str, str], source: Position) -> Element:
+def make_leaf(identity: str, attributes: Mapping[str, str], source: Position) -> Element:
     """Return a node that stands for something in a source."""
     return Element(identity, {**attributes, "_description": str(source)})
 
 
-def holding(parent: Element, *children: Element) -> Element:
+def with_children(parent: Element, *children: Element) -> Element:
     """Return the parent with the children below it."""
     parent.extend(children)
     return parent
 
 
-def after(before: Sequence[Element], node: Element) -> Element:
+def run_after(before: Sequence[Element], node: Element) -> Element:
     """Return the node alone, or after others in a sequence."""
-    return holding(Element("Sequence"), *before, node) if before else node
+    return with_children(Element("Sequence"), *before, node) if before else node
 
 
-def sequence(steps: Sequence[Element]) -> Element:
+def join_steps(steps: Sequence[Element]) -> Element:
     """Return the one step, or several as a sequence."""
-    return after(steps[:-1], steps[-1])
+    return run_after(steps[:-1], steps[-1])

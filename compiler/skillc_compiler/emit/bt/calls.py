@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt.body import Bound, Writer, after, holding, leaf, pointer, sequence
+from skillc_compiler.emit.bt.body import Binding, TreeWriter, join_steps, make_leaf, pointer, run_after, with_children
 from skillc_compiler.emit.bt.model import Kind, Port
-from skillc_compiler.emit.bt.names import port
+from skillc_compiler.emit.bt.names import port_name
 from skillc_compiler.emit.bt.ports import (
     action_ports,
-    called,
-    default_text,
-    defaults,
-    passed_on,
+    call_port,
+    default_attributes,
+    format_default,
+    forward_parameters,
     port_type,
     tree_ports,
     whole_ports,
 )
-from skillc_model.reading import calls_in
 from skillc_model.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
+from skillc_model.traversal import find_calls
 from skillc_model.tree import Call, Node
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Position
@@ -43,22 +43,22 @@ def _demands(implementation: Implementation, skill: Skill) -> bool:
 
 def may_break_hold(library: SkillLibrary, node: Node) -> bool:
     """Whether a skill below the node has a hold condition."""
-    names = reached([each.skill for each in calls_in(node)], library)
+    names = reachable_skills([each.skill for each in find_calls(node)], library)
     return any(each.hold for name in names for each in library.implementations_of(name))
 
 
-def reached(start: Sequence[str], library: SkillLibrary) -> set[str]:
+def reachable_skills(start: Sequence[str], library: SkillLibrary) -> set[str]:
     """Return these skills and all that they call, directly or not."""
 
     def called(name: str) -> Iterator[str]:
         bodies = (each.body for each in library.implementations_of(name))
         nodes = (body.node for body in bodies if isinstance(body, Compound))
-        return (each.skill for node in nodes for each in calls_in(node))
+        return (each.skill for node in nodes for each in find_calls(node))
 
     return reachable(start, called)
 
 
-def call(writer: Writer, written: Call) -> Element:
+def make_call(writer: TreeWriter, written: Call) -> Element:
     """Return the call of a skill, after the expressions among its arguments."""
     skill = writer.library.skills[written.skill]
     before, attributes = _arguments(writer, written, skill)
@@ -66,40 +66,40 @@ def call(writer: Writer, written: Call) -> Element:
     attributes |= outputs
     if not is_tree(writer.library, skill):
         ports = action_ports(skill.parameters)
-        single = node(writer, "Action", (skill.name,), ports, skill.doc, attributes, written.source)
-        return sequence([*before, single, *converted])
+        single = make_call_node(writer, "Action", (skill.name,), ports, skill.doc, attributes, written.source)
+        return join_steps([*before, single, *converted])
     path: tuple[str, ...] = (skill.name,)
     described = skill.parameters
     if written.implementation is not None:
         path = (skill.name, "", "only", written.implementation)
         described = writer.library.implementations[f"{skill.name}.{written.implementation}"].parameters
-    attributes = {**defaults(described), **attributes}
+    attributes = {**default_attributes(described), **attributes}
     ports = tree_ports(described)
-    tree = node(writer, "SubTree", path, ports, skill.doc, attributes, written.source)
-    return sequence([*before, tree, *converted])
+    tree = make_call_node(writer, "SubTree", path, ports, skill.doc, attributes, written.source)
+    return join_steps([*before, tree, *converted])
 
 
-def run(writer: Writer, implementation: Implementation) -> Element:
+def make_run(writer: TreeWriter, implementation: Implementation) -> Element:
     """Return the node that runs an implementation of the skill whose tree this is, on the entries of that tree."""
     kind: Kind = "SubTree" if isinstance(implementation.body, Compound) else "Action"
     path, ports = (implementation.skill, implementation.name), action_ports(implementation.parameters)
-    attributes = passed_on(implementation.parameters)
-    return node(writer, kind, path, ports, implementation.doc, attributes, implementation.source)
+    attributes = forward_parameters(implementation.parameters)
+    return make_call_node(writer, kind, path, ports, implementation.doc, attributes, implementation.source)
 
 
-def scoped(writer: Writer, written: Call, child: Callable[[], Element]) -> Element:
+def make_scoped(writer: TreeWriter, written: Call, child: Callable[[], Element]) -> Element:
     """Return the child in a decorator that sets a skill up before it and undoes it however the child ends."""
     skill = writer.library.skills[written.skill]
     before, attributes = _arguments(writer, written, skill)
     outputs, converted = _outputs(writer, written, skill)
     ports = whole_ports(skill.parameters)
     path = ("", "With", skill.name)
-    around = node(writer, "Decorator", path, ports, skill.doc, attributes | outputs, written.source)
-    return after(before, holding(around, after(converted, child())))
+    around = make_call_node(writer, "Decorator", path, ports, skill.doc, attributes | outputs, written.source)
+    return run_after(before, with_children(around, run_after(converted, child())))
 
 
-def node(
-    writer: Writer,
+def make_call_node(
+    writer: TreeWriter,
     kind: Kind,
     path: tuple[str, ...],
     ports: Sequence[Port],
@@ -111,30 +111,30 @@ def node(
     identity = writer.names.of(*path)
     writer.model.declare(kind, identity, path, ports, doc)
     if kind == "SubTree":
-        return leaf("SubTree", {"ID": identity, **attributes}, source)
-    return leaf(identity, attributes, source)
+        return make_leaf("SubTree", {"ID": identity, **attributes}, source)
+    return make_leaf(identity, attributes, source)
 
 
-def _arguments(writer: Writer, written: Call, skill: Skill) -> tuple[list[Element], dict[str, str]]:
+def _arguments(writer: TreeWriter, written: Call, skill: Skill) -> tuple[list[Element], dict[str, str]]:
     """Return the nodes that compute arguments, and the attributes of the call; a default no port can have is passed."""
     before: list[Element] = []
     attributes: dict[str, str] = {}
     parameters: dict[str, Parameter] = {each.name: each for each in skill.parameters}
-    odd = {p.name: p.default for p in skill.parameters if p.default is not None and default_text(p) is None}
+    odd = {p.name: p.default for p in skill.parameters if p.default is not None and format_default(p) is None}
     for name, expression in {**odd, **written.arguments}.items():
         parameter = parameters[name]
-        attributes[called(parameter)] = writer.value(name, expression, before, port_type(parameter.type))
+        attributes[call_port(parameter)] = writer.value(name, expression, before, port_type(parameter.type))
     return before, attributes
 
 
-def _outputs(writer: Writer, written: Call, skill: Skill) -> tuple[dict[str, str], list[Element]]:
+def _outputs(writer: TreeWriter, written: Call, skill: Skill) -> tuple[dict[str, str], list[Element]]:
     """Return where outputs go, and the nodes that convert them; those that the call does not name, nobody reads."""
     outputs = [each for each in skill.parameters if each.direction == "out"]
     if written.out is None or len(outputs) != 1:
-        return {port(each.name): pointer(writer.entry(each.name)) for each in outputs}, []
+        return {port_name(each.name): pointer(writer.entry(each.name)) for each in outputs}, []
     (output,) = outputs
     kind, target = port_type(output.type), writer.bind(written.out, output.type)
     if None in (kind, target.type) or kind == target.type:
-        return {port(output.name): pointer(target.entry)}, []
-    found = Bound(writer.entry(written.out), kind)
-    return {port(output.name): pointer(found.entry)}, [writer.converted(written.out, found, target)]
+        return {port_name(output.name): pointer(target.entry)}, []
+    found = Binding(writer.entry(written.out), kind)
+    return {port_name(output.name): pointer(found.entry)}, [writer.converted(written.out, found, target)]

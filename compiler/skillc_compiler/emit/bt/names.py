@@ -22,7 +22,7 @@ RESERVED = re.compile(r"(ID|name)_*")
 MADE = re.compile(r".*__(\d+|given)_*")
 
 
-def legal(name: str) -> str:
+def to_identifier(name: str) -> str:
     """Return the name of ASCII letters, digits and `_` only, beginning with a letter; no two names share one.
 
     A character that is none of these becomes its code, as in `_xe4_`.
@@ -31,31 +31,31 @@ def legal(name: str) -> str:
     return f"n{plain}" if HEADLESS.match(plain) else plain
 
 
-def legal_text(text: str) -> str:
+def to_xml_text(text: str) -> str:
     """Return text that XML can hold: a character that it cannot becomes the replacement character."""
     return NOT_IN_XML.sub("\ufffd", text)
 
 
-def port(name: str) -> str:
+def port_name(name: str) -> str:
     """Return the name of a port, which is also that of the entry of the blackboard; no two names share one.
 
     A name that the format keeps for itself, or that looks like one that `entry` or `given` makes, gets a `_` more.
     """
-    plain = legal(name)
+    plain = to_identifier(name)
     return f"{plain}_" if RESERVED.fullmatch(plain) or MADE.fullmatch(plain) else plain
 
 
-def entry(name: str, number: int) -> str:
+def entry_name(name: str, number: int) -> str:
     """Return the name of an entry of the blackboard that no parameter has."""
-    return f"{legal(name)}__{number}"
+    return f"{to_identifier(name)}__{number}"
 
 
-def given(name: str) -> str:
+def given_port(name: str) -> str:
     """Return the port through which a caller passes what would be inferred otherwise."""
-    return f"{legal(name)}__given"
+    return f"{to_identifier(name)}__given"
 
 
-class Names:
+class NodeIds:
     """Gives each thing an ID of its own: its name if that is free and no node of BehaviorTree.CPP is called so."""
 
     def __init__(self) -> None:
@@ -65,7 +65,7 @@ class Names:
     def of(self, *parts: str) -> str:
         """Return the ID of the thing with this path of names, always the same; empty ones only tell paths apart."""
         if parts not in self._chosen:
-            wanted = legal("_".join(filter(None, parts)))
+            wanted = to_identifier("_".join(filter(None, parts)))
             name, number = wanted, 1
             while name in self._used:
                 number += 1

@@ -13,13 +13,22 @@ from functools import partial
 from typing import assert_never
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt.body import Writer, after, holding, pointer, sequence
-from skillc_compiler.emit.bt.calls import call, may_break_hold, scoped
+from skillc_compiler.emit.bt.body import TreeWriter, join_steps, pointer, run_after, with_children
+from skillc_compiler.emit.bt.calls import make_call, make_scoped, may_break_hold
 from skillc_compiler.emit.bt.model import Port
-from skillc_compiler.emit.bt.patterns import count_text, forget, kept, lead, once, sequence_of, until, while_
+from skillc_compiler.emit.bt.patterns import (
+    format_rounds,
+    keep_result,
+    make_sequence,
+    reset_script,
+    run_lead,
+    run_once,
+    run_until,
+    run_while,
+)
 from skillc_model.conditions import Arithmetic, Expression, Literal
-from skillc_model.reading import calls_in, free_variables_in_order, walk
 from skillc_model.skills import Post
+from skillc_model.traversal import find_calls, free_variables_in_order, walk
 from skillc_model.tree import (
     Apply,
     Call,
@@ -55,7 +64,7 @@ HIDING = {
 
 
 @dataclass
-class Body(Writer):
+class NodeWriter(TreeWriter):
     """Makes the nodes of one tree."""
 
     def node(self, node: Node) -> Element:
@@ -70,9 +79,11 @@ class Body(Writer):
             case Parallel():
                 return self._parallel(node)
             case Retry(count=count, child=child):
-                return holding(Element("RetryUntilSuccessful", num_attempts=count_text(count)), self.node(child))
+                return with_children(
+                    Element("RetryUntilSuccessful", num_attempts=format_rounds(count)), self.node(child)
+                )
             case Repeat(count=count, child=child):
-                return holding(Element("Repeat", num_cycles=count_text(count)), self.node(child))
+                return with_children(Element("Repeat", num_cycles=format_rounds(count)), self.node(child))
             case Timeout(seconds=seconds, child=child):
                 return self._timed("Timeout", seconds, 1, self.node(child))
             case Wait(seconds=seconds):
@@ -89,30 +100,30 @@ class Body(Writer):
     def _deciding(self, node: WaitUntil | If | While | ForEach | Check | Apply | Call | With) -> Element:
         match node:
             case WaitUntil(condition=condition, text=text, source=source):
-                return until(self.test("until", condition, text, source))
+                return run_until(self.test("until", condition, text, source))
             case If(condition=condition, text=text, source=source):
                 test = self.test("if", condition, text, source)
                 branches = self._apart([each for each in (node.then, node.orelse) if each])
                 otherwise = [] if node.orelse else [Element("AlwaysSuccess")]
-                return holding(Element("IfThenElse"), test, *branches, *otherwise)
+                return with_children(Element("IfThenElse"), test, *branches, *otherwise)
             case While(child=child, limit=limit, source=source):
                 test = self.test("while", node.condition, node.text, source)
-                return while_(test, self.node(child), limit, self.entry("done"), self.entry("rounds"))
+                return run_while(test, self.node(child), limit, self.entry("done"), self.entry("rounds"))
             case ForEach():
                 return self._for_each(node)
             case Check(condition=condition, text=text, source=source):
                 return self.test("check", condition, text, source)
             case Apply(labels=labels):
-                return sequence([self._apply(post) for label in labels for post in self.posts if post.label == label])
+                return join_steps([self._apply(post) for label in labels for post in self.posts if post.label == label])
             case Call():
-                return call(self, node)
+                return make_call(self, node)
             case With(call=set_up, child=child):
-                return scoped(self, set_up, partial(self.node, child))
+                return make_scoped(self, set_up, partial(self.node, child))
             case _:
                 assert_never(node)
 
     def _control(self, tag: str, children: Several[Element], node: Sequence | Selector) -> Element:
-        return holding(Element(tag, _description=str(node.source)), *children)
+        return with_children(Element(tag, _description=str(node.source)), *children)
 
     def _apart(self, nodes: Several[Node]) -> list[Element]:
         return self.apart([partial(self.node, each) for each in nodes])
@@ -120,10 +131,10 @@ class Body(Writer):
     def _parallel(self, node: Parallel) -> Element:
         children = self._apart(node.children)
         if node.policy == "lead":
-            parallel = lead(children[0], children[1:])
+            parallel = run_lead(children[0], children[1:])
         else:
             success, failure = COUNTS[node.policy]
-            parallel = holding(Element("Parallel", success_count=success, failure_count=failure), *children)
+            parallel = with_children(Element("Parallel", success_count=success, failure_count=failure), *children)
         parallel.set("_description", str(node.source))
         return parallel
 
@@ -136,12 +147,12 @@ class Body(Writer):
                 reactive.append(self.node(child))
                 continue
             entries.append(self.entry("done"))
-            reactive.append(kept(self.node(child), self._still(child), entries[-1]))
-        return sequence_of(Element("Script", code=forget(entries)), reactive) if entries else reactive
+            reactive.append(keep_result(self.node(child), self._still(child), entries[-1]))
+        return make_sequence(Element("Script", code=reset_script(entries)), reactive) if entries else reactive
 
     def _still(self, child: Node) -> list[Element]:
         """Return the test whether what the child established and found still holds; none if that is nothing."""
-        calls = list(calls_in(child))
+        calls = list(find_calls(child))
         tested = [each for each in walk(child) if isinstance(each, Check | WaitUntil | If | While)]
         relied = [f"{each.skill}: {post.text}" for each in calls for post in self.library.skills[each.skill].post]
         relied += [each.text for each in tested]
@@ -155,15 +166,15 @@ class Body(Writer):
 
     def _once(self, child: Node) -> Element:
         entry = self.entry("once")
-        self.start.append(forget([entry]))
-        return once(self.node(child), entry)
+        self.start.append(reset_script([entry]))
+        return run_once(self.node(child), entry)
 
     def _hiding(self, word: str, child: Node) -> Element:
         tag, doc = HIDING[word]
         if may_break_hold(self.library, child):
             tag = self.names.of("", word)
             self.model.declare("Decorator", tag, ("", word), (), doc)
-        return holding(Element(tag), self.node(child))
+        return with_children(Element(tag), self.node(child))
 
     def _timed(self, tag: str, seconds: Expression, least: int, child: Element | None = None) -> Element:
         """Return a node that takes milliseconds, at least so many: a timeout of 0 would never come."""
@@ -174,7 +185,7 @@ class Body(Writer):
             product = Arithmetic("*", seconds, Literal(1000.0))
             milliseconds = self.value("milliseconds", product, before, "unsigned int")
         timed = Element(tag, msec=milliseconds)
-        return after(before, timed if child is None else holding(timed, child))
+        return run_after(before, timed if child is None else with_children(timed, child))
 
     def _for_each(self, node: ForEach) -> Element:
         before: list[Element] = []
@@ -188,7 +199,7 @@ class Body(Writer):
         attributes = {"items": items, "item": pointer(item.entry), "_description": str(node.source)}
         child = self.node(node.child)
         self.bound = {name: each for name, each in self.bound.items() if name != node.variable or name in around}
-        return after(before, holding(Element(identity, attributes), child))
+        return run_after(before, with_children(Element(identity, attributes), child))
 
     def _apply(self, post: Post) -> Element:
         path = (*self.owner, "apply", post.label)
@@ -197,7 +208,7 @@ class Body(Writer):
         )
 
 
-def started(body: Body, steps: list[Element]) -> Element:
+def with_start_scripts(body: NodeWriter, steps: list[Element]) -> Element:
     """Return the steps in order, after the scripts that they need at the start."""
     scripts = [Element("Script", code="; ".join(body.start))] if body.start else []
-    return sequence([*scripts, *steps])
+    return join_steps([*scripts, *steps])

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.emit.bt.model import Direction, Port
-from skillc_compiler.emit.bt.names import NOT_IN_XML, given, port
+from skillc_compiler.emit.bt.names import NOT_IN_XML, given_port, port_name
 from skillc_model.conditions import Expression, Individual, Literal
 from skillc_model.rewriting import constant_number
 from skillc_model.skills import Parameter
@@ -49,49 +49,49 @@ def inferring_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
 
 def tree_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
     """Return the ports of a skill that is a tree: what is required, what has a default, and the outputs."""
-    return tuple(_port(each) for each in parameters if each.direction in ("in", "out") or default_text(each))
+    return tuple(_port(each) for each in parameters if each.direction in ("in", "out") or format_default(each))
 
 
-def called(parameter: Parameter) -> str:
+def call_port(parameter: Parameter) -> str:
     """Return the port through which a caller passes a parameter."""
-    return given(parameter.name) if parameter.direction == "infer" else port(parameter.name)
+    return given_port(parameter.name) if parameter.direction == "infer" else port_name(parameter.name)
 
 
-def defaults(parameters: Sequence[Parameter]) -> dict[str, str]:
+def default_attributes(parameters: Sequence[Parameter]) -> dict[str, str]:
     """Return the attributes that give every parameter with a default its default."""
-    texts = ((port(each.name), default_text(each)) for each in parameters)
+    texts = ((port_name(each.name), format_default(each)) for each in parameters)
     return {name: text for name, text in texts if text}
 
 
-def passed_on(parameters: Sequence[Parameter]) -> dict[str, str]:
+def forward_parameters(parameters: Sequence[Parameter]) -> dict[str, str]:
     """Return the attributes that map each parameter to the entry of its name."""
-    return {port(each.name): f"{{{port(each.name)}}}" for each in parameters}
+    return {port_name(each.name): f"{{{port_name(each.name)}}}" for each in parameters}
 
 
-def default_text(parameter: Parameter) -> str | None:
+def format_default(parameter: Parameter) -> str | None:
     """Return the default as a port has it, None without one or if no port can have it."""
     match parameter.default:
         case None:
             return None
         case Literal() | Individual() as value:
-            return plain_value(value, port_type(parameter.type))
+            return format_plain_value(value, port_type(parameter.type))
         case computed:
             number = constant_number(computed)
-            return None if number is None else plain_value(Literal(number), port_type(parameter.type))
+            return None if number is None else format_plain_value(Literal(number), port_type(parameter.type))
 
 
-def plain_value(expression: Expression, type_: str | None) -> str | None:
+def format_plain_value(expression: Expression, type_: str | None) -> str | None:
     """Return what a port of a C++ type is given for a constant or an individual; None for what must be computed."""
     match expression:
         case Literal(value=value):
-            return constant_text(value, type_)
+            return format_constant(value, type_)
         case Individual(iri=iri):
             return iri
         case _:
             return None
 
 
-def constant_text(value: bool | int | float | str, type_: str | None) -> str | None:
+def format_constant(value: bool | int | float | str, type_: str | None) -> str | None:
     """Return a constant as every version of the library reads it with this type, None if no text is read so."""
     match value:
         case bool():
@@ -122,15 +122,15 @@ def port_type(type_: ValueType) -> str | None:
 
 
 def _given(parameter: Parameter) -> Port:
-    return Port(given(parameter.name), "input", port_type(parameter.type), None, parameter.doc, parameter.name)
+    return Port(given_port(parameter.name), "input", port_type(parameter.type), None, parameter.doc, parameter.name)
 
 
 def _port(parameter: Parameter, direction: Direction | None = None) -> Port:
     return Port(
-        port(parameter.name),
+        port_name(parameter.name),
         direction or ("output" if parameter.direction == "out" else "input"),
         port_type(parameter.type),
-        default_text(parameter),
+        format_default(parameter),
         parameter.doc,
         parameter.name,
     )

@@ -50,15 +50,15 @@ RESERVED = frozenset({"ID", "name"})
 Ports = dict[str, Element]
 
 
-class TreeRefused(Exception):
+class InvalidTree(Exception):
     """A file of trees that BehaviorTree.CPP would refuse or misread: a mistake of this compiler."""
 
 
-def verified(root: Element) -> Element:
+def check_file(root: Element) -> Element:
     """Return the file; TreeRefused names every rule that it breaks."""
     broken = list(broken_rules(root))
     if broken:
-        raise TreeRefused("; ".join(broken))
+        raise InvalidTree("; ".join(broken))
     return root
 
 

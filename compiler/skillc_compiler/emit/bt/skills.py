@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt.body import bound_by, holding, pointer, sequence
-from skillc_compiler.emit.bt.calls import call, run
+from skillc_compiler.emit.bt.body import bind_parameters, join_steps, pointer, with_children
+from skillc_compiler.emit.bt.calls import make_call, make_run
 from skillc_compiler.emit.bt.model import Model
-from skillc_compiler.emit.bt.names import Names, given, port
-from skillc_compiler.emit.bt.nodes import Body, started
-from skillc_compiler.emit.bt.ports import inferring_ports, passed_on
+from skillc_compiler.emit.bt.names import NodeIds, given_port, port_name
+from skillc_compiler.emit.bt.nodes import NodeWriter, with_start_scripts
+from skillc_compiler.emit.bt.ports import forward_parameters, inferring_ports
 from skillc_model.conditions import Expression, IsA, Variable
 from skillc_model.skills import Compound, Implementation, Post, Requirement, Skill, SkillLibrary
 from skillc_model.tree import Call
@@ -20,54 +20,58 @@ DESCRIPTION = ""
 """Stands in a path of names where that of an implementation would."""
 
 
-def main_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill) -> Element:
+def make_main_tree(library: SkillLibrary, names: NodeIds, model: Model, skill: Skill) -> Element:
     """Return the tree that runs a skill by itself: what has a default gets it, the rest is read from the blackboard."""
     path = (skill.name, DESCRIPTION, "main")
     arguments: dict[str, Expression] = {
         each.name: Variable(each.name) for each in skill.parameters if each.direction != "out" and each.default is None
     }
-    body = Body(library, names, model, path, bound=bound_by(skill.parameters))
-    running = call(body, Call(skill.name, None, arguments, None, skill.source))
+    body = NodeWriter(library, names, model, path, bound=bind_parameters(skill.parameters))
+    running = make_call(body, Call(skill.name, None, arguments, None, skill.source))
     return _tree(body, running, str(skill.source), skill.doc)
 
 
-def skill_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill) -> Element:
+def make_skill_tree(library: SkillLibrary, names: NodeIds, model: Model, skill: Skill) -> Element:
     """Return the tree of a description, which runs the first implementation that fits."""
-    body = Body(library, names, model, (skill.name,), bound=bound_by(skill.parameters))
+    body = NodeWriter(library, names, model, (skill.name,), bound=bind_parameters(skill.parameters))
     steps = _guarded(body, skill, library.implementations_of(skill.name))
     return _tree(body, steps, str(skill.source))
 
 
-def fixed_tree(library: SkillLibrary, names: Names, model: Model, skill: Skill, chosen: Implementation) -> Element:
+def make_fixed_tree(
+    library: SkillLibrary, names: NodeIds, model: Model, skill: Skill, chosen: Implementation
+) -> Element:
     """Return the tree of a description for callers who have chosen the implementation."""
     owner = (skill.name, DESCRIPTION, "only", chosen.name)
-    body = Body(library, names, model, owner, bound=bound_by(skill.parameters))
+    body = NodeWriter(library, names, model, owner, bound=bind_parameters(skill.parameters))
     return _tree(body, _guarded(body, skill, [chosen]), str(skill.source))
 
 
-def implementation_tree(library: SkillLibrary, names: Names, model: Model, implementation: Implementation) -> Element:
+def make_implementation_tree(
+    library: SkillLibrary, names: NodeIds, model: Model, implementation: Implementation
+) -> Element:
     """Return the tree of a compound implementation: its lets, then its body."""
     if not isinstance(implementation.body, Compound):
         raise TypeError(f"{implementation.name} has no tree")
-    owner, bound = (implementation.skill, implementation.name), bound_by(implementation.parameters)
-    body = Body(library, names, model, owner, posts=implementation.post, bound=bound)
-    steps = [body.evaluate(each.value, port(each.name)) for each in implementation.lets]
+    owner, bound = (implementation.skill, implementation.name), bind_parameters(implementation.parameters)
+    body = NodeWriter(library, names, model, owner, posts=implementation.post, bound=bound)
+    steps = [body.evaluate(each.value, port_name(each.name)) for each in implementation.lets]
     steps.append(body.node(implementation.body.node))
-    return _tree(body, started(body, steps), str(implementation.source))
+    return _tree(body, with_start_scripts(body, steps), str(implementation.source))
 
 
-def _tree(body: Body, root: Element, source: str, doc: str | None = None) -> Element:
+def _tree(body: NodeWriter, root: Element, source: str, doc: str | None = None) -> Element:
     """Return the tree, declared here if a text is given: one that nobody calls is not declared by its callers."""
     identity = body.names.of(*body.owner)
     if doc is not None:
         body.model.declare("SubTree", identity, body.owner, (), doc)
-    return holding(Element("BehaviorTree", ID=identity, _description=source), root)
+    return with_children(Element("BehaviorTree", ID=identity, _description=source), root)
 
 
-def _guarded(body: Body, skill: Skill, implementations: Sequence[Implementation]) -> Element:
+def _guarded(body: NodeWriter, skill: Skill, implementations: Sequence[Implementation]) -> Element:
     choice = _choice(body, skill, implementations)
     described = (skill.name, DESCRIPTION)
-    return sequence(
+    return join_steps(
         [
             *_inference(body, skill),
             *(_required(body, (*described, "pre"), each) for each in skill.pre),
@@ -77,7 +81,7 @@ def _guarded(body: Body, skill: Skill, implementations: Sequence[Implementation]
     )
 
 
-def _inference(body: Body, skill: Skill) -> list[Element]:
+def _inference(body: NodeWriter, skill: Skill) -> list[Element]:
     inferred = [each for each in skill.parameters if each.direction == "infer"]
     if not inferred:
         return []
@@ -85,46 +89,48 @@ def _inference(body: Body, skill: Skill) -> list[Element]:
     path = (skill.name, DESCRIPTION, "infer")
     doc = f"Finds {', '.join(each.name for each in inferred)} in the world model by the preconditions, unless given."
     body.model.declare("Action", body.names.of(*path), path, inferring_ports(parameters), doc)
-    callers = {given(each.name): pointer(given(each.name)) for each in inferred}
-    return [Element(body.names.of(*path), {**passed_on(parameters), **callers})]
+    callers = {given_port(each.name): pointer(given_port(each.name)) for each in inferred}
+    return [Element(body.names.of(*path), {**forward_parameters(parameters), **callers})]
 
 
-def _required(body: Body, path: tuple[str, ...], requirement: Requirement | Post) -> Element:
+def _required(body: NodeWriter, path: tuple[str, ...], requirement: Requirement | Post) -> Element:
     return body.condition((*path, requirement.label), requirement.condition, requirement.text, requirement.source)
 
 
-def _held(body: Body, path: tuple[str, ...], holds: Sequence[Requirement], inner: Element) -> Element:
+def _held(body: NodeWriter, path: tuple[str, ...], holds: Sequence[Requirement], inner: Element) -> Element:
     if not holds:
         return inner
-    return holding(Element("ReactiveSequence"), *(_required(body, (*path, "hold"), each) for each in holds), inner)
+    return with_children(
+        Element("ReactiveSequence"), *(_required(body, (*path, "hold"), each) for each in holds), inner
+    )
 
 
-def _choice(body: Body, skill: Skill, implementations: Sequence[Implementation]) -> Element:
+def _choice(body: NodeWriter, skill: Skill, implementations: Sequence[Implementation]) -> Element:
     """Return the choice among implementations; the next is tried after a failure only where the skill says so."""
     options = [(_demands(body, each, skill), _run(body, each, skill)) for each in implementations]
     if skill.fallback and len(options) > 1:
         return _with_fallback(body, skill, options)
     chosen = Element("AlwaysFailure")
     for demands, option in reversed(options):
-        chosen = holding(Element("IfThenElse"), sequence(demands), option, chosen) if demands else option
+        chosen = with_children(Element("IfThenElse"), join_steps(demands), option, chosen) if demands else option
     return chosen
 
 
-def _with_fallback(body: Body, skill: Skill, options: Sequence[tuple[list[Element], Element]]) -> Element:
+def _with_fallback(body: NodeWriter, skill: Skill, options: Sequence[tuple[list[Element], Element]]) -> Element:
     """Return the implementations in turn; after one has failed, the world may be another and is tested again."""
     choice = Element("Fallback")
     for number, (demands, option) in enumerate(options):
         again = [_required(body, (skill.name, DESCRIPTION, "pre"), each) for each in skill.pre] if number else []
-        choice.append(sequence([*again, *demands, option]))
+        choice.append(join_steps([*again, *demands, option]))
     return choice
 
 
-def _run(body: Body, implementation: Implementation, skill: Skill) -> Element:
+def _run(body: NodeWriter, implementation: Implementation, skill: Skill) -> Element:
     own = [each for each in implementation.hold if each not in skill.hold]
-    return _held(body, (skill.name, implementation.name), own, run(body, implementation))
+    return _held(body, (skill.name, implementation.name), own, make_run(body, implementation))
 
 
-def _demands(body: Body, implementation: Implementation, skill: Skill) -> list[Element]:
+def _demands(body: NodeWriter, implementation: Implementation, skill: Skill) -> list[Element]:
     """Return the tests of the refined types and of the preconditions that the implementation adds."""
     owner = (skill.name, implementation.name)
     described = {each.name: each.type for each in skill.parameters}

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from skillc_compiler.emit.quantities import quantity_texts
+from skillc_dsl.units import to_si
 from skillc_model.conditions import Expression, Literal
 from skillc_model.format_condition import format_expression, format_literal
-from skillc_model.reading import calls_in
+from skillc_model.format_type import format_quantity, format_type
 from skillc_model.rewriting import constant_number
 from skillc_model.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
-from skillc_model.words import type_text
-from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_model.traversal import find_calls
+from skillc_rdf.vocabulary.types import NumberType, ValueType, Vocabulary
 
 KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
 
@@ -43,11 +44,11 @@ def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the row of a parameter: name, kind, type, default, range, what it is."""
     kind = KINDS[parameter.direction] + (", any" if parameter.any_ else "")
     number = None if parameter.default is None else constant_number(parameter.default)
-    default, low, high = quantity_texts((number, parameter.low, parameter.high), parameter.type)
+    default, low, high = format_quantities((number, parameter.low, parameter.high), parameter.type)
     if parameter.default is not None and number is None:
         default = _default(parameter.default, vocabulary)
     range_ = f"{low} .. {high}" if low or high else ""
-    row = (parameter.name, kind, type_text(parameter.type, vocabulary), default, range_, parameter.doc)
+    row = (parameter.name, kind, format_type(parameter.type, vocabulary), default, range_, parameter.doc)
     return tuple(each.replace("|", "\\|").replace("\n", " ") for each in row)
 
 
@@ -69,14 +70,14 @@ def _difference(implementation: Implementation, skill: Skill, vocabulary: Vocabu
         for requirement in ours
         if requirement not in theirs
     ]
-    phrases = [f"`{each.name}: {type_text(each.type, vocabulary)}`" for each in refined]
+    phrases = [f"`{each.name}: {format_type(each.type, vocabulary)}`" for each in refined]
     return phrases + [f"`{each.text}`" for each in own]
 
 
 def _body(implementation: Implementation) -> str:
     match implementation.body:
         case Compound(node=node):
-            names = dict.fromkeys(each.skill for each in calls_in(node))
+            names = dict.fromkeys(each.skill for each in find_calls(node))
             return "calls " + ", ".join(f"[{name}]({name}.md)" for name in names) if names else "calls no skill"
         case primitive:
             return f"runs `{primitive.python}`"
@@ -93,3 +94,25 @@ def _template(name: str) -> Template:
         autoescape=False,
     )
     return environment.get_template(name)
+
+
+SMALL = 0.1
+
+
+FINER = {"Length": "mm", "Time": "ms"}
+FAMILIAR = {"Angle": "deg", "AngularSpeed": "deg/s"}
+
+
+def format_quantities(values: Sequence[float | None], type_: ValueType) -> tuple[str, ...]:
+    """Return values in SI units as text with a common unit, "" for None.
+
+    Lengths and times have a finer unit, taken when some value other than zero is below a tenth in SI.
+    """
+    dimension = type_.dimension if isinstance(type_, NumberType) else ""
+    small = any(each is not None and 0 < abs(each) < SMALL for each in values)
+    unit = FAMILIAR.get(dimension) or (FINER.get(dimension) if small else None)
+    return tuple("" if each is None else _text(each, type_, unit) for each in values)
+
+
+def _text(value: float, type_: ValueType, unit: str | None) -> str:
+    return format_quantity(value, type_) if unit is None else f"{value / to_si(1.0, unit):g} {unit}"

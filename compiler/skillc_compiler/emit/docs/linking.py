@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from skillc_model.words import type_text
+from skillc_model.format_type import format_type
 from skillc_rdf.vocabulary.types import ClassType, ListType, Position, ValueType, Vocabulary, local_name
 
 _NAME = re.compile(r"[A-Za-z_][\w-]*(?::[A-Za-z_][\w-]*)?")
 
 
 @dataclass(frozen=True, slots=True)
-class Links:
+class LinkWriter:
     """Writes the links of one page; `root` leads from it to the top, "" or "../" or more of these.
 
     `terms` are the IRIs and functions that have a place on the page of terms, `sources` the files that have a page.
@@ -60,7 +60,7 @@ class Links:
             case ListType(element=element):
                 return Markup("[{}]").format(self.type(element))
             case _:
-                return Markup("<code>{}</code>").format(type_text(type_, self.vocabulary))
+                return Markup("<code>{}</code>").format(format_type(type_, self.vocabulary))
 
     def code(self, text: str, mentioned: Iterable[str]) -> Markup:
         """Return what an author wrote as code, with the terms it mentions linked."""
@@ -76,10 +76,10 @@ class Links:
         return Markup("<code>{}</code>").format(self._bare(name, shown) if name in self.terms else shown)
 
     def _bare(self, name: str, shown: str) -> Markup:
-        return Markup('<a href="{}terms.html#{}">{}</a>').format(self.root, anchor(name, self.vocabulary), shown)
+        return Markup('<a href="{}terms.html#{}">{}</a>').format(self.root, make_anchor(name, self.vocabulary), shown)
 
 
-def anchor(name: str, vocabulary: Vocabulary) -> str:
+def make_anchor(name: str, vocabulary: Vocabulary) -> str:
     """Return the place of a term on the page of terms."""
     return re.sub(r"[^\w-]", "-", vocabulary.short(name))
 

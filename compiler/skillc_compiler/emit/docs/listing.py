@@ -13,15 +13,15 @@ from skillc_dsl.source import Source
 VALUES = frozenset({"STRING", "QUANTITY", "NUMBER"})
 
 
-def listing(source: Source) -> tuple[Markup, ...]:
+def format_listing(source: Source) -> tuple[Markup, ...]:
     """Return the lines of a file, without their numbers."""
     marked = Markup("").join(_pieces(source.text, _stretches(source)))
     return tuple(Markup(line) for line in marked.split("\n"))
 
 
-def excerpt(source: Source, first: int, last: int) -> Markup:
+def format_excerpt(source: Source, first: int, last: int) -> Markup:
     """Return some lines of a file, counted from 1, both included."""
-    return Markup("\n").join(listing(source)[first - 1 : last])
+    return Markup("\n").join(format_listing(source)[first - 1 : last])
 
 
 def _stretches(source: Source) -> Iterator[tuple[int, int, str]]:

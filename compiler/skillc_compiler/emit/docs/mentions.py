@@ -7,18 +7,18 @@ from collections.abc import Iterator
 import msgspec
 
 from skillc_model.conditions import Assert, Assign, Exists, Forall, HasProperty, Holds, Invoke, IsA, PropertyOf, Retract
-from skillc_model.reading import calls_in, walk
+from skillc_model.traversal import find_calls, walk
 from skillc_rdf.vocabulary.types import ClassType
 
 
-def mentioned(item: msgspec.Struct) -> frozenset[str]:
+def find_terms(item: msgspec.Struct) -> frozenset[str]:
     """Return the IRIs of the classes, relations and properties, and the names of the functions, inside `item`."""
     return frozenset(name for each in walk(item) for name in _named(each))
 
 
-def called(item: msgspec.Struct) -> tuple[str, ...]:
+def find_called_skills(item: msgspec.Struct) -> tuple[str, ...]:
     """Return the skills called inside `item`, in the order of their first call."""
-    return tuple(dict.fromkeys(each.skill for each in calls_in(item)))
+    return tuple(dict.fromkeys(each.skill for each in find_calls(item)))
 
 
 def _named(item: msgspec.Struct) -> Iterator[str]:

@@ -15,13 +15,13 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from skillc_compiler.emit.docs import prose
-from skillc_compiler.emit.docs.linking import Links, anchor
-from skillc_compiler.emit.docs.listing import listing
+from skillc_compiler.emit.docs.linking import LinkWriter, make_anchor
+from skillc_compiler.emit.docs.listing import format_listing
 from skillc_compiler.emit.docs.skill_page import skill_page
 from skillc_compiler.emit.docs.terms_page import shown_terms, term_groups
-from skillc_compiler.emit.docs.written import Written, written
+from skillc_compiler.emit.docs.written import WrittenDeclarations, collect_declarations
 from skillc_compiler.emit.picture import svg
-from skillc_compiler.emit.picture.drawing import task_box
+from skillc_compiler.emit.picture.drawing import draw_task
 from skillc_compiler.program.typed import ParsedFile
 from skillc_model.skills import Skill, SkillLibrary, Task
 
@@ -32,19 +32,19 @@ MARK = "Made by skillc doc from the library"
 
 
 @dataclass(frozen=True, slots=True)
-class Contents:
+class SiteContents:
     """What all pages share: the library, what was written, its own skills and the imported ones, the terms shown."""
 
     library: SkillLibrary
-    declared: Written
+    declared: WrittenDeclarations
     own: tuple[Skill, ...]
     imported: tuple[Skill, ...]
     terms: frozenset[str]
 
-    def links(self, path: str) -> Links:
+    def links(self, path: str) -> LinkWriter:
         """Return what writes the links of the page at `path`."""
         sources, skills = frozenset(self.declared.sources), frozenset(self.library.skills)
-        return Links("../" * path.count("/"), self.library.vocabulary, skills, self.terms, sources)
+        return LinkWriter("../" * path.count("/"), self.library.vocabulary, skills, self.terms, sources)
 
     def page(self, path: str, template: str, title: str, **values: object) -> str:
         """Return the page at `path`."""
@@ -68,7 +68,7 @@ class ShownTask:
     picture: Markup
 
 
-def site(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> dict[str, str]:
+def make_site(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> dict[str, str]:
     """Return the text of each file of the reference by its path, `/` between folders.
 
     `files_read` are the files that the library was compiled from.
@@ -84,19 +84,19 @@ def site(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> dict[str, s
     return dict(sorted((pages | _skills(contents) | _sources(contents)).items()))
 
 
-def _contents(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> Contents:
+def _contents(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> SiteContents:
     own = {unit.file.path for unit in files_read if unit.library == library.name}
     skills = tuple(skill for _, skill in sorted(library.skills.items()))
-    return Contents(
+    return SiteContents(
         library,
-        written(files_read),
+        collect_declarations(files_read),
         tuple(skill for skill in skills if skill.source.path in own),
         tuple(skill for skill in skills if skill.source.path not in own),
         shown_terms(library),
     )
 
 
-def _skills(contents: Contents) -> dict[str, str]:
+def _skills(contents: SiteContents) -> dict[str, str]:
     pages = {}
     for skill in (*contents.own, *contents.imported):
         path = f"skill/{skill.name}.html"
@@ -105,25 +105,25 @@ def _skills(contents: Contents) -> dict[str, str]:
     return pages
 
 
-def _sources(contents: Contents) -> dict[str, str]:
+def _sources(contents: SiteContents) -> dict[str, str]:
     pages = {}
     for name, source in contents.declared.sources.items():
         path = f"source/{name}.html"
-        pages[path] = contents.page(path, "source.html.j2", name, lines=listing(source))
+        pages[path] = contents.page(path, "source.html.j2", name, lines=format_listing(source))
     return pages
 
 
-def _tasks(contents: Contents) -> list[ShownTask]:
+def _tasks(contents: SiteContents) -> list[ShownTask]:
     links, declared = contents.links("tasks.html"), contents.declared
     shown = []
     for name, task in sorted(contents.library.tasks.items()):
         tree = declared.tasks[name]
-        picture = Markup(svg.draw(task_box(tree, declared.source(tree.span)), links.page))
+        picture = Markup(svg.draw(draw_task(tree, declared.source(tree.span)), links.page))
         shown.append(ShownTask(task, prose.block(task.doc), links.source(task.source), picture))
     return shown
 
 
-def _terms(contents: Contents) -> object:
+def _terms(contents: SiteContents) -> object:
     return term_groups(contents.library, contents.links("terms.html"))
 
 
@@ -161,4 +161,4 @@ def _search_entries(library: SkillLibrary, terms: frozenset[str]) -> Iterator[tu
     )
     for kind, table in kinds:
         for name in terms & table.keys():
-            yield vocabulary.short(name), kind, f"terms.html#{anchor(name, vocabulary)}"
+            yield vocabulary.short(name), kind, f"terms.html#{make_anchor(name, vocabulary)}"

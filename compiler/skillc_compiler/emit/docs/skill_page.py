@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TypeAlias
 
 from markupsafe import Markup
 
 from skillc_compiler.emit.docs import prose
-from skillc_compiler.emit.docs.linking import Links
-from skillc_compiler.emit.docs.listing import excerpt
-from skillc_compiler.emit.docs.mentions import called, mentioned
-from skillc_compiler.emit.docs.reasons import reasons
-from skillc_compiler.emit.docs.written import Written
+from skillc_compiler.emit.docs.linking import LinkWriter
+from skillc_compiler.emit.docs.listing import format_excerpt
+from skillc_compiler.emit.docs.mentions import find_called_skills, find_terms
+from skillc_compiler.emit.docs.written import WrittenDeclarations
 from skillc_compiler.emit.picture import svg
-from skillc_compiler.emit.picture.drawing import implementation_box
+from skillc_compiler.emit.picture.drawing import draw_implementation
 from skillc_dsl import syntax as s
+from skillc_model.format_type import format_type
 from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
-from skillc_rdf.vocabulary.types import local_name
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary, local_name
 
 COLUMNS = ("name", "kind", "type", "default", "range", "what it is")
 Row: TypeAlias = tuple[str, Markup, str, Markup]
@@ -55,12 +57,12 @@ class SkillPage:
     terms: tuple[Markup, ...]
 
 
-def skill_page(skill: Skill, library: SkillLibrary, written: Written, links: Links) -> SkillPage:
+def skill_page(skill: Skill, library: SkillLibrary, written: WrittenDeclarations, links: LinkWriter) -> SkillPage:
     """Return what is shown of a skill."""
     declared = written.skills[skill.name]
     ranked = library.implementations_of(skill.name)
     why = reasons(ranked, library.vocabulary)
-    terms = frozenset[str]().union(*map(mentioned, (skill, *ranked)))
+    terms = frozenset[str]().union(*map(find_terms, (skill, *ranked)))
     return SkillPage(
         skill.name,
         prose.block(skill.doc),
@@ -74,7 +76,7 @@ def skill_page(skill: Skill, library: SkillLibrary, written: Written, links: Lin
     )
 
 
-def _traits(skill: Skill, declared: s.SkillDeclaration, written: Written) -> list[Markup]:
+def _traits(skill: Skill, declared: s.SkillDeclaration, written: WrittenDeclarations) -> list[Markup]:
     durations = (each for each in declared.members if isinstance(each, s.Duration))
     said = [
         *(f"takes `{written.words(each.value.span)}`" for each in durations),
@@ -88,7 +90,7 @@ def _traits(skill: Skill, declared: s.SkillDeclaration, written: Written) -> lis
 
 
 def _parameters(
-    skill: Skill, declared: s.SkillDeclaration, written: Written, links: Links
+    skill: Skill, declared: s.SkillDeclaration, written: WrittenDeclarations, links: LinkWriter
 ) -> tuple[tuple[str, ...], tuple[tuple[Markup, ...], ...]]:
     """Return the heads of the columns in which some parameter has something, and the cells of each row."""
     as_written = {each.name.text: each for each in declared.members if isinstance(each, s.Parameter)}
@@ -97,7 +99,9 @@ def _parameters(
     return tuple(COLUMNS[index] for index in filled), tuple(tuple(row[index] for index in filled) for row in rows)
 
 
-def _parameter(parameter: Parameter, declared: s.Parameter, written: Written, links: Links) -> tuple[Markup, ...]:
+def _parameter(
+    parameter: Parameter, declared: s.Parameter, written: WrittenDeclarations, links: LinkWriter
+) -> tuple[Markup, ...]:
     """Return the cells of all columns."""
     default = written.words(declared.default.span) if declared.default else ""
     bounds = declared.range
@@ -113,18 +117,18 @@ def _parameter(parameter: Parameter, declared: s.Parameter, written: Written, li
     )
 
 
-def _conditions(skill: Skill, links: Links) -> tuple[tuple[str, tuple[Row, ...]], ...]:
+def _conditions(skill: Skill, links: LinkWriter) -> tuple[tuple[str, tuple[Row, ...]], ...]:
     after = tuple(_condition(post, "measured" if post.sensed else "", links) for post in skill.post)
     before, during = (tuple(_condition(each, "", links) for each in kind) for kind in (skill.pre, skill.hold))
     groups = (("Must hold when it starts", before), ("Must hold while it runs", during), ("Holds afterwards", after))
     return tuple(group for group in groups if group[1])
 
 
-def _condition(condition: Requirement | Post, remark: str, links: Links) -> Row:
-    return (condition.label, links.code(condition.text, mentioned(condition)), remark, links.line(condition.source))
+def _condition(condition: Requirement | Post, remark: str, links: LinkWriter) -> Row:
+    return (condition.label, links.code(condition.text, find_terms(condition)), remark, links.line(condition.source))
 
 
-def _way(implementation: Implementation, reason: str, written: Written, links: Links) -> Way:
+def _way(implementation: Implementation, reason: str, written: WrittenDeclarations, links: LinkWriter) -> Way:
     declared = written.implementations[f"{implementation.skill}.{implementation.name}"]
     source, body = written.source(declared.span), implementation.body
     return Way(
@@ -133,12 +137,43 @@ def _way(implementation: Implementation, reason: str, written: Written, links: L
         prose.line(reason),
         links.source(implementation.source),
         body.python if isinstance(body, Primitive) else "",
-        Markup(svg.draw(implementation_box(declared, source), links.page)),
-        excerpt(source, declared.span.line, declared.span.end_line),
-        tuple(links.skill(name) for name in called(implementation)),
+        Markup(svg.draw(draw_implementation(declared, source), links.page)),
+        format_excerpt(source, declared.span.line, declared.span.end_line),
+        tuple(links.skill(name) for name in find_called_skills(implementation)),
     )
 
 
 def _callers(name: str, library: SkillLibrary) -> list[str]:
     """Return the skills with an implementation that calls this one."""
-    return sorted({each.skill for each in library.implementations.values() if name in called(each)})
+    return sorted({each.skill for each in library.implementations.values() if name in find_called_skills(each)})
+
+
+def reasons(ranked: Sequence[Implementation], vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Return for each implementation, in rank order, why it stands before the next; Markdown."""
+    if len(ranked) == 1:
+        return ("The only one in this library.",)
+    return (*(_before(one, other, vocabulary) for one, other in pairwise(ranked)), "Tried last.") if ranked else ()
+
+
+def _before(one: Implementation, other: Implementation, vocabulary: Vocabulary) -> str:
+    apart = [p for p, q in _classes(one, other) if vocabulary.disjoint(p[1], q[1])]
+    if apart:
+        return f"Never competes with `{other.name}`: no `{apart[0][0]}` fits both."
+    narrower = [p[0] for p, q in _classes(one, other) if p[1] != q[1] and vocabulary.is_a(p[1], q[1])]
+    wider = [p for p, q in _classes(one, other) if not vocabulary.is_a(p[1], q[1])]
+    if narrower and not wider:
+        types = {parameter.name: format_type(parameter.type, vocabulary) for parameter in one.parameters}
+        listed = ", ".join(f"`{name}: {types[name]}`" for name in narrower)
+        return f"Tried before `{other.name}`, because it is made for fewer cases: {listed}."
+    if one.prefer != other.prefer:
+        return f"Tried before `{other.name}`, because of `prefer {one.prefer:g}` against `{other.prefer:g}`."
+    return f"Tried before `{other.name}`, because it is declared first and neither is made for fewer cases."
+
+
+def _classes(one: Implementation, other: Implementation) -> list[tuple[tuple[str, str], tuple[str, str]]]:
+    """Return the parameters that are individuals, with their names and classes in both implementations."""
+    return [
+        ((p.name, p.type.iri), (q.name, q.type.iri))
+        for p, q in zip(one.parameters, other.parameters, strict=True)
+        if isinstance(p.type, ClassType) and isinstance(q.type, ClassType)
+    ]

@@ -10,8 +10,8 @@ import msgspec
 from markupsafe import Markup
 
 from skillc_compiler.emit.docs import prose
-from skillc_compiler.emit.docs.linking import Links, anchor
-from skillc_compiler.emit.docs.mentions import mentioned
+from skillc_compiler.emit.docs.linking import LinkWriter, make_anchor
+from skillc_compiler.emit.docs.mentions import find_terms
 from skillc_compiler.resolve.declarations import library_namespace
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm, Vocabulary, local_name
@@ -37,13 +37,13 @@ def shown_terms(library: SkillLibrary) -> frozenset[str]:
     vocabulary = library.vocabulary
     known = {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.functions}
     found = {name for name in known if name.startswith(library_namespace(library.name))}
-    found |= {name for each in _speakers(library) for name in mentioned(each)}
+    found |= {name for each in _speakers(library) for name in find_terms(each)}
     found |= {iri for name in found for iri in _classes_of(name, vocabulary)}
     found |= {iri for name in found for iri in vocabulary.ancestors.get(name, ())}
     return frozenset(found & known)
 
 
-def term_groups(library: SkillLibrary, links: Links) -> tuple[tuple[str, tuple[TermEntry, ...]], ...]:
+def term_groups(library: SkillLibrary, links: LinkWriter) -> tuple[tuple[str, tuple[TermEntry, ...]], ...]:
     """Return the terms by kind, each kind in order of name."""
     vocabulary, users = library.vocabulary, _users(library)
     tables: tuple[tuple[str, Mapping[str, Term]], ...] = (
@@ -70,7 +70,7 @@ def _users(library: SkillLibrary) -> dict[str, frozenset[str]]:
     """Return the skills that mention each term."""
     found: dict[str, frozenset[str]] = {}
     for skill in library.skills.values():
-        for name in frozenset[str]().union(*map(mentioned, (skill, *library.implementations_of(skill.name)))):
+        for name in frozenset[str]().union(*map(find_terms, (skill, *library.implementations_of(skill.name)))):
             found[name] = found.get(name, frozenset()) | {skill.name}
     return found
 
@@ -82,12 +82,12 @@ def _classes_of(name: str, vocabulary: Vocabulary) -> frozenset[str]:
         return frozenset(iri for each in signatures for iri in (each.domain, each.range))
     if name in vocabulary.properties:
         return frozenset(vocabulary.properties[name].domains)
-    return mentioned(vocabulary.functions[name]) if name in vocabulary.functions else frozenset()
+    return find_terms(vocabulary.functions[name]) if name in vocabulary.functions else frozenset()
 
 
-def _entry(name: str, term: Term, users: frozenset[str], links: Links) -> TermEntry:
+def _entry(name: str, term: Term, users: frozenset[str], links: LinkWriter) -> TermEntry:
     return TermEntry(
-        anchor(name, links.vocabulary),
+        make_anchor(name, links.vocabulary),
         links.vocabulary.short(name),
         "" if isinstance(term, FunctionTerm) else name,
         tuple(_facts(term, links)),
@@ -97,7 +97,7 @@ def _entry(name: str, term: Term, users: frozenset[str], links: Links) -> TermEn
     )
 
 
-def _facts(term: Term, links: Links) -> Iterator[Markup]:
+def _facts(term: Term, links: LinkWriter) -> Iterator[Markup]:
     match term:
         case ClassTerm():
             yield from (Markup("is a {}").format(links.term(iri)) for iri in term.parents)
@@ -119,7 +119,7 @@ def _facts(term: Term, links: Links) -> Iterator[Markup]:
             assert_never(term)
 
 
-def _relation(term: RelationTerm, links: Links) -> Iterator[Markup]:
+def _relation(term: RelationTerm, links: LinkWriter) -> Iterator[Markup]:
     yield from (Markup("{} → {}").format(links.term(each.domain), links.term(each.range)) for each in term.signatures)
     yield from map(Markup, term.characteristics)
     yield from (Markup("implies {}").format(links.term(iri)) for iri in term.parents)

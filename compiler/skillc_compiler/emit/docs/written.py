@@ -12,7 +12,7 @@ from skillc_dsl.source import Source, Span
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
+class WrittenDeclarations:
     """The declarations of a library's files; implementations are keyed `Skill.name`."""
 
     sources: Mapping[str, Source]
@@ -29,10 +29,10 @@ class Written:
         return TreeBuilder(self.source(span)).written(span)
 
 
-def written(files: Sequence[ParsedFile]) -> Written:
+def collect_declarations(files: Sequence[ParsedFile]) -> WrittenDeclarations:
     """Return what the files declare."""
     declared = [each for unit in files for each in unit.file.declarations]
-    return Written(
+    return WrittenDeclarations(
         {unit.file.path: Source(unit.file.path, unit.text) for unit in files},
         {each.name.text: each for each in declared if isinstance(each, s.SkillDeclaration)},
         {

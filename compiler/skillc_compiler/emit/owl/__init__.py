@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.emit.owl.skills import description, implementation
-from skillc_compiler.emit.owl.terms import used_terms
-from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object, turtle
+from skillc_compiler.emit.owl.skills import describe_implementation, describe_skill
+from skillc_compiler.emit.owl.terms import describe_terms
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, IriNode, Object, format_turtle
 from skillc_compiler.emit.owl.words import OWL, PREFIXES, RDFS, SKILLC, library_base
 from skillc_model.skills import SkillLibrary
 
@@ -27,17 +27,17 @@ def emit(library: SkillLibrary) -> dict[str, str]:
     ours = {**PREFIXES, "": base}
     theirs = {prefix: iri for prefix, iri in library.vocabulary.prefixes.items() if iri not in ours.values()}
     prefixes = {**theirs, **ours}
-    return {"skills.ttl": turtle(prefixes, _statements(library))}
+    return {"skills.ttl": format_turtle(prefixes, _statements(library))}
 
 
 def _statements(library: SkillLibrary) -> Iterator[tuple[str, str, Object]]:
     ontology = library_base(library).removesuffix("#")
-    yield ontology, RDF_TYPE, Iri(f"{OWL}Ontology")
+    yield ontology, RDF_TYPE, IriNode(f"{OWL}Ontology")
     yield ontology, f"{RDFS}label", library.name
     yield ontology, f"{RDFS}comment", REPEATED
     yield ontology, f"{SKILLC}sha256", library.hash
     for skill in library.skills.values():
-        yield from description(skill, library)
+        yield from describe_skill(skill, library)
         for each in library.implementations_of(skill.name):
-            yield from implementation(each, skill, library)
-    yield from used_terms(library)
+            yield from describe_implementation(each, skill, library)
+    yield from describe_terms(library)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Literal as OneOf
 
-from skillc_compiler.emit.owl.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
-from skillc_compiler.emit.owl.values import type_statements, value
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, AnonymousNode, IriNode, ListNode, Object
+from skillc_compiler.emit.owl.values import convert_value, type_statements
 from skillc_compiler.emit.owl.words import (
     ARGUMENT,
     CAPABILITY,
@@ -32,8 +32,8 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
+from skillc_model.format_type import SI_UNITS
 from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
-from skillc_model.words import SI_UNITS
 from skillc_rdf.vocabulary.types import ClassType, NumberType, Position
 
 Statement = tuple[str, str, Object]
@@ -42,15 +42,15 @@ BOUND = ("in", "infer")
 KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"}
 
 
-def description(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
+def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     """Yield a description: a class of capabilities, and an individual that has parameters and conditions."""
     iri = f"{library_base(library)}{skill.name}"
-    yield iri, RDF_TYPE, Iri(f"{OWL}Class")
-    yield iri, RDF_TYPE, Iri(f"{SKIROS}Skill")
-    yield iri, f"{RDFS}subClassOf", Iri(CAPABILITY)
+    yield iri, RDF_TYPE, IriNode(f"{OWL}Class")
+    yield iri, RDF_TYPE, IriNode(f"{SKIROS}Skill")
+    yield iri, f"{RDFS}subClassOf", IriNode(CAPABILITY)
     yield from _named(iri, skill.name, skill.doc, skill.source)
     if skill.duration:
-        yield iri, f"{SKILLC}duration", value(skill.duration, NumberType("Time"), library.vocabulary)
+        yield iri, f"{SKILLC}duration", convert_value(skill.duration, NumberType("Time"), library.vocabulary)
         yield iri, f"{SKILLC}durationUnit", SI_UNITS["Time"]
     for parameter in skill.parameters:
         yield from _parameter(iri, parameter, library)
@@ -59,14 +59,14 @@ def description(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
             yield from _condition(iri, kind, each, skill, library)
 
 
-def implementation(each: Implementation, skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
+def describe_implementation(each: Implementation, skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     """Yield an implementation: the class of those invocations whose arguments are of its refined types."""
     base = f"{library_base(library)}{skill.name}"
     iri = f"{base}.{each.name}"
-    yield iri, RDF_TYPE, Iri(f"{OWL}Class")
+    yield iri, RDF_TYPE, IriNode(f"{OWL}Class")
     yield iri, f"{OWL}equivalentClass", _invocations(base, each.parameters)
     yield from _named(iri, f"{skill.name}[{each.name}]", each.doc, each.source)
-    yield iri, f"{SKILLC}implements", Iri(base)
+    yield iri, f"{SKILLC}implements", IriNode(base)
     yield iri, f"{SKILLC}rank", skill.implementations.index(each.name) + 1
     if each.prefer:
         yield iri, f"{SKILLC}preference", float(each.prefer)
@@ -77,14 +77,14 @@ def implementation(each: Implementation, skill: Skill, library: SkillLibrary) ->
             yield from _condition(iri, kind, requirement, skill, library, base)
 
 
-def _invocations(base: str, parameters: Sequence[Parameter]) -> Anonymous:
+def _invocations(base: str, parameters: Sequence[Parameter]) -> AnonymousNode:
     arguments = [
         _restriction(f"{base}.argument.{each.name}", "some" if each.direction in BOUND else "all", cls)
         for each in sorted(parameters, key=lambda each: each.name)
         if (cls := _argument_class(each))
     ]
-    parts = Listed((Iri(INVOCATION), _restriction(INVOKES, "some", base), *arguments))
-    return Anonymous(((RDF_TYPE, Iri(f"{OWL}Class")), (f"{OWL}intersectionOf", parts)))
+    parts = ListNode((IriNode(INVOCATION), _restriction(INVOKES, "some", base), *arguments))
+    return AnonymousNode(((RDF_TYPE, IriNode(f"{OWL}Class")), (f"{OWL}intersectionOf", parts)))
 
 
 def _argument_class(parameter: Parameter) -> str | None:
@@ -92,10 +92,10 @@ def _argument_class(parameter: Parameter) -> str | None:
     return parameter.type.iri if parameter.direction != "out" and isinstance(parameter.type, ClassType) else None
 
 
-def _restriction(relation: str, kind: OneOf["some", "all"], cls: str) -> Anonymous:
+def _restriction(relation: str, kind: OneOf["some", "all"], cls: str) -> AnonymousNode:
     """Return the things that have such a value, or whose values, if any, are all such."""
-    of, on = (RDF_TYPE, Iri(f"{OWL}Restriction")), (f"{OWL}onProperty", Iri(relation))
-    return Anonymous((of, on, (f"{OWL}{kind}ValuesFrom", Iri(cls))))
+    of, on = (RDF_TYPE, IriNode(f"{OWL}Restriction")), (f"{OWL}onProperty", IriNode(relation))
+    return AnonymousNode((of, on, (f"{OWL}{kind}ValuesFrom", IriNode(cls))))
 
 
 def _named(iri: str, label: str, doc: str, source: Position) -> Iterator[Statement]:
@@ -107,14 +107,14 @@ def _named(iri: str, label: str, doc: str, source: Position) -> Iterator[Stateme
 
 def _parameter(skill: str, parameter: Parameter, library: SkillLibrary) -> Iterator[Statement]:
     iri = f"{skill}.parameter.{parameter.name}"
-    yield skill, f"{SKIROS}hasParam", Iri(iri)
-    yield iri, RDF_TYPE, Iri(f"{SKIROS}Parameter")
-    yield iri, RDF_TYPE, Iri(f"{CSS}{'OutputParameter' if parameter.direction == 'out' else 'InputParameter'}")
+    yield skill, f"{SKIROS}hasParam", IriNode(iri)
+    yield iri, RDF_TYPE, IriNode(f"{SKIROS}Parameter")
+    yield iri, RDF_TYPE, IriNode(f"{CSS}{'OutputParameter' if parameter.direction == 'out' else 'InputParameter'}")
     yield from _named(iri, parameter.name, parameter.doc, parameter.source)
     yield iri, f"{SKILLC}direction", parameter.direction
     yield from type_statements(iri, parameter.type)
     if parameter.default is not None:
-        yield iri, f"{SKILLC}defaultValue", value(parameter.default, parameter.type, library.vocabulary)
+        yield iri, f"{SKILLC}defaultValue", convert_value(parameter.default, parameter.type, library.vocabulary)
     for name, bound in (("leastValue", parameter.low), ("greatestValue", parameter.high)):
         if bound is not None:
             yield iri, f"{SKILLC}{name}", float(bound)
@@ -123,9 +123,9 @@ def _parameter(skill: str, parameter: Parameter, library: SkillLibrary) -> Itera
 
 
 def _argument(iri: str) -> Iterator[Statement]:
-    yield iri, RDF_TYPE, Iri(f"{OWL}ObjectProperty")
-    yield iri, RDF_TYPE, Iri(f"{OWL}FunctionalProperty")
-    yield iri, f"{RDFS}subPropertyOf", Iri(ARGUMENT)
+    yield iri, RDF_TYPE, IriNode(f"{OWL}ObjectProperty")
+    yield iri, RDF_TYPE, IriNode(f"{OWL}FunctionalProperty")
+    yield iri, f"{RDFS}subPropertyOf", IriNode(ARGUMENT)
 
 
 def _condition(
@@ -133,11 +133,11 @@ def _condition(
 ) -> Iterator[Statement]:
     """Yield a condition of a description, or of an implementation of the description `described`."""
     iri = f"{owner}.{kind}.{requirement.label}"
-    yield owner, f"{SKIROS}has{KINDS[kind]}", Iri(iri)
+    yield owner, f"{SKIROS}has{KINDS[kind]}", IriNode(iri)
     if not described:
-        yield owner, f"{CSS}isRestrictedBy", Iri(iri)
-    yield iri, RDF_TYPE, Iri(f"{SKILLC if kind == 'hold' else SKIROS}{KINDS[kind]}")
-    yield iri, RDF_TYPE, Iri(f"{CSS}Constraint")
+        yield owner, f"{CSS}isRestrictedBy", IriNode(iri)
+    yield iri, RDF_TYPE, IriNode(f"{SKILLC if kind == 'hold' else SKIROS}{KINDS[kind]}")
+    yield iri, RDF_TYPE, IriNode(f"{CSS}Constraint")
     yield from _named(iri, requirement.label, "", requirement.source)
     yield iri, f"{SKILLC}conditionText", requirement.text
     if isinstance(requirement, Post):
@@ -153,19 +153,19 @@ def _literal(condition: Condition, parameters: dict[str, str]) -> Iterator[tuple
         yield f"{SKILLC}desiredState", literal is condition
     match literal:
         case Holds(subject=subject, relation=relation, object=object_):
-            yield f"{SKILLC}conditionRelation", Iri(relation)
+            yield f"{SKILLC}conditionRelation", IriNode(relation)
             yield from _ends(parameters, subject, object_)
         case Same(left=left, right=right):
             yield f"{SKILLC}operator", "=="
             yield from _ends(parameters, left, right)
         case HasProperty(subject=subject, property=iri):
-            yield f"{SKILLC}conditionProperty", Iri(iri)
+            yield f"{SKILLC}conditionProperty", IriNode(iri)
             yield from _ends(parameters, subject)
         case IsA(subject=subject, cls=cls):
-            yield f"{SKILLC}parameterType", Iri(cls)
+            yield f"{SKILLC}parameterType", IriNode(cls)
             yield from _ends(parameters, subject)
         case Compare(left=PropertyOf(of=Variable() as subject, property=iri), operator=operator, right=right):
-            yield f"{SKILLC}conditionProperty", Iri(iri)
+            yield f"{SKILLC}conditionProperty", IriNode(iri)
             yield f"{SKILLC}operator", operator
             if isinstance(right, Literal):
                 yield f"{SKILLC}comparedValue", right.value
@@ -175,4 +175,4 @@ def _literal(condition: Condition, parameters: dict[str, str]) -> Iterator[tuple
 def _ends(parameters: dict[str, str], subject: Term, object_: Term | None = None) -> Iterator[tuple[str, Object]]:
     for word, term in (("subject", subject), ("object", object_)):
         if isinstance(term, Variable) and term.name in parameters:
-            yield f"{SKILLC}{word}", Iri(parameters[term.name])
+            yield f"{SKILLC}{word}", IriNode(parameters[term.name])

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.emit.owl.turtle import RDF_TYPE, Anonymous, Iri, Listed, Object
-from skillc_compiler.emit.owl.words import DATATYPES, OWL, RDFS, SKILLC, XSD, frame, library_base
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, AnonymousNode, IriNode, ListNode, Object
+from skillc_compiler.emit.owl.words import DATATYPES, OWL, RDFS, SKILLC, XSD, declare_frame, library_base
 from skillc_model.conditions import IsA
+from skillc_model.format_type import SI_UNITS
 from skillc_model.read_write import terms_read
-from skillc_model.reading import walk
 from skillc_model.skills import Implementation, Skill, SkillLibrary
-from skillc_model.words import SI_UNITS
+from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import (
     THING,
     ClassType,
@@ -33,14 +33,14 @@ FLAGS = {
 }
 
 
-def used_terms(library: SkillLibrary) -> Iterator[Statement]:
+def describe_terms(library: SkillLibrary) -> Iterator[Statement]:
     """Yield the frame, the terms the library declares or mentions, and what those need to be understood."""
     vocabulary = library.vocabulary
     read = _mentioned(library)
     relations = _relations(read, vocabulary)
     properties = [vocabulary.properties[iri] for iri in sorted(read) if iri in vocabulary.properties]
     classes = _classes(read, relations, properties, vocabulary)
-    yield from frame()
+    yield from declare_frame()
     for term in relations:
         yield from _relation(term)
     for each in properties:
@@ -81,21 +81,21 @@ def _classes(
 
 def _class(iri: str, classes: set[str], vocabulary: Vocabulary) -> Iterator[Statement]:
     term = vocabulary.classes[iri]
-    yield iri, RDF_TYPE, Iri(f"{OWL}Class")
-    yield from ((iri, f"{RDFS}subClassOf", Iri(parent)) for parent in term.parents)
-    yield from ((iri, f"{OWL}disjointWith", Iri(other)) for other in term.disjoint if other in classes)
+    yield iri, RDF_TYPE, IriNode(f"{OWL}Class")
+    yield from ((iri, f"{RDFS}subClassOf", IriNode(parent)) for parent in term.parents)
+    yield from ((iri, f"{OWL}disjointWith", IriNode(other)) for other in term.disjoint if other in classes)
     if term.comment:
         yield iri, f"{RDFS}comment", term.comment
 
 
 def _relation(term: RelationTerm) -> Iterator[Statement]:
-    yield term.iri, RDF_TYPE, Iri(f"{OWL}ObjectProperty")
+    yield term.iri, RDF_TYPE, IriNode(f"{OWL}ObjectProperty")
     for name, kind in FLAGS.items():
         if getattr(term, name):
-            yield term.iri, RDF_TYPE, Iri(f"{OWL}{kind}")
-    yield from ((term.iri, f"{RDFS}subPropertyOf", Iri(parent)) for parent in term.parents)
+            yield term.iri, RDF_TYPE, IriNode(f"{OWL}{kind}")
+    yield from ((term.iri, f"{RDFS}subPropertyOf", IriNode(parent)) for parent in term.parents)
     if term.inverse:
-        yield term.iri, f"{OWL}inverseOf", Iri(term.inverse)
+        yield term.iri, f"{OWL}inverseOf", IriNode(term.inverse)
     for side, ends in (
         ("domain", [each.domain for each in term.signatures]),
         ("range", [each.range for each in term.signatures]),
@@ -107,9 +107,9 @@ def _relation(term: RelationTerm) -> Iterator[Statement]:
 
 
 def _property(term: PropertyTerm) -> Iterator[Statement]:
-    yield term.iri, RDF_TYPE, Iri(f"{OWL}DatatypeProperty")
+    yield term.iri, RDF_TYPE, IriNode(f"{OWL}DatatypeProperty")
     if term.functional:
-        yield term.iri, RDF_TYPE, Iri(f"{OWL}FunctionalProperty")
+        yield term.iri, RDF_TYPE, IriNode(f"{OWL}FunctionalProperty")
     if term.domains:
         yield term.iri, f"{RDFS}domain", _union(list(term.domains))
     datatype = _datatype(term)
@@ -124,13 +124,13 @@ def _property(term: PropertyTerm) -> Iterator[Statement]:
 def _datatype(term: PropertyTerm) -> Object | None:
     """Return the range as reasoners know it; None for poses, vectors and lists, which are no datatypes to them."""
     if term.values:
-        values = Listed(tuple(term.values))
-        return Anonymous(((RDF_TYPE, Iri(f"{RDFS}Datatype")), (f"{OWL}oneOf", values)))
+        values = ListNode(tuple(term.values))
+        return AnonymousNode(((RDF_TYPE, IriNode(f"{RDFS}Datatype")), (f"{OWL}oneOf", values)))
     match term.type:
         case NumberType():
-            return Iri(f"{XSD}double")
+            return IriNode(f"{XSD}double")
         case PlainType(name=name) if name in DATATYPES:
-            return Iri(DATATYPES[name])
+            return IriNode(DATATYPES[name])
     return None
 
 
@@ -138,6 +138,6 @@ def _union(classes: list[str]) -> Object:
     """Return the class, or the union of several: an overload accepts each, a second axiom would narrow it."""
     unique = sorted(set(classes))
     if len(unique) == 1:
-        return Iri(unique[0])
-    members = Listed(tuple(Iri(each) for each in unique))
-    return Anonymous(((RDF_TYPE, Iri(f"{OWL}Class")), (f"{OWL}unionOf", members)))
+        return IriNode(unique[0])
+    members = ListNode(tuple(IriNode(each) for each in unique))
+    return AnonymousNode(((RDF_TYPE, IriNode(f"{OWL}Class")), (f"{OWL}unionOf", members)))

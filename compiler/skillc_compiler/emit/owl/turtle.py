@@ -16,31 +16,31 @@ LOCAL = re.compile(r"[A-Za-z_]([A-Za-z0-9_.-]*[A-Za-z0-9_-])?")
 
 
 @dataclass(frozen=True)
-class Iri:
+class IriNode:
     """A named node."""
 
     iri: str
 
 
 @dataclass(frozen=True)
-class Anonymous:
+class AnonymousNode:
     """`[ predicate object ; .. ]`, in the order given."""
 
     pairs: tuple[tuple[str, Object], ...]
 
 
 @dataclass(frozen=True)
-class Listed:
+class ListNode:
     """`( item .. )`, in the order given."""
 
     items: tuple[Object, ...]
 
 
-Object: TypeAlias = Iri | Anonymous | Listed | str | bool | int | float
+Object: TypeAlias = IriNode | AnonymousNode | ListNode | str | bool | int | float
 Statements: TypeAlias = Iterable[tuple[str, str, Object]]
 
 
-def turtle(prefixes: Mapping[str, str], statements: Statements) -> str:
+def format_turtle(prefixes: Mapping[str, str], statements: Statements) -> str:
     """Return the statements (subject IRI, predicate IRI, object) as a document; repeated ones once."""
     bases = sorted(prefixes.items(), key=lambda item: (-len(item[1]), item[0]))
     subjects: dict[str, dict[str, set[str]]] = {}
@@ -73,12 +73,12 @@ def _iri(iri: str, bases: list[tuple[str, str]]) -> str:
 
 def _object(value: Object, bases: list[tuple[str, str]]) -> str:
     match value:
-        case Iri(iri=iri):
+        case IriNode(iri=iri):
             return _iri(iri, bases)
-        case Anonymous(pairs=pairs):
+        case AnonymousNode(pairs=pairs):
             inner = " ; ".join(f"{_predicate(predicate, bases)} {_object(each, bases)}" for predicate, each in pairs)
             return f"[ {inner} ]"
-        case Listed(items=items):
+        case ListNode(items=items):
             return f"( {' '.join(_object(each, bases) for each in items)} )"
         case bool():
             return "true" if value else "false"

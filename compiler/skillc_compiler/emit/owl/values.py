@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, IriNode, Object
 from skillc_compiler.emit.owl.words import DATATYPES, DIMENSION, RDFS, SKILLC, XSD
 from skillc_model.conditions import Expression, Individual, Literal
 from skillc_model.format_condition import format_expression
+from skillc_model.format_type import SI_UNITS
 from skillc_model.rewriting import constant_number
-from skillc_model.words import SI_UNITS
 from skillc_rdf.vocabulary.types import (
     ClassType,
     DirectionType,
@@ -28,7 +28,7 @@ Statement = tuple[str, str, Object]
 def type_statements(subject: str, type_: ValueType) -> Iterator[Statement]:
     """Yield the type of a parameter, with its SI unit, and whether it takes a list of such values."""
     element = type_.element if isinstance(type_, ListType) else type_
-    yield subject, f"{SKILLC}parameterType", Iri(_type_iri(element))
+    yield subject, f"{SKILLC}parameterType", IriNode(_type_iri(element))
     if element is not type_:
         yield subject, f"{SKILLC}isList", True
     if isinstance(element, NumberType | VectorType) and element.dimension in SI_UNITS:
@@ -36,11 +36,11 @@ def type_statements(subject: str, type_: ValueType) -> Iterator[Statement]:
         yield from _dimension(element.dimension)
 
 
-def value(expression: Expression, type_: ValueType, vocabulary: Vocabulary) -> Object:
+def convert_value(expression: Expression, type_: ValueType, vocabulary: Vocabulary) -> Object:
     """Return a constant as a literal of its type or as an individual; the text of what is computed at run time."""
     match expression:
         case Individual(iri=iri):
-            return Iri(iri)
+            return IriNode(iri)
         case Literal(value=bool() | str() as plain):
             return plain
         case Literal(value=int() as whole) if type_ == PlainType("Int"):
@@ -68,6 +68,6 @@ def _type_iri(type_: ValueType) -> str:
 
 
 def _dimension(name: str) -> Iterator[Statement]:
-    yield f"{SKILLC}{name}", RDF_TYPE, Iri(DIMENSION)
+    yield f"{SKILLC}{name}", RDF_TYPE, IriNode(DIMENSION)
     yield f"{SKILLC}{name}", f"{RDFS}label", name
     yield f"{SKILLC}{name}", f"{SKILLC}unit", SI_UNITS[name]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.emit.owl.turtle import RDF_TYPE, Iri, Object
+from skillc_compiler.emit.owl.turtle import RDF_TYPE, IriNode, Object
 from skillc_model.skills import SkillLibrary
 
 OWL = "http://www.w3.org/2002/07/owl#"
@@ -63,7 +63,7 @@ def library_base(library: SkillLibrary) -> str:
     return f"https://w3id.org/skillc/library/{library.name}#"
 
 
-def frame() -> Iterator[tuple[str, str, Object]]:
+def declare_frame() -> Iterator[tuple[str, str, Object]]:
     """Yield the declarations of every word above."""
     for iris, kind in (
         (CLASSES, "Class"),
@@ -71,5 +71,5 @@ def frame() -> Iterator[tuple[str, str, Object]]:
         (PROPERTIES, "DatatypeProperty"),
         (ANNOTATIONS, "AnnotationProperty"),
     ):
-        yield from ((iri, RDF_TYPE, Iri(f"{OWL}{kind}")) for iri in iris)
-    yield from ((lower, f"{RDFS}subClassOf", Iri(upper)) for lower, upper in SUBCLASSES)
+        yield from ((iri, RDF_TYPE, IriNode(f"{OWL}{kind}")) for iri in iris)
+    yield from ((lower, f"{RDFS}subClassOf", IriNode(upper)) for lower, upper in SUBCLASSES)

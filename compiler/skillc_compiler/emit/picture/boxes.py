@@ -10,12 +10,12 @@ Look: TypeAlias = Literal["heading", "flow", "guard", "call", "time", "code"]
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class PictureBox:
     """One box: its symbol (one character), its title, further lines, the boxes under it, the skill it calls, if any."""
 
     look: Look
     symbol: str
     title: str
     lines: tuple[str, ...] = ()
-    children: tuple[Box, ...] = ()
+    children: tuple[PictureBox, ...] = ()
     called: str | None = None

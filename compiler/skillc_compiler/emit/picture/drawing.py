@@ -2,51 +2,85 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import assert_never
 
-from skillc_compiler.emit.picture.boxes import Box
-from skillc_compiler.emit.picture.nodes import Nodes
+from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_compiler.emit.picture.nodes import NodeDrawer
+from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.places import TreeBuilder
 from skillc_dsl.source import Source
 
 
-def skill_box(
+def draw_skill(
     skill: s.SkillDeclaration, source: Source, implementations: Sequence[tuple[s.ImplementationDeclaration, Source]]
-) -> Box:
+) -> PictureBox:
     """Return a skill's conditions over a tree for each implementation; each comes with the text it was written in."""
     places = TreeBuilder(source)
     conditions = tuple(places.written(each.span) for each in skill.members if isinstance(each, s.Requirement))
-    ways = tuple(implementation_box(written, own) for written, own in implementations)
-    nothing = (Box("guard", "∅", "no implementation here"),)
-    return Box("heading", "◆", f"skill {skill.name.text}", conditions, ways or nothing)
+    ways = tuple(draw_implementation(written, own) for written, own in implementations)
+    nothing = (PictureBox("guard", "∅", "no implementation here"),)
+    return PictureBox("heading", "◆", f"skill {skill.name.text}", conditions, ways or nothing)
 
 
-def implementation_box(written: s.ImplementationDeclaration, source: Source) -> Box:
+def draw_implementation(written: s.ImplementationDeclaration, source: Source) -> PictureBox:
     """Return the tree of an implementation under what it demands and the values it names."""
     places = TreeBuilder(source)
     lines: list[str] = []
-    bodies: list[Box] = []
+    bodies: list[PictureBox] = []
     for member in written.members:
         match member:
             case s.Body(node=node):
-                bodies.append(Nodes(places).box(node))
+                bodies.append(NodeDrawer(places).box(node))
             case s.RunPython(target=target):
-                bodies.append(Box("code", "λ", "run python", (target.value,)))
+                bodies.append(PictureBox("code", "λ", "run python", (target.value,)))
             case s.Refinement() | s.Requirement() | s.Duration() | s.Let() | s.Prefer() | s.Verify():
                 lines.append(places.written(member.span))
             case _:
                 assert_never(member)
-    return Box("heading", "◇", f"impl {written.name.text} of {written.skill.text}", tuple(lines), tuple(bodies))
+    return PictureBox("heading", "◇", f"impl {written.name.text} of {written.skill.text}", tuple(lines), tuple(bodies))
 
 
-def task_box(written: s.TaskDeclaration, source: Source) -> Box:
+def draw_task(written: s.TaskDeclaration, source: Source) -> PictureBox:
     """Return a task with its scene over its goal or its body."""
-    parts: list[Box] = []
+    parts: list[PictureBox] = []
     if written.goal is not None:
-        parts.append(Box("guard", "⚑", "goal", (written.goal_text,)))
+        parts.append(PictureBox("guard", "⚑", "goal", (written.goal_text,)))
     if written.body is not None:
-        parts.append(Nodes(TreeBuilder(source)).box(written.body.node))
+        parts.append(NodeDrawer(TreeBuilder(source)).box(written.body.node))
     scene = (f'scene "{written.scene.value}"',) if written.scene else ()
-    return Box("heading", "◆", f"task {written.name.text}", scene, tuple(parts))
+    return PictureBox("heading", "◆", f"task {written.name.text}", scene, tuple(parts))
+
+
+def list_drawable(files: Sequence[ParsedFile]) -> tuple[str, ...]:
+    """Return the names of all skills and tasks, in order."""
+    kinds = s.SkillDeclaration | s.TaskDeclaration
+    return tuple(sorted({each.name.text for each, _ in _declared(files) if isinstance(each, kinds)}))
+
+
+def make_picture(name: str, files: Sequence[ParsedFile]) -> PictureBox | None:
+    """Return the picture of the skill or the task of that name, None where there is neither."""
+    for declared, source in _declared(files):
+        match declared:
+            case s.SkillDeclaration() if declared.name.text == name:
+                return draw_skill(declared, source, _implementations(name, files))
+            case s.TaskDeclaration() if declared.name.text == name:
+                return draw_task(declared, source)
+            case _:
+                pass
+    return None
+
+
+def _declared(files: Sequence[ParsedFile]) -> Iterator[tuple[s.Declaration, Source]]:
+    for unit in files:
+        source = Source(unit.file.path, unit.text)
+        yield from ((declared, source) for declared in unit.file.declarations)
+
+
+def _implementations(skill: str, files: Sequence[ParsedFile]) -> list[tuple[s.ImplementationDeclaration, Source]]:
+    return [
+        (declared, source)
+        for declared, source in _declared(files)
+        if isinstance(declared, s.ImplementationDeclaration) and declared.skill.text == skill
+    ]

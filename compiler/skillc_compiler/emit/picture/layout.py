@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from skillc_compiler.emit.picture.boxes import Box, Look
-from skillc_compiler.emit.picture.wrapping import cells, wrapped
+from skillc_compiler.emit.picture.boxes import Look, PictureBox
+from skillc_compiler.emit.picture.wrapping import count_cells, wrap_text
 
 CELL = 7.5
 """Pixels a character takes at most: fonts of one width have 0.60 to 0.62 of their size, which is 12."""
@@ -23,7 +23,7 @@ WIDEST = 58
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedBox:
     """A box in its place: pixels from the upper left corner; `parent` is the row at which its line begins."""
 
     look: Look
@@ -38,25 +38,25 @@ class Placed:
     parent: tuple[float, float] | None
 
 
-def lay_out(box: Box) -> tuple[Placed, ...]:
+def lay_out(box: PictureBox) -> tuple[PlacedBox, ...]:
     """Return all boxes of a picture from top to bottom, parents before their children."""
     return tuple(_place(box, MARGIN, MARGIN, None))
 
 
-def extent(placed: tuple[Placed, ...]) -> tuple[int, int]:
+def picture_size(placed: tuple[PlacedBox, ...]) -> tuple[int, int]:
     """Return the width and height of the picture in pixels."""
     right = max(each.x + each.width for each in placed)
     bottom = max(each.y + each.height for each in placed)
     return int(right) + MARGIN + 1, int(bottom) + MARGIN + 1
 
 
-def _place(box: Box, x: float, y: float, parent: tuple[float, float] | None) -> Iterator[Placed]:
-    title = wrapped(box.title, WIDEST)
-    lines = tuple(line for text in box.lines for line in wrapped(text, WIDEST))
-    longest = max(cells(line) for line in (*title, *lines))
+def _place(box: PictureBox, x: float, y: float, parent: tuple[float, float] | None) -> Iterator[PlacedBox]:
+    title = wrap_text(box.title, WIDEST)
+    lines = tuple(line for text in box.lines for line in wrap_text(text, WIDEST))
+    longest = max(count_cells(line) for line in (*title, *lines))
     width = SYMBOL + 2 * PADDING + CELL * longest
     height = 2 * PADDING + LINE * (len(title) + len(lines)) - 3
-    yield Placed(box.look, box.symbol, title, lines, box.called, x, y, width, height, parent)
+    yield PlacedBox(box.look, box.symbol, title, lines, box.called, x, y, width, height, parent)
     knee = (x + SYMBOL / 2, y + height)
     below = y + height + GAP
     for child in box.children:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import count
 
-from skillc_compiler.emit.picture.boxes import Box
-from skillc_compiler.emit.picture.wrapping import wrapped
+from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_compiler.emit.picture.wrapping import wrap_text
 
 WIDEST = 40
 """Cells of the longest line of a box."""
@@ -14,12 +14,12 @@ OUTSIDE = {"#": "#35;", '"': "#quot;", "<": "#lt;", ">": "#gt;", "&": "#amp;", "
 """Characters that mean something in Mermaid or HTML, as Mermaid writes them."""
 
 
-def draw(box: Box) -> str:
+def draw(box: PictureBox) -> str:
     """Return the picture as the text of a Mermaid diagram."""
     return "flowchart TD\n" + "".join(f"  {line}\n" for line in _lines(box, "n0", count(1)))
 
 
-def _lines(box: Box, name: str, numbers: Iterator[int]) -> Iterator[str]:
+def _lines(box: PictureBox, name: str, numbers: Iterator[int]) -> Iterator[str]:
     yield f'{name}["{_label(box)}"]'
     for child in box.children:
         other = f"n{next(numbers)}"
@@ -27,6 +27,6 @@ def _lines(box: Box, name: str, numbers: Iterator[int]) -> Iterator[str]:
         yield f"{name} --> {other}"
 
 
-def _label(box: Box) -> str:
-    rows = [f"{box.symbol} {box.title}", *(line for text in box.lines for line in wrapped(text, WIDEST))]
+def _label(box: PictureBox) -> str:
+    rows = [f"{box.symbol} {box.title}", *(line for text in box.lines for line in wrap_text(text, WIDEST))]
     return "<br/>".join("".join(OUTSIDE.get(character, character) for character in row) for row in rows)

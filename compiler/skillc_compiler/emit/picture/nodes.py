@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import assert_never
 
-from skillc_compiler.emit.picture.boxes import Box
+from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.places import TreeBuilder
 
@@ -13,12 +13,12 @@ SYMBOLS = {"seq": "→", "sel": "?", "par": "⇉", "try": "~", "invert": "!", "o
 
 
 @dataclass(frozen=True, slots=True)
-class Nodes:
+class NodeDrawer:
     """Draws the nodes of one file; `places` has its text."""
 
     places: TreeBuilder
 
-    def box(self, node: s.Node) -> Box:
+    def box(self, node: s.Node) -> PictureBox:
         """Return the box of a node with those of its children."""
         match node:
             case s.CallSkill():
@@ -26,51 +26,51 @@ class Nodes:
             case s.With(call=call, children=children):
                 return self._call(call, "with ", self._all(children))
             case s.Wait(time=time):
-                return Box("time", "◷", "wait", (self.places.written(time.span),))
+                return PictureBox("time", "◷", "wait", (self.places.written(time.span),))
             case s.WaitUntil(text=text):
-                return Box("time", "◷", "wait until", (text,))
+                return PictureBox("time", "◷", "wait until", (text,))
             case s.CheckNode(text=text):
-                return Box("guard", "✓", "check", (text,))
+                return PictureBox("guard", "✓", "check", (text,))
             case s.ApplyPosts(labels=labels):
-                return Box("guard", "✎", "apply", (", ".join(label.text for label in labels),))
+                return PictureBox("guard", "✎", "apply", (", ".join(label.text for label in labels),))
             case _:
                 return self._around(node)
 
-    def _around(self, node: s.Block | s.Counted | s.Timeout | s.If | s.While | s.For) -> Box:
+    def _around(self, node: s.Block | s.Counted | s.Timeout | s.If | s.While | s.For) -> PictureBox:
         """Return the box of a node that is there for its children."""
         match node:
             case s.Block(kind=kind, children=children):
                 reactive = kind.startswith("reactive")
                 symbol = "↻" if reactive else SYMBOLS[kind.split()[0]]
-                return Box("flow", symbol, kind, (), self._all(children))
+                return PictureBox("flow", symbol, kind, (), self._all(children))
             case s.Counted(kind=kind, count=count, children=children):
-                return Box("flow", "↻", f"{kind} {count.text}", (), self._all(children))
+                return PictureBox("flow", "↻", f"{kind} {count.text}", (), self._all(children))
             case s.Timeout(limit=limit, children=children):
-                return Box("time", "◷", "timeout", (self.places.written(limit.span),), self._all(children))
+                return PictureBox("time", "◷", "timeout", (self.places.written(limit.span),), self._all(children))
             case s.If(text=text):
-                return Box("guard", "?", "if", (text,), self._branches(node))
+                return PictureBox("guard", "?", "if", (text,), self._branches(node))
             case s.While(text=text, limit=limit, children=children):
-                return Box("guard", "↻", "while", (text, f"max {limit.text}"), self._all(children))
+                return PictureBox("guard", "↻", "while", (text, f"max {limit.text}"), self._all(children))
             case s.For(variable=variable, items=items, children=children):
                 head = f"{variable.text} in {self.places.written(items.span)}"
-                return Box("flow", "↻", "for", (head,), self._all(children))
+                return PictureBox("flow", "↻", "for", (head,), self._all(children))
             case _:
                 assert_never(node)
 
-    def _branches(self, node: s.If) -> tuple[Box, ...]:
+    def _branches(self, node: s.If) -> tuple[PictureBox, ...]:
         if node.orelse is None:
             return self._all(node.then)
         return (
-            Box("flow", "+", "then", (), self._all(node.then)),
-            Box("flow", "−", "else", (), self._all(node.orelse)),
+            PictureBox("flow", "+", "then", (), self._all(node.then)),
+            PictureBox("flow", "−", "else", (), self._all(node.orelse)),
         )
 
-    def _all(self, nodes: tuple[s.Node, ...]) -> tuple[Box, ...]:
+    def _all(self, nodes: tuple[s.Node, ...]) -> tuple[PictureBox, ...]:
         return tuple(self.box(node) for node in nodes)
 
-    def _call(self, call: s.CallSkill, before: str, children: tuple[Box, ...]) -> Box:
+    def _call(self, call: s.CallSkill, before: str, children: tuple[PictureBox, ...]) -> PictureBox:
         fixed = f"[{call.implementation.text}]" if call.implementation else ""
         arguments = ", ".join(self.places.written(argument.span) for argument in call.arguments)
         out = f"-> {call.out.text}" if call.out else ""
         lines = tuple(line for line in (arguments, out) if line)
-        return Box("call", "▶", f"{before}{call.skill.text}{fixed}", lines, children, call.skill.text)
+        return PictureBox("call", "▶", f"{before}{call.skill.text}{fixed}", lines, children, call.skill.text)

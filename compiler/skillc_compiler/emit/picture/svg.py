@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
-from skillc_compiler.emit.picture.boxes import Box
-from skillc_compiler.emit.picture.layout import LINE, PADDING, SYMBOL, Placed, extent, lay_out
+from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_compiler.emit.picture.layout import LINE, PADDING, SYMBOL, PlacedBox, lay_out, picture_size
 
 STYLE = """\
 .picture { --ink: #1c2128; --link: #0550ae; --line: #8b949e; --paper: #ffffff; --heading: #e7e9ed;
@@ -29,7 +29,7 @@ STYLE = """\
 """Style for pages that hold drawings."""
 
 
-def draw(box: Box, href: Callable[[str], str | None]) -> str:
+def draw(box: PictureBox, href: Callable[[str], str | None]) -> str:
     """Return the picture as an SVG element for a page that has `STYLE`; the title is read out by screen readers.
 
     `href` gives the page of a called skill, where it has one.
@@ -37,7 +37,7 @@ def draw(box: Box, href: Callable[[str], str | None]) -> str:
     return _element(box, "", href)
 
 
-def document(box: Box) -> str:
+def draw_document(box: PictureBox) -> str:
     """Return the picture as an SVG file."""
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{_element(box, f"<style>{escape(STYLE)}</style>", _nowhere)}\n'
 
@@ -46,9 +46,9 @@ def _nowhere(_skill: str) -> None:
     """A file stands alone."""
 
 
-def _element(box: Box, style: str, href: Callable[[str], str | None]) -> str:
+def _element(box: PictureBox, style: str, href: Callable[[str], str | None]) -> str:
     placed = lay_out(box)
-    width, height = extent(placed)
+    width, height = picture_size(placed)
     size = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}"'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" class="picture" role="group" {size}>'
     parts = [head, f"<title>{escape(box.title)}</title>", style]
@@ -57,14 +57,14 @@ def _element(box: Box, style: str, href: Callable[[str], str | None]) -> str:
     return "\n".join(part for part in (*parts, "</svg>") if part)
 
 
-def _connection(box: Placed) -> Iterator[str]:
+def _connection(box: PlacedBox) -> Iterator[str]:
     if box.parent is not None:
         x, y = box.parent
         middle = box.y + PADDING + LINE / 2
         yield f'<path d="M {x:g} {y:g} V {middle:g} H {box.x:g}"/>'
 
 
-def _box(box: Placed, href: str | None) -> Iterator[str]:
+def _box(box: PlacedBox, href: str | None) -> Iterator[str]:
     frame = f'x="{box.x:g}" y="{box.y:g}" height="{box.height:g}" rx="4"'
     yield f'<rect class="box" {frame} width="{box.width:g}"/>'
     yield f'<rect class="{box.look}" {frame} width="{SYMBOL}"/>'

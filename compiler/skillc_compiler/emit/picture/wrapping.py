@@ -12,12 +12,12 @@ INDENT = "  "
 _BETWEEN = re.compile(r"(?<!:)\s+")
 
 
-def cells(text: str) -> int:
+def count_cells(text: str) -> int:
     """Return how many cells a text takes; wide characters take two."""
     return sum(2 if unicodedata.east_asian_width(character) in "WF" else 1 for character in text)
 
 
-def wrapped(text: str, width: int) -> tuple[str, ...]:
+def wrap_text(text: str, width: int) -> tuple[str, ...]:
     """Return the text in lines of at most `width` cells; it is cut after blanks, and in words that are longer.
 
     Lines after the first are indented; `width` is more than the indent and a wide character.
@@ -25,7 +25,7 @@ def wrapped(text: str, width: int) -> tuple[str, ...]:
     lines: list[str] = []
     line = ""
     for word in _words(printable(text), width - len(INDENT)):
-        if line.strip() and cells(line) + cells(word) > width:
+        if line.strip() and count_cells(line) + count_cells(word) > width:
             lines.append(line.rstrip())
             line = INDENT
         line += f"{word} "
@@ -37,7 +37,7 @@ def _words(text: str, width: int) -> Iterator[str]:
     for word in _BETWEEN.split(text.strip()):
         piece = ""
         for character in word:
-            if cells(piece) + cells(character) > width:
+            if count_cells(piece) + count_cells(character) > width:
                 yield piece
                 piece = ""
             piece += character

@@ -1,6 +1,6 @@
-"""Check skills and scenes; nothing is written unless asked for.
+"""Check skills and scenes for errors.
 
-Prints every problem with its place and its cure. Exit code 1 when there is an error.
+Prints each problem with its location and, where there is one, a fix. Exit code 1 if there is an error.
 """
 
 from __future__ import annotations
@@ -17,14 +17,16 @@ from skillc.services.checking import STDIN, CheckRequest, CheckResult, StdinFile
 
 @click.command(cls=Command)
 @click.argument("paths", nargs=-1, type=PATH)
-@click.option("--scene", type=PATH, help="Check this scene against the library's vocabulary too.")
-@click.option("--format", "form", type=click.Choice(FORMS), default="full", show_default=True)
-@click.option("--fix", is_flag=True, help="Apply the fixes that are safe, and check again.")
-@click.option("--unsafe-fixes", is_flag=True, help="Apply with --fix or --diff also those that are guesses.")
-@click.option("--diff", is_flag=True, help="Show what --fix would change; write nothing.")
-@click.option("--watch", is_flag=True, help="Check again whenever a file changes, until Ctrl-C.")
-@click.option("--stdin-filename", type=PATH, help="Where the file that is read from `-` belongs.")
-@click.option("--cache/--no-cache", default=True, show_default=True, help="Remember what was found in files.")
+@click.option("--scene", type=PATH, help="Also check this scene against the library's vocabulary.")
+@click.option("--format", "form", type=click.Choice(FORMS), default="full", show_default=True, help="Output format.")
+@click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
+@click.option(
+    "--unsafe-fixes", is_flag=True, help="Include unsafe fixes, which may change meaning, in --fix and --diff."
+)
+@click.option("--diff", is_flag=True, help="Show what --fix would change, without writing files.")
+@click.option("--watch", is_flag=True, help="Check again whenever a file changes, until interrupted.")
+@click.option("--stdin-filename", type=PATH, help="The path of the file that is read from `-`.")
+@click.option("--cache/--no-cache", default=True, show_default=True, help="Reuse the results of unchanged files.")
 def command(
     paths: tuple[Path, ...],
     scene: Path | None,
@@ -36,17 +38,17 @@ def command(
     stdin_filename: Path | None,
     cache: bool,
 ) -> int:
-    """Check the libraries or files at PATHS, or in the current folder. `-` is a file from the standard input."""
+    """Check the libraries or files at PATHS, by default in the current folder. `-` reads a file from stdin."""
     from skillc.cli.console import read_stdin
     from skillc.services.library_files import find_scene
 
     from_stdin = STDIN in paths
     if stdin_filename and not from_stdin:
-        raise click.UsageError("--stdin-filename says where `-` belongs, but `-` is not among the paths")
+        raise click.UsageError("--stdin-filename names the file of `-`, but `-` is not among the paths")
     if unsafe_fixes and not (fix or diff):
-        raise click.UsageError("--unsafe-fixes goes with --fix or --diff")
+        raise click.UsageError("--unsafe-fixes requires --fix or --diff")
     if watch and (from_stdin or fix or diff):
-        raise click.UsageError("--watch goes neither with `-` nor with --fix or --diff")
+        raise click.UsageError("--watch cannot be used with `-`, --fix or --diff")
     scene = scene and find_scene(scene)
     stdin = StdinFile(stdin_filename, read_stdin()) if from_stdin else None
     request = CheckRequest(paths or (Path(),), scene, stdin, cache)
@@ -74,26 +76,26 @@ def _watch(request: CheckRequest, form: str) -> int:
 
 
 def _show_fixes(request: CheckRequest, unsafe: bool) -> int:
-    """Print what would change; the exit code is 1 if there is something, or errors would remain."""
+    """Print what would change; return 1 if something would, or if errors would remain."""
     from skillc.services.fixing import find_fixes
-    from skillc.services.reporting import count_of
+    from skillc.services.reporting import format_count
 
     fixes = find_fixes(request, unsafe)
     click.echo(fixes.diff(), nl=False)
-    click.echo(f"{count_of(fixes.count, 'problem')} can be fixed", err=True)
+    click.echo(f"{format_count(fixes.count, 'problem')} can be fixed", err=True)
     return max(1 if fixes.count else 0, exit_code(fixes.remaining))
 
 
 def _fix(request: CheckRequest, unsafe: bool, form: str) -> int:
-    """Fix what can be fixed and print what remains; a fixed standard input goes to stdout."""
+    """Apply the fixes and print the remaining problems; a fixed standard input is printed to stdout."""
     from skillc.cli.console import Terminal
     from skillc.services.fixing import find_fixes, write_fixes
-    from skillc.services.reporting import count_of
+    from skillc.services.reporting import format_count
 
     fixes = find_fixes(request, unsafe)
     files = 0 if request.stdin else write_fixes(fixes)
-    where = f" in {count_of(files, 'file')}" if files else ""
-    click.echo(f"fixed {count_of(fixes.count, 'problem')}{where}", err=True)
+    where = f" in {format_count(files, 'file')}" if files else ""
+    click.echo(f"fixed {format_count(fixes.count, 'problem')}{where}", err=True)
     result = check_sources(request, read_libraries(request) if fixes.beside else fixes.libraries)
     if not request.stdin:
         return _show(result, form)

@@ -1,6 +1,6 @@
-"""Compile a library to JSON, OWL, PDDL, trees and pages.
+"""Compile a library to JSON, OWL, PDDL, behaviour trees and HTML.
 
-The same input gives the same bytes. Exit code 1 when the library has errors; nothing is written then.
+The same input gives the same bytes. Exit code 1 if the library has errors; then nothing is written.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Wipe a board and a table with one skill and two robots.
+"""Run the demo: one wiping skill on two robots.
 
-Exit code 3 when a task does not succeed.
+Exit code 3 if a task does not succeed.
 """
 
 from __future__ import annotations
@@ -13,17 +13,19 @@ from skillc.cli.command import Command
 from skillc.cli.options import FOLDER, looks_option
 
 SEED = 1
-"""With this seed both surfaces lie more than a centimetre away from where the world model believes."""
+"""With this seed both surfaces are more than 1 cm away from their poses in the world model."""
 
 TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
 
 
 @click.command(cls=Command)
-@click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="Which robot.")
-@click.option("--out", type=FOLDER, help="A folder for reports, figures, films.")
-@click.option("--seed", default=SEED, show_default=True, help="How reality differs from the world model.")
+@click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="The robot to run.")
+@click.option("--out", type=FOLDER, help="Write reports, figures and films to this folder.")
+@click.option(
+    "--seed", default=SEED, show_default=True, help="Seed of the differences between world model and simulation."
+)
 @looks_option
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document: a list with one object a task.")
+@click.option("--json", "as_json", is_flag=True, help="Print the results as JSON: a list with one object per task.")
 def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) -> int:
     """Run the two shipped wiping tasks in simulation."""
     from skillc.cli.console import Terminal, print_json

@@ -1,7 +1,7 @@
-"""Write a reference of a library to browse.
+"""Write the HTML reference of a library.
 
-Pages for skills, tasks, terms and files that link to each other; they work without a server. The same input gives the
-same bytes. Exit code 1 when the library has errors; nothing is written then.
+Linked pages for skills, tasks, terms and files, which can be read without a server. The same input gives the same
+bytes. Exit code 1 if the library has errors; then nothing is written.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from skillc.cli.options import FOLDER, PATH
 @click.argument("path", type=PATH)
 @click.option("-o", "--output", required=True, type=FOLDER, help="The folder to write to.")
 def command(path: Path, output: Path) -> None:
-    """Write the reference of the library at PATH into the folder OUTPUT."""
+    """Write the HTML reference of the library at PATH into the folder OUTPUT."""
     from skillc.cli.console import Terminal
     from skillc.services.artifacts import write_reference
 

@@ -1,6 +1,6 @@
-"""Tell what is installed and what is missing.
+"""Show what is installed and what is missing.
 
-Exit code 1 when something that every command needs is missing.
+Exit code 1 if something that every command needs is missing.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from skillc.cli.options import json_option
 @click.command(cls=Command)
 @json_option
 def command(as_json: bool) -> int:
-    """Tell what is installed and what that means."""
+    """Show which programs and packages are installed, and what works without the missing ones."""
     import json
 
     from skillc.services.environment import diagnose_environment

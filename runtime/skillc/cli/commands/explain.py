@@ -1,6 +1,6 @@
-"""Explain a diagnostic: what is wrong, why it matters, a bad and a good example.
+"""Explain a diagnostic, with a bad and a good example.
 
-Without a name, lists all diagnostics by family. Exit code 2 for a name that there is not.
+Without a name, lists all diagnostics by family. Exit code 2 if there is no diagnostic of that name.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from skillc.cli.command import Command
 @click.argument("name", required=False)
 @click.option("--json", "as_json", is_flag=True, help="Print the page, or all pages, as JSON.")
 def command(name: str | None, as_json: bool) -> None:
-    """Explain the diagnostic NAME, such as `unknown-class`; list them all without a name."""
+    """Explain the diagnostic NAME, such as `unknown-class`; without NAME, list all diagnostics."""
     from skillc.cli.manual_pages import format_contents, format_page
     from skillc_compiler.manual import load_page, load_pages, page_names
     from skillc_dsl.diagnostics import did_you_mean
 
     if name is not None and name not in page_names():
-        hint = did_you_mean(name, page_names()) or "`skillc explain` lists them all"
+        hint = did_you_mean(name, page_names()) or "`skillc explain` lists all diagnostics"
         raise click.UsageError(f"there is no diagnostic `{name}`; {hint}")
     if as_json:
         data = asdict(load_page(name)) if name else [asdict(each) for each in load_pages().values()]

@@ -1,4 +1,4 @@
-"""Lay out skill files in the one way there is."""
+"""Format skill files."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ STDIN = Path("-")
 
 @click.command(cls=Command)
 @click.argument("paths", nargs=-1, type=PATH)
-@click.option("--check", is_flag=True, help="Write nothing; list the files that are not formatted, and exit with 1.")
-@click.option("--diff", is_flag=True, help="Write nothing; show what would change.")
-@click.option("--stdin-filename", type=PATH, help="What the text that is read from `-` is called in messages.")
+@click.option("--check", is_flag=True, help="List unformatted files without writing them; exit with 1 if any.")
+@click.option("--diff", is_flag=True, help="Show what would change, without writing files.")
+@click.option("--stdin-filename", type=PATH, help="The name of the text that is read from `-`, for messages.")
 def command(paths: tuple[Path, ...], check: bool, diff: bool, stdin_filename: Path | None) -> int:
-    """Format the skill files at PATHS, files or folders, or in the current folder. `-` is the standard input, which is
-    printed formatted.
+    """Format the skill files at PATHS (files or folders), by default in the current folder. `-` reads from stdin and
+    prints to stdout.
 
-    There are no options of style. Comments stay, and so does the meaning, which is compared before a file is written. A
-    file with syntax errors is left as it is and they are shown; exit code 1.
+    There are no style options. Comments are kept. A file is written only if its meaning stays the same. Files with
+    syntax errors are not changed; the errors are printed, with exit code 1.
     """
     from skillc.cli.console import read_stdin
     from skillc.services.formatting import format_files, format_text
 
     if stdin_filename and paths != (STDIN,):
-        raise click.UsageError("--stdin-filename names the text of `-`, which must be the only path")
+        raise click.UsageError("--stdin-filename requires `-` as the only path")
     if STDIN in paths and len(paths) > 1:
         raise click.UsageError("`-` must be the only path")
     if STDIN in paths:
@@ -48,9 +48,9 @@ def command(paths: tuple[Path, ...], check: bool, diff: bool, stdin_filename: Pa
 
 
 def _write(files: Sequence[FormattedFile]) -> int:
-    """Write every file that changes, and print why others could not be formatted."""
+    """Write each file that changes, and print why others could not be formatted."""
     from skillc.services.errors import ServiceError
-    from skillc.services.reporting import count_of
+    from skillc.services.reporting import format_count
 
     failed = _show_problems(files)
     for file in files:
@@ -66,7 +66,7 @@ def _write(files: Sequence[FormattedFile]) -> int:
         else:
             click.echo(f"formatted {file.source.path}", err=True)
     if not changed and not failed and files[0].path is not None:
-        click.echo(f"{count_of(len(files), 'file')} formatted already", err=True)
+        click.echo(f"{format_count(len(files), 'file')} already formatted", err=True)
     return failed
 
 
@@ -81,14 +81,14 @@ def _show_problems(files: Sequence[FormattedFile]) -> int:
 
 
 def _show_unformatted(files: Sequence[FormattedFile]) -> int:
-    """List the files that are not formatted, and print why others could not be."""
+    """List the unformatted files, and print why others cannot be formatted."""
     from skillc.cli.diagnostics_output import render_diagnostics
-    from skillc.services.reporting import count_of
+    from skillc.services.reporting import format_count
     from skillc_dsl.formatting.formatter import check_layout
 
     warnings = [warning for file in files if (warning := check_layout(file.source)) is not None]
     click.echo(render_diagnostics(warnings, {}, "concise"), nl=False)
     failed = _show_problems(files)
     if warnings:
-        click.echo(f"{count_of(len(warnings), 'file')} not formatted; run `skillc fmt`", err=True)
+        click.echo(f"{format_count(len(warnings), 'file')} not formatted; run `skillc fmt`", err=True)
     return 1 if warnings or failed else 0

@@ -1,6 +1,6 @@
-"""Serve editors: problems, completion, hover, renaming and more, over stdin and stdout.
+"""Start the language server.
 
-Speaks the Language Server Protocol. Editors start it themselves; editors/README.md tells how.
+It speaks the Language Server Protocol over stdin and stdout. Editors start it; editors/README.md describes how.
 """
 
 from __future__ import annotations
@@ -13,9 +13,12 @@ from skillc.cli.command import Command
 
 
 @click.command(cls=Command)
-@click.option("--stdio", is_flag=True, help="Accepted because editors pass it; there is no other way.")
+@click.option("--stdio", is_flag=True, help="Use stdin and stdout; this is the default and the only transport.")
 def command(stdio: bool) -> int:
-    """Start the language server."""
+    """Start the language server, which gives editors diagnostics, completion, hover and renaming.
+
+    It speaks the Language Server Protocol over stdin and stdout, and is started by editors.
+    """
     if find_spec("pygls") is None:
         raise click.UsageError("the language server needs pygls: pip install 'skillc[editor]'")
     from skillc.lsp.server import serve

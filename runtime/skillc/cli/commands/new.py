@@ -1,6 +1,6 @@
-"""Make a library that checks, compiles, runs and tests.
+"""Create a new library.
 
-It has a first skill, a scene, a task, a test and a workflow that checks every change.
+It contains a skill, a scene, a task, a test and a CI workflow, and can be checked, compiled and run at once.
 """
 
 from __future__ import annotations
@@ -16,9 +16,12 @@ from skillc.cli.options import PATH
 @click.command(cls=Command)
 @click.argument("name", type=PATH)
 def command(name: Path) -> None:
-    """Make the library NAME, a new folder; its last part names the skill and the task, as `press_button`."""
+    """Create a library in the new folder NAME, with a skill, a scene, a task, a test and a CI workflow.
+
+    The last part of NAME, such as `press_button`, names the skill and the task.
+    """
     from skillc.services.new_library import create_library
 
     for path in create_library(name):
         click.echo(path)
-    click.echo(f"\nGo on with\n  cd {name}\n  skillc check .\n  skillc run .:{name.name}", err=True)
+    click.echo(f"\nNext steps:\n  cd {name}\n  skillc check .\n  skillc run .:{name.name}", err=True)

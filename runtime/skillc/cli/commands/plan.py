@@ -1,9 +1,8 @@
-"""Plan for a task or a goal; nothing moves.
+"""Plan for a task or a goal, without running it.
 
-Says whether the plan is proved optimal: by the time that all steps take together, or by the time at which the last one
-is over.
+Prints whether the plan is proved optimal, in total work or in makespan.
 
-Exit code 3 when there is no plan.
+Exit code 3 if no plan is found.
 """
 
 from __future__ import annotations
@@ -27,18 +26,18 @@ NOTICE_AFTER_S = 2.0
 
 @click.command(cls=Command)
 @click.argument("task", required=False)
-@click.option("--scene", type=PATH, help="The scene to plan in, instead of a task's.")
-@click.option("--goal", help="The goal, as in a .skill file or as PDDL.")
-@click.option("--library", type=PATH, help="The skills to plan with, if not the shipped ones.")
+@click.option("--scene", type=PATH, help="The scene to plan in; by default the task's.")
+@click.option("--goal", help="The goal to plan for, as a condition or as PDDL.")
+@click.option("--library", type=PATH, help="The library with the skills to plan with; by default the shipped one.")
 @store_options
 @planner_options
-@click.option("--prove", is_flag=True, help="Take in more of a large scene until the plan is proved optimal.")
+@click.option("--prove", is_flag=True, help="Include more of a large scene until the plan is proved optimal.")
 @click.option(
     "--deadline",
     type=click.FloatRange(min=0.1),
     default=30.0,
     show_default=True,
-    help="Seconds the planner may take.",
+    help="Time limit of the planner, in seconds.",
 )
 @json_option
 def command(
@@ -54,7 +53,7 @@ def command(
     deadline: float,
     as_json: bool,
 ) -> int:
-    """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for a goal in a scene."""
+    """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for --goal in --scene."""
     from skillc.cli.console import Terminal
     from skillc.cli.plan_output import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
@@ -65,7 +64,7 @@ def command(
     request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset))
     request.check(calls=False)
     if prove and minimise != "work":
-        raise click.UsageError("--prove goes with --minimise work; by makespan an answer says what is known")
+        raise click.UsageError("--prove requires --minimise work; for makespan the answer always has a lower bound")
     measure: Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
     with load_task(request, Terminal()) as loaded:
         with _notice_if_slow(deadline):
@@ -76,8 +75,8 @@ def command(
 
 @contextmanager
 def _notice_if_slow(deadline_s: float) -> Iterator[None]:
-    """Say on stderr that planning goes on, once it has taken so long that somebody may wonder."""
-    text = f"planning, for {deadline_s:g} s at most .."
+    """Print to stderr that planning is in progress once it has taken longer than NOTICE_AFTER_S."""
+    text = f"planning, for at most {deadline_s:g} s .."
     notice = threading.Timer(NOTICE_AFTER_S, lambda: click.echo(text, err=True))
     notice.daemon = True
     notice.start()

@@ -1,8 +1,8 @@
-"""Run a task in simulation and report.
+"""Run a task in simulation.
 
-Plans if there is a goal, chooses implementations by what the world model knows, executes.
+Plans if there is a goal, chooses implementations by the facts of the world model, and executes.
 
-Exit code 3 when the task does not succeed; with --strict also when nothing has sensed that it did.
+Exit code 3 if the task does not succeed; with --strict also if its success was not sensed.
 """
 
 from __future__ import annotations
@@ -17,17 +17,21 @@ from skillc.cli.options import FOLDER, PATH, json_option, looks_option, planner_
 
 @click.command(cls=Command)
 @click.argument("task", required=False)
-@click.option("--scene", type=PATH, help="The scene to run in, instead of a task's.")
-@click.option("--goal", help="The goal to plan for, as in a .skill file or as PDDL.")
-@click.option("--skill", help="A call to run instead of a goal, as `Wipe(surface: lab:Table-1)`.")
-@click.option("--library", type=PATH, help="The skills to use, if not the shipped ones.")
-@click.option("--out", type=FOLDER, help="A folder for report.html, events.jsonl, the figure, the film and stills.")
+@click.option("--scene", type=PATH, help="The scene to run in; by default the task's.")
+@click.option("--goal", help="The goal to plan for, as a condition or as PDDL.")
+@click.option("--skill", help="The skill call to run instead of a goal, such as `Wipe(surface: lab:Table-1)`.")
+@click.option("--library", type=PATH, help="The library with the skills to use; by default the shipped one.")
+@click.option(
+    "--out", type=FOLDER, help="Write report.html, events.jsonl, the figure, the film and stills to this folder."
+)
 @looks_option
 @store_options
 @planner_options
-@click.option("--seed", default=0, show_default=True, help="How reality differs from the world model.")
-@click.option("--real-time", is_flag=True, help="Let simulated time pass no faster than the clock.")
-@click.option("--strict", is_flag=True, help="Exit with code 3 as well where the success rests on an assumption.")
+@click.option(
+    "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
+)
+@click.option("--real-time", is_flag=True, help="Run the simulation no faster than real time.")
+@click.option("--strict", is_flag=True, help="Exit with code 3 also if the success rests on an assumption.")
 @json_option
 def command(
     task: str | None,
@@ -46,7 +50,7 @@ def command(
     strict: bool,
     as_json: bool,
 ) -> int:
-    """Run TASK (`LIBRARY:NAME`, or a shipped task), or a goal or a call in a scene."""
+    """Run TASK (`LIBRARY:NAME`, or a shipped task), or --goal or --skill in --scene, in simulation."""
     from skillc.cli.console import Terminal, print_json
     from skillc.cli.run_output import print_results, run_with_progress
     from skillc.services import task_loading

@@ -1,4 +1,4 @@
-"""Print the vocabulary of a library as SHACL shapes, by which other tools check scenes."""
+"""Print the vocabulary of a library as SHACL shapes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ from skillc.cli.options import PATH
 @click.command(cls=Command)
 @click.argument("path", required=False, type=PATH)
 def command(path: Path | None) -> None:
-    """Print the shapes of the vocabulary of the library at PATH, or of the shipped one, in Turtle."""
+    """Print SHACL shapes, in Turtle, of the vocabulary of the library at PATH (by default the shipped one).
+
+    Other tools can check scenes with them.
+    """
     from skillc.services.libraries import compile_valid
     from skillc.services.library_files import SHIPPED, find_library
     from skillc_runtime.scene.shapes import format_shapes

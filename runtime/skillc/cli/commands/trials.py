@@ -1,4 +1,4 @@
-"""Run a task many times in realities that differ, and say how good it is.
+"""Run a task many times with different seeds, and measure its quality.
 
 Exit code 3 if a trial did not pass.
 """
@@ -18,25 +18,26 @@ from skillc_runtime.evaluation.trials.trial import Disturbance
 
 @click.command(cls=Command)
 @click.argument("task")
-@click.option("-n", "--number", type=click.IntRange(min=1), default=50, show_default=True, help="How many trials.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the first trial.")
-@click.option("--jobs", type=click.IntRange(min=1), help="Trials at a time.  [default: one a core]")
+@click.option("-n", "--number", type=click.IntRange(min=1), default=50, show_default=True, help="The number of trials.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="The seed of the first trial.")
+@click.option("--jobs", type=click.IntRange(min=1), help="The number of parallel trials.  [default: one per core]")
 @click.option(
     "--disturb",
     type=click.Choice(get_args(Disturbance)),
     default="none",
     show_default=True,
-    help="What happens besides: what is worked on is missing, something is in the way, a person pushes the arm.",
+    help="Disturb each trial: the object is missing, an obstacle is in the way, or a person pushes the arm.",
 )
-@click.option("--out", type=FOLDER, help="A folder that keeps the trials.")
+@click.option(
+    "--out", type=FOLDER, help="Record the trials in this folder; trials that are recorded there are not run again."
+)
 @json_option
 def command(
     task: str, number: int, seed: int, jobs: int | None, disturb: Disturbance, out: Path | None, as_json: bool
 ) -> int:
-    """Run TASK (`LIBRARY:NAME`, or a shipped task) in simulation with -n seeds from --seed on.
+    """Run TASK (`LIBRARY:NAME`, or a shipped task) in simulation with -n successive seeds, starting at --seed.
 
-    Each seed draws how reality differs, within the ranges in the scene. With --out the trials are kept, and those that
-    are there already are not run again.
+    Each seed draws how the simulation differs from the world model, within the ranges that the scene states.
     """
     from skillc.cli.console import Terminal, print_json, rich_console
     from skillc.cli.progress import TrialProgress

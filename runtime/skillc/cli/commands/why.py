@@ -1,8 +1,8 @@
-"""Explain a recorded run: why this implementation, why this object, why did it fail.
+"""Explain the choices and failures of a recorded run.
 
-Without a question an overview of the steps and, of a run that failed, what led there.
+Without a question, prints an overview of the steps and, if the run failed, the chain of causes.
 
-Exit code 1 when there is no recording that can be read, 2 for a question about something that is not in it.
+Exit code 1 if there is no readable recording, 2 if the question is about something that is not in it.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from skillc.cli.options import PATH, json_option
 @click.argument("question", required=False)
 @json_option
 def command(run: Path, question: str | None, as_json: bool) -> None:
-    """Explain what `skillc run --out RUN_DIR` recorded.
+    """Explain the run that `skillc run --out RUN_DIR` recorded.
 
-    QUESTION is the number of a step (`2`, and `2.1` for a call inside it), the name of a skill or of an implementation
-    (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`).
+    QUESTION is the number of a step (`2`, or `2.1` for a call inside it), the name of a skill or an implementation
+    (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`). Without QUESTION, print an overview.
     """
     from skillc.cli.console import Terminal, print_json
     from skillc.cli.story_output import format_answer, format_overview

@@ -1,8 +1,8 @@
-"""Show, search, query, compare, draw or edit what a scene, or the world in a store, says.
+"""Show, search, query, compare, draw or edit a scene or a stored world.
 
-Lists its individuals with types, relations and properties unless asked for something else.
+By default lists the individuals with their types, relations and properties.
 
-Exit code 1 when the scene has errors, the store cannot be used, the query is not SPARQL or an edit cannot be made.
+Exit code 1 if the scene has errors, the store cannot be used, the query is not valid SPARQL or an edit is refused.
 """
 
 from __future__ import annotations
@@ -17,15 +17,21 @@ from skillc.cli.options import PATH, json_option, store_options
 
 @click.command(cls=Command)
 @click.argument("scene", required=False, type=PATH)
-@click.option("--query", "sparql", help="A SPARQL query; the vocabulary's prefixes need no declaration.")
-@click.option("--search", "words", help="List the individuals in whose names, labels, classes or texts words occur.")
-@click.option("--show", "names", multiple=True, help="Show all there is to know of an individual.")
-@click.option("--diff", "other", type=PATH, help="Show what this scene says and another does not, and the converse.")
-@click.option("--graph", type=click.Path(path_type=Path, dir_okay=False), help="Draw the scene into an SVG file.")
-@click.option("--edit", "edits", multiple=True, help="Change the file: 'SUBJECT PREDICATE VALUE', or 'not ..'.")
-@click.option("--library", type=PATH, help="Whose terms the scene uses; else that beside it, or the shipped one.")
+@click.option("--query", "sparql", help="Answer a SPARQL query; the prefixes of the vocabulary are declared.")
+@click.option("--search", "words", help="List individuals whose names, labels, classes or texts contain these words.")
+@click.option("--show", "names", multiple=True, help="Show all facts about an individual, including derived ones.")
+@click.option("--diff", "other", type=PATH, help="Show the differences between this scene and another one.")
+@click.option("--graph", type=click.Path(path_type=Path, dir_okay=False), help="Draw the scene as an SVG file.")
+@click.option(
+    "--edit", "edits", multiple=True, help="Change the file: add 'SUBJECT PREDICATE VALUE', or remove 'not ..'."
+)
+@click.option(
+    "--library",
+    type=PATH,
+    help="The library whose terms the scene uses; by default the one beside it, else the shipped one.",
+)
 @store_options
-@click.option("--all", "everything", is_flag=True, help="List the shipped data sheets and postures too.")
+@click.option("--all", "everything", is_flag=True, help="Also list the shipped data sheets and postures.")
 @json_option
 def command(
     scene: Path | None,
@@ -41,15 +47,15 @@ def command(
     everything: bool,
     as_json: bool,
 ) -> None:
-    """Show what SCENE, a Turtle file or the name of a shipped scene, says, or what became of it in a store.
+    """Show SCENE, a Turtle file or the name of a shipped scene, or the world that a store holds.
 
-    A query sees what is written in the scene, the data sheets and the vocabulary, and nothing that follows from it:
-    to include subclasses ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. Conditions of the language include
-    subclasses and sub-relations by themselves.
+    A query sees only the statements of the scene, the data sheets and the vocabulary, without inference. To include
+    subclasses, ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. (Conditions of the skill language include
+    subclasses and sub-relations.)
 
-    All edits are made or none, and only if the scene is in order afterwards. What can have one value only is replaced;
-    `not SUBJECT PREDICATE VALUE` takes a statement away, `not INDIVIDUAL` everything about it. The rest of the file
-    stays as it is written.
+    Either all edits are applied or none, and only if the scene is valid afterwards. The value of a functional relation
+    or property is replaced. `not SUBJECT PREDICATE VALUE` removes a statement, `not INDIVIDUAL` all statements about an
+    individual. The rest of the file is not changed.
     """
     from skillc.cli import scene_output
     from skillc.cli.console import Terminal
@@ -58,9 +64,9 @@ def command(
 
     choice = StoreChoice(store, reset)
     if sum(map(bool, (sparql is not None, words is not None, names, other, graph, edits))) > 1:
-        raise click.UsageError("--query, --search, --show, --diff, --graph and --edit are asked one at a time")
+        raise click.UsageError("--query, --search, --show, --diff, --graph and --edit cannot be combined")
     if edits and store:
-        raise click.UsageError("--edit changes the file of a scene; leave --store out")
+        raise click.UsageError("--edit changes a scene file and cannot be used with --store")
     with scenes.open_scene(scene, library, choice, everything, Terminal()) as opened:
         if edits:
             click.echo(scenes.edit_scene(opened, edits), err=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from skillc_model.format_type import format_type
 from skillc_model.skills import Parameter
-from skillc_model.words import type_text
 from skillc_rdf.vocabulary.types import THING, ClassType, DirectionType, ValueType, Vocabulary, local_name
 from skillc_runtime.world.state.labelled import label_value
 from skillc_runtime.world.state.labelled_text import format_value
@@ -57,4 +57,4 @@ def _most_specific_classes(individual: str, state: WorldState) -> list[str]:
 
 
 def _format_type(type_: ValueType, vocabulary: Vocabulary) -> str:
-    return local_name(type_.iri) if isinstance(type_, ClassType) else type_text(type_, vocabulary)
+    return local_name(type_.iri) if isinstance(type_, ClassType) else format_type(type_, vocabulary)

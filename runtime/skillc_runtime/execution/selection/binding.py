@@ -6,8 +6,8 @@ import re
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 
-from skillc_model.reading import free_variables
 from skillc_model.skills import Implementation, Parameter, Post, Requirement
+from skillc_model.traversal import free_variables
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.inferred_parameters import InferredParameters, infer_parameters
 from skillc_runtime.recording.failure import Rejection, Stage

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Set
 
-from skillc_model.reading import free_variables
 from skillc_model.skills import Implementation, Parameter, Requirement
+from skillc_model.traversal import free_variables
 from skillc_runtime.execution.selection.binding import BoundImplementation
 from skillc_runtime.recording.reasons import DecidingCondition, ParameterReason
 from skillc_runtime.world.eval.deciding_facts import deciding_facts

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
-from skillc_model.reading import free_variables
 from skillc_model.skills import Implementation, Parameter, Requirement
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.eval.conditions import evaluate

@@ -9,8 +9,8 @@ from typing import TypeAlias, assert_never
 from skillc_model import tree
 from skillc_model.conditions import Condition, Expression, Variable
 from skillc_model.read_write import changing_terms, is_fixed
-from skillc_model.reading import free_variables
 from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.binding import bind_arguments
 from skillc_runtime.execution.selection.inferred_parameters import infer_fixed_parameters

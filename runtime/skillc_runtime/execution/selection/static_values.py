@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc_model.conditions import Condition, Expression, Invoke, PropertyOf
 from skillc_model.read_write import is_fixed
-from skillc_model.reading import free_variables, walk
+from skillc_model.traversal import free_variables, walk
 from skillc_runtime.execution.selection.python_targets import check_function
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.frame_tree import MissingFact

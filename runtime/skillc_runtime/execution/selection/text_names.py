@@ -11,8 +11,8 @@ from typing import TypeAlias
 
 from skillc_model import tree
 from skillc_model.conditions import Variable
-from skillc_model.reading import calls_in
 from skillc_model.skills import Implementation, Primitive, SkillLibrary
+from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.world.state.values import Value
@@ -116,7 +116,7 @@ def _paths_of_implementation(
 def _paths_of_body(library: SkillLibrary, body: tree.Node, name: str, enclosing: frozenset[str]) -> frozenset[NamePath]:
     passed = (
         _paths_of_skill(library, call.skill, parameter, enclosing)
-        for call in calls_in(body)
+        for call in find_calls(body)
         for parameter, argument in call.arguments.items()
         if argument == Variable(name)
     )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc_model.reading import conjuncts
 from skillc_model.skills import Post
+from skillc_model.traversal import conjuncts
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty

@@ -29,7 +29,7 @@ from skillc_model.pddl.domain import (
     RelationFact,
 )
 from skillc_model.pddl.formulas import Atom, Typed
-from skillc_model.pddl.names import fresh
+from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.problem import CostValue, Problem
 from skillc_runtime.planning.abstraction.relaxation import DomainRelaxation, NotRelaxable
 from skillc_runtime.planning.problem.initial_state import TooManyValues, evaluate_duration_s
@@ -63,7 +63,7 @@ class _Abstraction:
     def __init__(self, posed: PosedProblem, state: WorldState) -> None:
         self._posed, self._state = posed, state
         taken = {*posed.problem.names, *posed.problem.domain.names}
-        self._abstract = tuple(Typed(fresh(f"other-{type_}", taken), type_) for type_ in sorted(posed.others))
+        self._abstract = tuple(Typed(make_unique(f"other-{type_}", taken), type_) for type_ in sorted(posed.others))
         self._members = {each.name: posed.others[each.type] for each in self._abstract}
         self._objects = tuple(sorted((*posed.problem.objects, *self._abstract), key=lambda each: each.name))
         self._kept_names = {iri: name for name, iri in posed.problem.names.items()}

@@ -26,7 +26,7 @@ from skillc_model.pddl.formulas import (
     conjunction,
     disjunction,
 )
-from skillc_model.pddl.names import fresh
+from skillc_model.pddl.names import make_unique
 from skillc_model.read_write import unique_sides
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.problem.relevance import list_literals
@@ -42,11 +42,11 @@ class DomainRelaxation:
     def __init__(self, domain: PlanningDomain, goal: Formula, vocabulary: Vocabulary) -> None:
         self._domain, self._vocabulary = domain, vocabulary
         taken = {*domain.names, *domain.predicate}
-        self.mark = fresh("is-abstract", taken)
+        self.mark = make_unique("is-abstract", taken)
         read = [goal, *(conjunction((each.precondition, each.hold)) for each in domain.actions)]
         signs = {(atom.predicate, sign) for formula in read for sign, atom in list_literals(formula)}
         self.negated = frozenset(name for name, sign in signs if not sign)
-        self.may = {name: fresh(f"may-{name}", taken) for name, sign in sorted(signs) if sign}
+        self.may = {name: make_unique(f"may-{name}", taken) for name, sign in sorted(signs) if sign}
 
     def relax_domain(self) -> PlanningDomain:
         """Return the relaxed domain; NotRelaxable if an effect cannot be relaxed."""

@@ -25,9 +25,9 @@ from skillc_model.pddl.formulas import (
     Typed,
     Universal,
 )
-from skillc_model.pddl.prepare import prepared
+from skillc_model.pddl.prepare import remove_axioms
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.text import used_up
+from skillc_model.pddl.text import is_used_up
 
 MAX_CASES = 64
 
@@ -69,7 +69,7 @@ class FlatProblem:
 
 def flatten_problem(problem: Problem) -> FlatProblem:
     """Return a problem in the form that aries supports; NotTemporal if there is none."""
-    plain = prepared(problem)
+    plain = remove_axioms(problem)
     actions = tuple(flat for action in plain.domain.actions for flat in _flatten(action))
     (goal,) = _disjuncts(plain.goal, count())
     return FlatProblem(plain, actions, goal.literals)
@@ -77,8 +77,8 @@ def flatten_problem(problem: Problem) -> FlatProblem:
 
 def _flatten(action: Action) -> Iterator[FlatAction]:
     changes = tuple(_drop_condition(change, action) for change in action.effects)
-    at_start = tuple(each for each in changes if used_up(each, action))
-    at_end = tuple(each for each in changes if not used_up(each, action))
+    at_start = tuple(each for each in changes if is_used_up(each, action))
+    at_end = tuple(each for each in changes if not is_used_up(each, action))
     fresh = count()
     cases = _combine((_disjuncts(action.precondition, fresh), _disjuncts(action.hold, fresh)))
     for start, hold in cases:

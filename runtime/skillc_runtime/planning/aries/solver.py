@@ -11,7 +11,7 @@ from itertools import count
 from pathlib import Path
 
 from skillc_model.pddl.costs import MOST_UNITS
-from skillc_model.pddl.problem import Problem, durations
+from skillc_model.pddl.problem import Problem, action_durations
 from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flatten_problem
 from skillc_runtime.planning.aries.messages import action_name, encode_problem
 from skillc_runtime.planning.plan import GaveUp
@@ -106,7 +106,7 @@ class Aries:
 def _with_finer_units(problem: Problem) -> Problem:
     """Return the problem with finer units, as aries leaves gaps of 0.1 units between steps."""
     domain = problem.domain
-    longest = max(map(domain.units, durations(problem)), default=0)
+    longest = max(map(domain.units, action_durations(problem)), default=0)
     finer = 10 if 10 * longest <= MOST_UNITS else 1
     return replace(problem, domain=replace(domain, scale=finer * domain.scale))
 

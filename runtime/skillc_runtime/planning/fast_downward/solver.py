@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from skillc_model.pddl.complement import complemented
+from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import FALSE
-from skillc_model.pddl.prepare import prepared
+from skillc_model.pddl.prepare import remove_axioms
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.text import domain_text, problem_text
+from skillc_model.pddl.text import format_domain, format_problem
 from skillc_runtime.planning.fast_downward.heuristics import Heuristic, choose_heuristics, read_task_features
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.plan_text import PlanTextError, cost_plan
@@ -91,13 +91,13 @@ class FastDownward:
         end = time.monotonic() + deadline_s
         try:
             with make_workplace() as folder:
-                return self._plan(prepared(complemented(problem)), Path(folder), end)
+                return self._plan(remove_axioms(add_complements(problem)), Path(folder), end)
         except OSError as error:
             return GaveUp(f"Fast Downward cannot use its working folder: {error.filename}: {error.strerror}")
 
     def _plan(self, problem: Problem, folder: Path, end: float) -> PlanResult:
-        (folder / "domain.pddl").write_text(domain_text(problem.domain), "utf-8")
-        (folder / "problem.pddl").write_text(problem_text(problem), "utf-8")
+        (folder / "domain.pddl").write_text(format_domain(problem.domain), "utf-8")
+        (folder / "problem.pddl").write_text(format_problem(problem), "utf-8")
         command = (*self._programs.translate, "--sas-file", "task.sas", "domain.pddl", "problem.pddl")
         with RunningProcess(command, folder, "translated.txt", self._limits) as translator:
             wait_for_end((translator,), end)

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
-from skillc_model.pddl.devices import devices
+from skillc_model.pddl.devices import locked_parameters
 from skillc_model.pddl.domain import Action, FixedCost
 from skillc_model.pddl.formulas import Equal, Negation, conjunction
-from skillc_model.pddl.names import fresh
+from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Planner, Solved
@@ -44,7 +44,7 @@ def makespan_lower_bound_s(posed: PosedProblem, schedule: Schedule, planner: Pla
 
 def _work_by_device_s(schedule: Schedule, library: SkillLibrary) -> Iterator[tuple[str, float]]:
     """Yield the devices (IRIs) that a schedule locks with the time in s, the busiest first."""
-    locked, found = devices(library), dict[str, float]()
+    locked, found = locked_parameters(library), dict[str, float]()
     for each in schedule.steps:
         for name in locked[each.step.skill]:
             if name in each.step.arguments:
@@ -69,6 +69,6 @@ def _split_by_device(action: Action, device: str, taken: set[str]) -> Iterator[A
     yield replace(action, precondition=conjunction((action.precondition, *others)), cost=FixedCost(Fraction(0)))
     for each in action.uses:
         here = conjunction((action.precondition, Equal(each, device)))
-        name = fresh(f"{action.name}-busy", taken)
+        name = make_unique(f"{action.name}-busy", taken)
         taken.add(name)
         yield replace(action, name=name, precondition=here)

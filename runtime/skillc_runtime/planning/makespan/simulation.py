@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from skillc_model.conditions import Condition
-from skillc_model.pddl.devices import devices
+from skillc_model.pddl.devices import locked_parameters
 from skillc_model.read_write import ReadWriteSet
 from skillc_model.skills import Implementation, SkillLibrary
 from skillc_runtime.planning.arrangement import read_write_set
@@ -55,7 +55,7 @@ def simulate_schedule(schedule: Schedule, library: SkillLibrary, state: WorldSta
 class _ScheduleSimulation:
     def __init__(self, schedule: Schedule, library: SkillLibrary, state: WorldState) -> None:
         self._steps, self._library, self._state = schedule.steps, library, state
-        self._before, self._locked = state, devices(library)
+        self._before, self._locked = state, locked_parameters(library)
         self._active: dict[int, _ActiveStep] = {}
 
     def run(self, goal: Condition) -> WorldState:

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
-from skillc_model.pddl.constants import mentions
+from skillc_model.pddl.constants import find_mentions
 from skillc_model.pddl.domain import PlanningDomain
-from skillc_model.pddl.planning import planning_domain
+from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.skills import SkillLibrary
 
 CACHE_SIZE = 4
@@ -45,11 +45,11 @@ class _LibraryKey:
 
 @lru_cache(CACHE_SIZE)
 def _mentioned_individuals(key: _LibraryKey) -> frozenset[str]:
-    return frozenset(each.individual for found in mentions(key.library).values() for each in found)
+    return frozenset(each.individual for found in find_mentions(key.library).values() for each in found)
 
 
 @lru_cache(CACHE_SIZE)
 def _domain(
     key: _LibraryKey, combined: frozenset[frozenset[str]], individuals: frozenset[tuple[str, frozenset[str]]]
 ) -> PlanningDomain:
-    return planning_domain(key.library, combined, dict(individuals))
+    return make_planning_domain(key.library, combined, dict(individuals))

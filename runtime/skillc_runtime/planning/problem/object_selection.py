@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TypeAlias
 
-from skillc_model.pddl.constants import lowest
+from skillc_model.pddl.constants import most_specific
 from skillc_model.pddl.domain import PlanningDomain
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import LeftOut
@@ -89,7 +89,7 @@ def _group_by_type(domain: PlanningDomain, kinds: IndividualsByClass, vocabulary
     """Return the individuals by their most specific types."""
     found: dict[str, list[str]] = {}
     for classes, iris in kinds.items():
-        found.setdefault(domain.type_of(lowest(classes, vocabulary)), []).extend(iris)
+        found.setdefault(domain.type_of(most_specific(classes, vocabulary)), []).extend(iris)
     return found
 
 

@@ -10,16 +10,16 @@ from dataclasses import dataclass, field, replace
 import msgspec
 
 from skillc_model.conditions import Anything, Condition, Exists, Forall, Holds, Individual
-from skillc_model.pddl.constants import lowest
+from skillc_model.pddl.constants import most_specific
 from skillc_model.pddl.costs import common_scale
 from skillc_model.pddl.domain import Action, ComputedCost, PlanningDomain
-from skillc_model.pddl.formulas import TRUE, Equal, Formula, Negation, Typed, conjunction, disjunction, renamed
-from skillc_model.pddl.goals import ground_goal, with_predicates_of
-from skillc_model.pddl.names import object_names
-from skillc_model.pddl.problem import Problem, durations
+from skillc_model.pddl.formulas import TRUE, Equal, Formula, Negation, Typed, conjunction, disjunction, rename_terms
+from skillc_model.pddl.goals import add_goal_predicates, ground_goal
+from skillc_model.pddl.names import assign_object_names
+from skillc_model.pddl.problem import Problem, action_durations
 from skillc_model.pddl.translate import Untranslatable
-from skillc_model.reading import walk
 from skillc_model.skills import SkillLibrary
+from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import LeftOut, Step
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
@@ -104,7 +104,7 @@ def pose_problem(
         library, _class_combinations(kinds, state.vocabulary), lambda iri: _most_specific_classes(iri, state)
     )
     wanted = _ground_goal(goal, library, domain, named, state)
-    domain = with_predicates_of(wanted, library, domain)
+    domain = add_goal_predicates(wanted, library, domain)
     useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, wanted)
     constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
     selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), size)
@@ -113,7 +113,7 @@ def pose_problem(
         wanted = _ground_goal(goal, library, domain, named | types.keys(), state)
     others = types.keys() - set(constants.values())
     taken = domain.names.keys() | {each.name for each in domain.predicates}
-    names = {**constants, **object_names(others, state.vocabulary, taken)}
+    names = {**constants, **assign_object_names(others, state.vocabulary, taken)}
     by_iri = {iri: name for name, iri in names.items()}
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     domain = exclude_steps(without, useful.domain, by_iri, types)
@@ -125,14 +125,14 @@ def pose_problem(
         names=names,
         init=tuple(initial.atoms()),
         costs=tuple(initial.costs()),
-        goal=renamed(wanted, by_iri),
+        goal=rename_terms(wanted, by_iri),
     )
     left_out = (
         *_list_left_out_skills(useful, goal, library),
         *_list_left_out_steps(without, state),
         *selection.left_out,
     )
-    problem = replace(problem, domain=replace(domain, scale=common_scale(durations(problem))))
+    problem = replace(problem, domain=replace(domain, scale=common_scale(action_durations(problem))))
     assumptions = (*_describe_unknown_durations(initial, problem), *_describe_estimates(domain, state.vocabulary))
     return PosedProblem(
         problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _has_wildcard(goal)
@@ -230,11 +230,11 @@ def _has_wildcard(goal: Condition) -> bool:
 
 
 def _class_combinations(kinds: IndividualsByClass, vocabulary: Vocabulary) -> frozenset[frozenset[str]]:
-    return frozenset(each for each in (lowest(kind, vocabulary) for kind in kinds) if len(each) > 1)
+    return frozenset(each for each in (most_specific(kind, vocabulary) for kind in kinds) if len(each) > 1)
 
 
 def _most_specific_classes(individual: str, state: WorldState) -> frozenset[str]:
-    return lowest(state.types(individual), state.vocabulary)
+    return most_specific(state.types(individual), state.vocabulary)
 
 
 def _ground_goal(

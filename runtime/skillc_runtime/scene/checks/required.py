@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_model.words import SI_UNITS
+from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import NumberType, PlainType
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.world_state import WorldState

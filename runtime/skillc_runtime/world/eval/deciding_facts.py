@@ -23,7 +23,7 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.reading import children
+from skillc_model.traversal import children
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import iri_of
 from skillc_runtime.world.eval.quantifiers import candidates

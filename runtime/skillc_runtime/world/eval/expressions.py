@@ -19,7 +19,7 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.words import type_text
+from skillc_model.format_type import format_type
 from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.state.properties import property_of, value_from_python
@@ -158,7 +158,7 @@ def _invocation(name: str, arguments: tuple[ExpressionFunction, ...]) -> Express
         result = value_from_python(function.python, name, state, *values)
         if result is None or is_of_type(result, function.result, state):
             return result
-        declared = type_text(function.result, state.vocabulary)
+        declared = format_type(function.result, state.vocabulary)
         raise EvaluationError(f"{name} gives {show(result)}, where its declaration says `{declared}`")
 
     return compute

@@ -25,7 +25,7 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.reading import walk
+from skillc_model.traversal import walk
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
 from skillc_runtime.world.state.evidence import DecidingWrite

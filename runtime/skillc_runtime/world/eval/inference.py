@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from skillc_model.conditions import Condition, Exists
-from skillc_model.reading import free_variables
 from skillc_model.skills import Parameter, Requirement
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import Bindings

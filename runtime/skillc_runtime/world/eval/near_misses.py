@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from skillc_model.conditions import Condition, IsA, Variable
-from skillc_model.reading import free_variables
 from skillc_model.skills import Requirement
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import THING
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import Bindings

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from skillc_ontology.catalogue import model
+from skillc_ontology.catalogue import model_path
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, JOINT_VALUES, POSTURE_NAME, SKILLC
 from skillc_runtime.world.state.world_state import WorldState
@@ -36,7 +36,7 @@ class DataSheet:
     def model(self) -> Path:
         """The device's MJCF file; SheetError when it is not stated or does not exist."""
         try:
-            return model(self.text("model"))
+            return model_path(self.text("model"))
         except FileNotFoundError as error:
             raise SheetError(f"{self._short(self.individual)}: {error}") from error
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from skillc_model.words import SI_UNITS
+from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import THING, NumberType, VectorType, Vocabulary
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual, resolve_term
 from skillc_runtime.world.state.properties import property_of

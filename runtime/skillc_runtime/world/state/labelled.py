@@ -9,8 +9,8 @@ from typing import TypeAlias, assert_never, cast
 import msgspec
 import numpy as np
 
+from skillc_model.format_type import SI_UNITS
 from skillc_model.skills import Parameter
-from skillc_model.words import SI_UNITS
 from skillc_rdf.vocabulary.types import ClassType, ListType, NumberType, ValueType, VectorType, Vocabulary
 from skillc_rdf.vocabulary.types import local_name as local
 from skillc_runtime.motion import pose as motion

@@ -1,4 +1,4 @@
-"""Problems as the protocol has them."""
+"""Converts diagnostics to those of the protocol."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pygls.uris import from_fs_path
 from skillc.lsp import scenes
 from skillc.lsp.files import Root
 from skillc.lsp.libraries import Libraries, parse
-from skillc.lsp.positions import Lines
+from skillc.lsp.positions import PositionConverter
 from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -19,33 +19,39 @@ from skillc_dsl.source import Span
 _SEVERITY = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
 
 
-def by_uri(libraries: Libraries, root: Root, analysis: Analysis, encoding: str) -> dict[str, list[types.Diagnostic]]:
-    """Return the problems of every file of a library, with no problems too, and of the scenes of its tasks."""
+def diagnostics_by_uri(
+    libraries: Libraries, root: Root, analysis: Analysis, encoding: str
+) -> dict[str, list[types.Diagnostic]]:
+    """Return the diagnostics of each file of a library (perhaps none), and of its vocabularies and scenes, by URI."""
     found: dict[str, list[types.Diagnostic]] = defaultdict(list)
     for path in analysis.library.sources:
         found[libraries.uri(root, path)] = []
     around = libraries.problems_around(root)
-    lines = Lines({**analysis.texts, **scenes.texts(around, libraries.buffers)}, encoding)
+    lines = PositionConverter({**analysis.texts, **scenes.read_scene_texts(around, libraries.buffers)}, encoding)
     for problem in (*analysis.problems, *around):
-        found[libraries.uri(root, problem.span.path)].append(convert_problem(libraries, root, lines, problem))
+        found[libraries.uri(root, problem.span.path)].append(convert_diagnostic(libraries, root, lines, problem))
     return dict(found)
 
 
-def after_failure(libraries: Libraries, root: Root, message: str, encoding: str) -> dict[str, list[types.Diagnostic]]:
-    """Return what is wrong with the syntax of a library's files, and `message` of a failure in those that are open."""
+def diagnostics_after_failure(
+    libraries: Libraries, root: Root, message: str, encoding: str
+) -> dict[str, list[types.Diagnostic]]:
+    """Return the syntax errors of a library's files, and `message` of an internal error in the open ones, by URI."""
     texts = libraries.texts(root)
-    lines = Lines({path: source.text for path, source in texts.items()}, encoding)
+    lines = PositionConverter({path: source.text for path, source in texts.items()}, encoding)
     start = types.Range(types.Position(0, 0), types.Position(0, 1))
     failure = types.Diagnostic(start, message, types.DiagnosticSeverity.Error, "internal-error", source="skillc")
     found: dict[str, list[types.Diagnostic]] = {uri: [failure] for uri in libraries.open_in(root)}
     for path, source in texts.items():
-        syntax = [convert_problem(libraries, root, lines, problem) for problem in parse(source).diagnostics]
+        syntax = [convert_diagnostic(libraries, root, lines, problem) for problem in parse(source).diagnostics]
         found[libraries.uri(root, path)] = [*found.get(libraries.uri(root, path), []), *syntax]
     return found
 
 
-def convert_problem(libraries: Libraries, root: Root, lines: Lines, problem: Diagnostic) -> types.Diagnostic:
-    """Return one problem, with its help and the places that explain it."""
+def convert_diagnostic(
+    libraries: Libraries, root: Root, lines: PositionConverter, problem: Diagnostic
+) -> types.Diagnostic:
+    """Return a diagnostic with its help and labels."""
     return types.Diagnostic(
         range=lines.range(problem.span),
         message=f"{problem.message}\nhelp: {problem.help}" if problem.help else problem.message,
@@ -61,7 +67,7 @@ def convert_problem(libraries: Libraries, root: Root, lines: Lines, problem: Dia
     )
 
 
-def _location(libraries: Libraries, root: Root, lines: Lines, span: Span) -> types.Location:
+def _location(libraries: Libraries, root: Root, lines: PositionConverter, span: Span) -> types.Location:
     file = Path(span.path)
     uri = from_fs_path(span.path) if file.is_absolute() else None
     return types.Location(uri or libraries.uri(root, span.path), lines.range(span))

@@ -1,4 +1,4 @@
-"""Which terms are one by what an ontology says: called equal, or each below the other. One of them stands for all."""
+"""Finds equivalent terms: those declared equivalent and those in cycles of sub-terms. One represents the others."""
 
 from __future__ import annotations
 
@@ -7,23 +7,24 @@ from typing import NamedTuple, TypeAlias
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_rdf.vocabulary.graph import Graph
-from skillc_rdf.vocabulary.names import EQUAL_CLASS, EQUAL_PROPERTY, SKILLC
-from skillc_rdf.vocabulary.places import Places
+from skillc_rdf.vocabulary.iris import EQUAL_CLASS, EQUAL_PROPERTY, SKILLC
+from skillc_rdf.vocabulary.places import TermPositions
 
 Edges: TypeAlias = Mapping[str, Iterable[str]]
 
 
-class Equal(NamedTuple):
-    """Other names of terms, and the circles of terms that are below each other without being called equal."""
+class Equivalents(NamedTuple):
+    """The aliases of terms, and the cycles of sub-terms that are not declared equivalent."""
 
     aliases: dict[str, str]
     circles: tuple[tuple[str, ...], ...]
 
 
-def equal(graph: Graph, kinds: Mapping[str, str], below: Edges, standing: frozenset[str]) -> Equal:
-    """Find the terms that are one; `kinds` are all terms, `below` what each is below, `standing` those skillc ships.
+def find_equivalents(graph: Graph, kinds: Mapping[str, str], below: Edges, standing: frozenset[str]) -> Equivalents:
+    """Find the equivalent terms. `kinds` are all terms, `below` their super-terms, `standing` the shipped terms.
 
-    A shipped term stands for the others, else the first. Terms that would make two shipped ones equal keep apart.
+    The representative is the shipped term, else the first by IRI. Terms that would make two shipped terms equivalent
+    are not merged.
     """
     said = {iri: [o for p in (EQUAL_CLASS, EQUAL_PROPERTY) for o in graph.iris(iri, p) if o in kinds] for iri in kinds}
     both: dict[str, set[str]] = {iri: set() for iri in kinds}
@@ -43,13 +44,13 @@ def equal(graph: Graph, kinds: Mapping[str, str], below: Edges, standing: frozen
         if not any(said[iri] for iri in group):
             circles.append(tuple(sorted(group)))
     named = {iri: others[0] for iri in kinds if (others := graph.iris(iri, f"{SKILLC}aliasOf"))}
-    return Equal(dict(sorted({**aliases, **named}.items())), tuple(circles))
+    return Equivalents(dict(sorted({**aliases, **named}.items())), tuple(circles))
 
 
-def circles_told(
-    circles: Iterable[tuple[str, ...]], below: Edges, places: Places, predicate: str, short: Callable[[str], str]
+def report_cycles(
+    circles: Iterable[tuple[str, ...]], below: Edges, places: TermPositions, predicate: str, short: Callable[[str], str]
 ) -> Iterator[Diagnostic]:
-    """Tell of terms that are below each other."""
+    """Report cycles of sub-terms."""
     for circle in circles:
         first = circle[0]
         others = ", ".join(f"`{short(each)}`" for each in circle[1:])
@@ -57,8 +58,8 @@ def circles_told(
         yield Diagnostic(
             "class-cycle",
             places.statement(first, predicate, after),
-            f"`{short(first)}` is below itself, by {others}; they are taken for one",
-            help="take one of them from below the other, or call them equal: `owl:equivalentClass`",
+            f"`{short(first)}` is below itself through {others}; they are treated as equivalent",
+            help="remove one of the axioms, or declare them equivalent with `owl:equivalentClass`",
             severity="warning",
         )
 
@@ -92,7 +93,7 @@ def _components(edges: Mapping[str, set[str]]) -> Iterator[Sequence[str]]:
 def _closed(
     node: str, number: Mapping[str, int], low: Mapping[str, int], path: list[str], on_path: set[str]
 ) -> Iterator[Sequence[str]]:
-    """Take a component off the path when its first node is left; yield it if it has more than one member."""
+    """Remove a component from the path when its root is left; yield it if it has more than one member."""
     if low[node] != number[node]:
         return
     found: list[str] = []

@@ -33,7 +33,7 @@ SI_UNITS = {
 """The SI unit of each dimension, as the language writes it."""
 
 
-def type_text(type_: ValueType, vocabulary: Vocabulary) -> str:
+def format_type(type_: ValueType, vocabulary: Vocabulary) -> str:
     """Return the type as it is written in a skill."""
     match type_:
         case ClassType(iri=iri):
@@ -47,12 +47,12 @@ def type_text(type_: ValueType, vocabulary: Vocabulary) -> str:
         case PlainType(name=name):
             return name
         case ListType(element=element):
-            return f"[{type_text(element, vocabulary)}]"
+            return f"[{format_type(element, vocabulary)}]"
         case _:
             assert_never(type_)
 
 
-def quantity_text(value: float, type_: ValueType) -> str:
+def format_quantity(value: float, type_: ValueType) -> str:
     """Return a number in SI units with the unit of its type."""
     unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, NumberType) else ""
     return f"{value:g} {unit}".strip()

@@ -1,4 +1,4 @@
-"""IRIs of the words in which OWL ontologies are written."""
+"""IRIs of the RDF, RDFS and OWL vocabularies."""
 
 from __future__ import annotations
 
@@ -18,4 +18,4 @@ EQUAL_CLASS, EQUAL_PROPERTY = f"{OWL}equivalentClass", f"{OWL}equivalentProperty
 DISJOINT, INVERSE = f"{OWL}disjointWith", f"{OWL}inverseOf"
 DOMAIN, RANGE = f"{RDFS}domain", f"{RDFS}range"
 BUILT_IN = (RDF, RDFS, OWL, XSD)
-"""Namespaces whose terms nobody declares."""
+"""The namespaces of these vocabularies, whose terms ontologies do not declare."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import assert_never
 
 from skillc_compiler.ide import term_pages
@@ -24,28 +25,29 @@ from skillc_compiler.ide.symbols import (
     TermSymbol,
     TypeSymbol,
 )
-from skillc_compiler.ide.term_pages import page
+from skillc_compiler.ide.term_pages import format_page
 from skillc_compiler.program.typed import Parameter, Requirement, Skill
 from skillc_compiler.program.types import describe_type
+from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import local_name
 
 
-def described(analysis: Analysis, symbol: Symbol) -> str:
+def describe_symbol(analysis: Analysis, symbol: Symbol) -> str:
     """Return what a symbol is, in Markdown; empty when nothing is known."""
     vocabulary = analysis.program.vocabulary
     match symbol:
         case TermSymbol(kind=kind, iri=iri):
-            return term_pages.term(vocabulary, kind, iri)
+            return term_pages.term_page(vocabulary, kind, iri)
         case TypeSymbol(name=name):
-            return term_pages.built_in(name)
+            return term_pages.type_page(name)
         case FunctionSymbol(name=name):
-            return term_pages.function(vocabulary.functions[name]) if name in vocabulary.functions else ""
+            return term_pages.function_page(vocabulary.functions[name]) if name in vocabulary.functions else ""
         case ChoiceSymbol(text=text):
-            return term_pages.choice(vocabulary, text)
+            return term_pages.choice_page(vocabulary, text)
         case QuantitySymbol(value=value, unit=unit):
-            return term_pages.quantity(value, unit)
+            return term_pages.quantity_page(value, unit)
         case PrefixSymbol(name=name):
-            return page(f"prefix {name}: <{vocabulary.prefixes[name]}>") if name in vocabulary.prefixes else ""
+            return format_page(f"prefix {name}: <{vocabulary.prefixes[name]}>") if name in vocabulary.prefixes else ""
         case IndividualSymbol(iri=iri):
             return _individual(analysis, iri)
         case FileSymbol(path=path) | SceneSymbol(name=path):
@@ -54,13 +56,13 @@ def described(analysis: Analysis, symbol: Symbol) -> str:
             return _of_program(analysis, symbol)
 
 
-def parameter_line(analysis: Analysis, parameter: Parameter) -> str:
+def format_parameter(analysis: Analysis, parameter: Parameter) -> str:
     """Return a parameter as it is declared."""
     direction = f"{parameter.direction} any" if parameter.any_ else parameter.direction
     default = f" = {analysis.text_of(parameter.default.span)}" if parameter.default else ""
     low, high = parameter.low, parameter.high
     bounds = f" range {analysis.text_of(low.span)} .. {analysis.text_of(high.span)}" if low and high else ""
-    return f"{direction} {parameter.name}: {term_pages.type_text(parameter.declared)}{default}{bounds}"
+    return f"{direction} {parameter.name}: {term_pages.format_bare_type(parameter.declared)}{default}{bounds}"
 
 
 _OfProgram = SkillSymbol | ImplementationSymbol | TaskSymbol | ParameterSymbol | LocalSymbol | LabelSymbol
@@ -73,9 +75,11 @@ def _of_program(analysis: Analysis, symbol: _OfProgram) -> str:
             return _skill(analysis, found) if found else ""
         case ImplementationSymbol(skill=skill, name=name):
             doc = next((i.doc for i in analysis.program.implementations if i.key == f"{skill}.{name}"), "")
-            return page(f"impl {name} of {skill}", doc)
+            return format_page(f"impl {name} of {skill}", doc)
         case TaskSymbol(name=name):
-            return page(f"task {name}", next((task.doc for task in analysis.program.tasks if task.name == name), ""))
+            return format_page(
+                f"task {name}", next((task.doc for task in analysis.program.tasks if task.name == name), "")
+            )
         case ParameterSymbol():
             return _parameter(analysis, symbol)
         case LocalSymbol():
@@ -87,11 +91,11 @@ def _of_program(analysis: Analysis, symbol: _OfProgram) -> str:
 
 
 def _skill(analysis: Analysis, skill: Skill) -> str:
-    lines = [f"    {parameter_line(analysis, parameter)}" for parameter in skill.parameters]
+    lines = [f"    {format_parameter(analysis, parameter)}" for parameter in skill.parameters]
     lines += [f"    {analysis.text_of(requirement.span)}" for requirement in skill.requirements]
     ways = [way.name for way in analysis.program.implementations_of.get(skill.name, ())]
     found = f"implementations: {', '.join(f'`{way}`' for way in ways)}" if ways else "no implementation here"
-    return page("\n".join((f"skill {skill.name}", *lines)), skill.doc, found)
+    return format_page("\n".join((f"skill {skill.name}", *lines)), skill.doc, found)
 
 
 def _parameter(analysis: Analysis, symbol: ParameterSymbol) -> str:
@@ -99,7 +103,7 @@ def _parameter(analysis: Analysis, symbol: ParameterSymbol) -> str:
     parameter = skill.parameter(symbol.name) if skill else None
     if parameter is None:
         return ""
-    return page(parameter_line(analysis, parameter), parameter.doc, f"parameter of `{symbol.skill}`")
+    return format_page(format_parameter(analysis, parameter), parameter.doc, f"parameter of `{symbol.skill}`")
 
 
 def _local(analysis: Analysis, symbol: LocalSymbol) -> str:
@@ -108,13 +112,13 @@ def _local(analysis: Analysis, symbol: LocalSymbol) -> str:
     lets = (let for way in analysis.program.implementations for let in way.lets)
     value = next((let.value for let in lets if let.name.span in places), None)
     if value is not None:
-        return page(f"let {symbol.name} = {analysis.text_of(value.span)}", describe_type(value.type))
+        return format_page(f"let {symbol.name} = {analysis.text_of(value.span)}", describe_type(value.type))
     return f"`{symbol.name}`: the {symbol.origin}" + (f", {kinds[0]}" if kinds else "")
 
 
 def _label(analysis: Analysis, symbol: LabelSymbol) -> str:
     found = next((r for r in _requirements(analysis, symbol.owner) if r.label and r.label.text == symbol.name), None)
-    return page(analysis.text_of(found.span), f"condition of `{symbol.owner}`") if found else ""
+    return format_page(analysis.text_of(found.span), f"condition of `{symbol.owner}`") if found else ""
 
 
 def _requirements(analysis: Analysis, owner: str) -> tuple[Requirement, ...]:
@@ -127,5 +131,24 @@ def _requirements(analysis: Analysis, owner: str) -> tuple[Requirement, ...]:
 def _individual(analysis: Analysis, iri: str) -> str:
     classes = {cls for scene in analysis.library.scenes.values() for cls in scene.get(iri, ())}
     above = {one for one in classes for other in classes - {one} if analysis.program.vocabulary.is_a(other, one)}
-    kinds = f", {term_pages.listed(sorted(classes - above))}" if classes else ""
+    kinds = f", {term_pages.format_names(sorted(classes - above))}" if classes else ""
     return f"the individual `{local_name(iri)}`{kinds}\n\n`{iri}`"
+
+
+@dataclass(frozen=True, slots=True)
+class Hover:
+    """A text in Markdown about a place."""
+
+    span: Span
+    markdown: str
+
+
+def find_hover(analysis: Analysis, path: str, line: int, column: int) -> Hover | None:
+    """Return what is known of the name at a place; a shorthand argument tells of the parameter and the local name."""
+    there = analysis.index.at(path, line, column)
+    if not there:
+        return None
+    span = there[0].span
+    texts = [describe_symbol(analysis, occurrence.symbol) for occurrence in there if occurrence.span == span]
+    told = list(dict.fromkeys(text for text in texts if text))
+    return Hover(span, "\n\n---\n\n".join(told)) if told else None

@@ -35,12 +35,12 @@ def conjuncts(condition: Condition) -> Iterator[Condition]:
         yield condition
 
 
-def calls_in(item: msgspec.Struct) -> Iterator[Call]:
+def find_calls(item: msgspec.Struct) -> Iterator[Call]:
     """Yield the calls of skills in a body, in the order of the text."""
     return (each for each in walk(item) if isinstance(each, Call))
 
 
-def is_deeper(item: msgspec.Struct, most: int) -> bool:
+def is_nested_deeper(item: msgspec.Struct, most: int) -> bool:
     """Whether parts of a condition, an expression or a call are inside each other more than so many times."""
     level = [item]
     for _ in range(most + 1):

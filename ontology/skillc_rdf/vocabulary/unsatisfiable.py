@@ -1,4 +1,4 @@
-"""Works out which classes can have no member and which relations can hold of nothing."""
+"""Finds the unsatisfiable classes and relations of a vocabulary."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from itertools import product
 from typing import Literal, NamedTuple
 
 from skillc_rdf.vocabulary.closure import Directed
-from skillc_rdf.vocabulary.expressions import Needed
+from skillc_rdf.vocabulary.expressions import RequiredValue
 from skillc_rdf.vocabulary.types import THING, RelationTerm, Vocabulary
 
 MOST_CHOICES = 4096
-"""How many ways to choose among alternative domains are tried."""
+"""The most combinations of alternative domains that are tried; beyond it, satisfiability is assumed."""
 
 
 class Reason(NamedTuple):
-    """Why something is impossible, in words.
+    """Why a class or relation is unsatisfiable, in words.
 
-    `follows` from something else that is impossible; `pair` are classes that have nothing in common; `kind` is what
-    makes a relation impossible: its domains and ranges, those above it, or its characteristics.
+    `follows`: because something else is. `pair`: the disjoint classes. `kind`: what makes a relation unsatisfiable: its
+    domain and range, its super-relations, or its characteristics.
     """
 
     text: str
@@ -28,10 +28,10 @@ class Reason(NamedTuple):
     kind: Literal["domain", "parent", "kind"] = "kind"
 
 
-class Impossible:
-    """The impossible classes and relations of a vocabulary; `needs` is what the members of each class have."""
+class Unsatisfiable:
+    """The unsatisfiable classes and relations of a vocabulary; `needs` are the required values of each class."""
 
-    def __init__(self, vocabulary: Vocabulary, needs: Mapping[str, Sequence[Needed]]) -> None:
+    def __init__(self, vocabulary: Vocabulary, needs: Mapping[str, Sequence[RequiredValue]]) -> None:
         self._vocabulary = vocabulary
         self._needs = needs
         self.classes: dict[str, Reason] = {}
@@ -39,7 +39,7 @@ class Impossible:
         self._find()
 
     def _find(self) -> None:
-        """Look until nothing more is found: what needs something impossible is impossible."""
+        """Iterate to a fixed point: what requires something unsatisfiable is unsatisfiable."""
         for cls in self._vocabulary.classes:
             if pair := self._clash((cls,)):
                 follows = any(self._clash((parent,)) for parent in self._vocabulary.classes[cls].parents)
@@ -56,11 +56,11 @@ class Impossible:
                 self.relations[iri] = reason
 
     def _needy(self) -> None:
-        """Find classes whose members would have something impossible, and those below impossible ones."""
+        """Find classes that require something unsatisfiable, and subclasses of unsatisfiable ones."""
         for cls in sorted(self._vocabulary.classes.keys() - self.classes.keys()):
             above = self._vocabulary.ancestors[cls]
             if any(other in self.classes for other in above):
-                self.classes[cls] = Reason("it is below what nothing can be", follows=True)
+                self.classes[cls] = Reason("it has a superclass without possible members", follows=True)
             elif reason := next(self._unmet(cls, above), None):
                 inherited = any(
                     next(self._unmet(up, self._vocabulary.ancestors[up]), None) for up in above - {cls, THING}
@@ -68,12 +68,12 @@ class Impossible:
                 self.classes[cls] = reason._replace(follows=reason.follows or inherited)
 
     def _unmet(self, cls: str, above: frozenset[str]) -> Iterator[Reason]:
-        """Yield why the members of a class cannot have what they need."""
+        """Yield why the members of a class cannot have the required values."""
         needed = [need for other in sorted(above) for need in self._needs.get(other, ())]
         short = self._vocabulary.short
         for need in needed:
             if need.property in self.relations:
-                yield Reason(f"it needs `{short(need.property)}`, which can hold of nothing", follows=True)
+                yield Reason(f"it needs `{short(need.property)}`, which can never hold", follows=True)
             elif need.filler in self.classes:
                 yield Reason(f"it needs a `{short(need.filler or '')}`, and nothing can be one", follows=True)
             elif need.property in self._vocabulary.relations:
@@ -82,8 +82,8 @@ class Impossible:
                 yield from self._wrong_owner(cls, need)
         yield from self._too_many(cls, needed)
 
-    def _misfit(self, cls: str, need: Needed) -> Iterator[Reason]:
-        """Say that a class or what its members need does not fit the ends of the relation."""
+    def _misfit(self, cls: str, need: RequiredValue) -> Iterator[Reason]:
+        """Yield why a class or a required value does not fit the domain or range of the relation."""
         relation, starts, ends = self._vocabulary.short(need.property), *self._ends(need.property)
         if not self._possible([(cls,), *starts]):
             yield Reason(f"it needs `{relation}`, which is of other things")
@@ -93,15 +93,15 @@ class Impossible:
                 f"it needs `{relation}` with a `{self._vocabulary.short(filler[0])}`, and leads to other things"
             )
 
-    def _wrong_owner(self, cls: str, need: Needed) -> Iterator[Reason]:
+    def _wrong_owner(self, cls: str, need: RequiredValue) -> Iterator[Reason]:
         term = self._vocabulary.properties[need.property]
         if not self._possible([(cls,), term.domains]):
             yield Reason(f"it needs `{self._vocabulary.short(need.property)}`, which is of other things")
         if term.functional and need.least > 1:
             yield Reason(f"it needs {need.least} values of `{self._vocabulary.short(need.property)}`, which has one")
 
-    def _too_many(self, cls: str, needed: Sequence[Needed]) -> Iterator[Reason]:
-        """Say that a class needs different things where a relation leads to one only."""
+    def _too_many(self, cls: str, needed: Sequence[RequiredValue]) -> Iterator[Reason]:
+        """Yield why a class requires several values of a functional relation."""
         fillers: dict[str, list[tuple[str, ...]]] = {}
         for need in needed:
             for single in self._single(need.property):
@@ -117,7 +117,7 @@ class Impossible:
                 )
 
     def _single(self, relation: str) -> list[str]:
-        """Return the functional relations that one implies."""
+        """Return the relations, functional in this direction, that one implies."""
         return [
             iri
             for iri, flipped in self._implied.get(relation, ())
@@ -126,7 +126,7 @@ class Impossible:
         ]
 
     def _relation(self, iri: str) -> Reason | None:
-        """Return why a relation can hold of nothing, None where it can."""
+        """Return why a relation can never hold, None if it can."""
         reached = self._implied[iri]
         clash = self._both_ways(iri, frozenset(reached))
         if clash is not None:
@@ -153,11 +153,11 @@ class Impossible:
         return None
 
     def _follows(self, iri: str) -> bool:
-        """Whether a relation is impossible because one that it implies is."""
+        """Whether a relation is unsatisfiable because one that it implies is."""
         return any(other in self.relations for other, _ in self._implied[iri] if other != iri)
 
     def _ends(self, relation: str) -> tuple[list[tuple[str, ...]], list[tuple[str, ...]]]:
-        """Return what the subjects and the objects of a relation are: of each tuple, one of the classes."""
+        """Return the constraints on the subjects and on the objects of a relation: one class of each tuple."""
         sides: tuple[list[tuple[str, ...]], list[tuple[str, ...]]] = ([], [])
         for iri, flipped in self._implied[relation]:
             signatures = self._vocabulary.relations[iri].signatures
@@ -166,7 +166,7 @@ class Impossible:
         return sides
 
     def _possible(self, choices: Sequence[tuple[str, ...]]) -> bool:
-        """Whether something can be one of the classes of each tuple."""
+        """Whether an individual can be of one of the classes of each tuple."""
         distinct = sorted({each for each in choices if THING not in each})
         for number, chosen in enumerate(product(*distinct)):
             if number >= MOST_CHOICES or not (self._clash(chosen) or any(cls in self.classes for cls in chosen)):
@@ -174,18 +174,18 @@ class Impossible:
         return False
 
     def _clash(self, classes: Sequence[str]) -> tuple[str, str] | None:
-        """Return two classes above the given ones that have nothing in common, None where there are none."""
+        """Return two disjoint classes above the given ones, None if there are none."""
         above = frozenset[str]().union(*(self._above.get(cls, frozenset({cls})) for cls in classes))
         clashing = ((one, sorted(self._apart[one] & above)) for one in sorted(above & self._apart.keys()))
         return next(((one, others[0]) for one, others in clashing if others), None)
 
     def _nothing_in_common(self, pair: tuple[str, str]) -> str:
         one, other = map(self._vocabulary.short, pair)
-        return f"it is below `{other}` and below what has nothing in common with it, `{one}`"
+        return f"it is below `{other}` and `{one}`, which are disjoint"
 
     @cached_property
     def _above(self) -> dict[str, frozenset[str]]:
-        """Each class with all above it, also those in the domain of what its members need."""
+        """Each class with all classes above it, including the domains of the relations that it requires."""
         above = dict(self._vocabulary.ancestors)
         while True:
             wider = {cls: self._with_domains(classes, above) for cls, classes in above.items()}
@@ -201,7 +201,7 @@ class Impossible:
 
     @cached_property
     def _apart(self) -> dict[str, frozenset[str]]:
-        """The classes that are said to be disjoint with others, with these."""
+        """The classes that are declared disjoint with others, with these."""
         return {iri: frozenset(term.disjoint) for iri, term in self._vocabulary.classes.items() if term.disjoint}
 
     @property

@@ -1,4 +1,4 @@
-"""Reads those terms that are no more than a few tokens: IRIs, names, blank labels, numbers, texts, truth values."""
+"""Parses terms that are at most a few tokens: IRIs, prefixed names, blank nodes and literals."""
 
 from __future__ import annotations
 
@@ -7,18 +7,21 @@ from collections.abc import Mapping
 import pyoxigraph as ox
 
 from skillc_rdf.turtle.cursor import Cursor, extent
-from skillc_rdf.turtle.messages import SyntaxMessage, no_object, no_term, shown
+from skillc_rdf.turtle.messages import SyntaxMessage, explain_invalid_term, explain_no_object, quote_token
 from skillc_rdf.turtle.prefixes import Prefixes
 from skillc_rdf.turtle.statements import Extent, Node
-from skillc_rdf.turtle.terms import XSD, TermError, iri_of, local_of, named, number_of, text_of
+from skillc_rdf.turtle.terms import XSD, TermError, iri_of, local_of, make_node, number_of, text_of
 from skillc_rdf.turtle.tokens import Token
 
-Found = tuple[Node | None, Extent]
-"""A term with its place, None for one that is wrong and was told."""
+ParsedTerm = tuple[Node | None, Extent]
+"""A term with its extent; None for a wrong one, which has been reported."""
 
 
-class Naming:
-    """Knows prefixes, base and blank labels of a text, and reads terms by them."""
+class TermParser:
+    """The prefixes, base and blank node labels of a text, by which terms are parsed.
+
+    `doubtful` are the IRIs in parts of the text that could not be parsed.
+    """
 
     def __init__(self, cursor: Cursor, base: str, known: Mapping[str, str]) -> None:
         self.prefixes = Prefixes(known, cursor.lines)
@@ -28,7 +31,7 @@ class Naming:
         self._blank: dict[str, ox.BlankNode] = {}
 
     def declare(self, name: Token | None, value: Token) -> None:
-        """Take in the declaration of a prefix, or of the base where there is no name."""
+        """Add the declaration of a prefix, or of the base if there is no name."""
         iri = self._iri(value)
         if iri is not None and name is not None:
             self.prefixes.declare(name, value, iri)
@@ -36,16 +39,16 @@ class Naming:
             self._base = iri
 
     def give_up(self, name: Token | None) -> None:
-        """Take in that a declaration was not understood; without a name it is that of the base."""
+        """Note that the declaration of a prefix (or of the base, without a name) could not be parsed."""
         if name is not None:
             self.prefixes.give_up(name.text.removesuffix(":"))
 
     def iri(self, token: Token) -> str | None:
-        """Return the IRI of an `iri` or a `name`; None where it is wrong, which is told."""
+        """Return the IRI of an `iri` or a `name`; None if it is wrong, which is reported."""
         return self._name(token) if token.kind == "name" else self._iri(token)
 
-    def term(self, token: Token, predicate: Token | None = None) -> Found:
-        """Return the term that a token that was taken begins; `predicate` is what it is a value of."""
+    def term(self, token: Token, predicate: Token | None = None) -> ParsedTerm:
+        """Return the term that begins with a token; `predicate` is the one before it, for messages."""
         match token.kind:
             case "iri" | "name":
                 return self._named(token), extent(token)
@@ -56,20 +59,20 @@ class Naming:
             case "text":
                 return self._text(token)
             case "word" if token.text in ("true", "false"):
-                return ox.Literal(token.text, datatype=named(f"{XSD}boolean")), extent(token)
-        wrong = no_term(token, self._cursor.names)
-        self._cursor.report(token, wrong or no_object(token, predicate or token))
+                return ox.Literal(token.text, datatype=make_node(f"{XSD}boolean")), extent(token)
+        wrong = explain_invalid_term(token, self._cursor.names)
+        self._cursor.report(token, wrong or explain_no_object(token, predicate or token))
         return None, extent(token)
 
     def doubt(self, token: Token) -> None:
-        """Remember a name in what was not understood."""
+        """Note a name in a part of the text that could not be parsed."""
         if token.kind == "name":
             prefix, local = local_of(token)
             if not local:
                 self.prefixes.give_up(prefix)
             self.doubtful.add((self.prefixes.base_of(prefix, token) or "") + local)
 
-    def _text(self, token: Token) -> Found:
+    def _text(self, token: Token) -> ParsedTerm:
         try:
             text = text_of(token)
         except TermError as error:
@@ -87,12 +90,16 @@ class Naming:
         try:
             return ox.Literal(text, language=tag.text[1:])
         except ValueError:
-            self._cursor.report(tag, SyntaxMessage(f"`{tag.text}` is no language", "a tag is like `@en` or `@en-GB`"))
+            self._cursor.report(
+                tag, SyntaxMessage(f"`{tag.text}` is not a language tag", "write a tag such as `@en` or `@en-GB`")
+            )
             return None
 
     def _typed(self, text: str, mark: Token) -> ox.Literal | None:
         if self._cursor.peek.kind not in ("iri", "name"):
-            self._cursor.report(mark, SyntaxMessage("after `^^` a datatype is missing", "such as `xsd:double`"))
+            self._cursor.report(
+                mark, SyntaxMessage("a datatype is missing after `^^`", "write one, such as `xsd:double`")
+            )
             return None
         datatype = self._named(self._cursor.take())
         return ox.Literal(text, datatype=datatype) if datatype is not None else None
@@ -102,9 +109,9 @@ class Naming:
         if iri is None:
             return None
         try:
-            return named(iri)
+            return make_node(iri)
         except TermError as error:
-            self._cursor.report(token, SyntaxMessage(f"{shown(token)} {error}"))
+            self._cursor.report(token, SyntaxMessage(f"{quote_token(token)} {error}"))
             return None
 
     def _name(self, token: Token) -> str | None:
@@ -112,7 +119,7 @@ class Naming:
         after = self._cursor.peek
         if after.kind == "stray" and after.start == token.end and after.text.startswith("/"):
             whole = token.text + self._cursor.take().text
-            message = SyntaxMessage(f"`{whole}` is no name", f"an IRI stands in angle brackets: `<{whole}>`")
+            message = SyntaxMessage(f"`{whole}` is not a name", f"write an IRI in angle brackets: `<{whole}>`")
             self._cursor.report(token, message)
             return None
         base = self.prefixes.base_of(prefix, token)
@@ -122,5 +129,5 @@ class Naming:
         try:
             return iri_of(token, self._base)
         except TermError as error:
-            self._cursor.report(token, SyntaxMessage(f"{shown(token)} {error}"))
+            self._cursor.report(token, SyntaxMessage(f"{quote_token(token)} {error}"))
             return None

@@ -9,7 +9,7 @@ from lark import Token
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode
-from skillc_compiler.ide.visible import Visible
+from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
 from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, type_of
 from skillc_compiler.program.walk import nodes_in
@@ -19,10 +19,10 @@ from skillc_dsl.source import Span
 
 
 @dataclass(frozen=True, slots=True)
-class Surroundings:
+class CursorContext:
     """The declaration around the cursor as far as it was understood, and what its file and itself can name."""
 
-    visible: Visible
+    visible: VisibleNames
     skill: Skill | None
     implementation: Implementation | None
     task: Task | None
@@ -55,7 +55,7 @@ class Surroundings:
         return UNKNOWN
 
 
-def surroundings(analysis: Analysis, path: str, cursor: InCode) -> Surroundings | None:
+def find_context(analysis: Analysis, path: str, cursor: InCode) -> CursorContext | None:
     """Return what surrounds the cursor; None in a file that was not read."""
     visible = analysis.visible.get(path)
     if visible is None:
@@ -72,7 +72,7 @@ def surroundings(analysis: Analysis, path: str, cursor: InCode) -> Surroundings 
     scene = analysis.library.scenes.get(name, {}) if kind == "task" else {}
     found = dict(_locals(skill, implementation, analysis.types))
     found |= dict(_quantified(cursor.before, visible))
-    return Surroundings(visible, skill, implementation, task, most_specific_classes(program.vocabulary, scene), found)
+    return CursorContext(visible, skill, implementation, task, most_specific_classes(program.vocabulary, scene), found)
 
 
 def _locals(
@@ -99,7 +99,7 @@ def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
         yield step.call.out.text, outputs[0] if outputs else UNKNOWN
 
 
-def _quantified(tokens: Sequence[Token], visible: Visible) -> Iterator[tuple[str, Type]]:
+def _quantified(tokens: Sequence[Token], visible: VisibleNames) -> Iterator[tuple[str, Type]]:
     for first, label, cls in zip(tokens, tokens[1:], tokens[2:], strict=False):
         if first.type in ("EXISTS", "FORALL") and label.type == "LABEL":
             iri = visible.term("class", cls.value)

@@ -1,4 +1,4 @@
-"""Requests that only look: hover, places, outlines, colours, folds, signatures."""
+"""Handlers of requests that change nothing: hover, navigation, symbols, semantic tokens, folding, signatures."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator
 from lsprotocol import types
 
 from skillc.lsp.files import Root
-from skillc.lsp.positions import Lines, units
+from skillc.lsp.positions import PositionConverter, count_units
 from skillc.lsp.session import At, Session
 from skillc_compiler.ide import highlighting, outline, places
-from skillc_compiler.ide.calls import signature
-from skillc_compiler.ide.hover import hover
-from skillc_compiler.ide.outline import Entry
+from skillc_compiler.ide.calls import find_signature
+from skillc_compiler.ide.descriptions import find_hover
+from skillc_compiler.ide.outline import OutlineEntry
 from skillc_compiler.ide.symbols import ImplementationSymbol, SkillSymbol
 from skillc_dsl.source import Source, Span
 
@@ -35,91 +35,93 @@ _SYMBOL_KINDS = {
 }
 
 
-def hovered(session: Session, params: types.HoverParams) -> types.Hover | None:
-    """Tell what the name under the cursor is."""
+def show_hover(session: Session, params: types.HoverParams) -> types.Hover | None:
+    """Describe the name under the cursor."""
     at = session.at(params)
-    found = hover(at.view.analysis, at.view.path, at.line, at.column)
+    found = find_hover(at.view.analysis, at.view.path, at.line, at.column)
     if found is None:
         return None
     content = types.MarkupContent(types.MarkupKind.Markdown, found.markdown)
     return types.Hover(content, at.lines.range(found.span))
 
 
-def definition(session: Session, params: types.DefinitionParams) -> list[types.Location]:
-    """Tell where the name under the cursor is declared."""
+def find_definition(session: Session, params: types.DefinitionParams) -> list[types.Location]:
+    """Return where the name under the cursor is declared."""
     at = session.at(params)
-    return _locations(session, at, places.definition(at.view.analysis, at.view.path, at.line, at.column))
+    return _locations(session, at, places.find_definitions(at.view.analysis, at.view.path, at.line, at.column))
 
 
-def implementation(session: Session, params: types.ImplementationParams) -> list[types.Location]:
-    """Tell where the skill under the cursor is implemented."""
+def find_implementations(session: Session, params: types.ImplementationParams) -> list[types.Location]:
+    """Return the implementations of the skill under the cursor."""
     at = session.at(params)
-    found = places.symbols_at(at.view.analysis, at.view.path, at.line, at.column)
+    found = places.find_symbols(at.view.analysis, at.view.path, at.line, at.column)
     names = [o.symbol.name for o in found if isinstance(o.symbol, SkillSymbol)]
     ways = [way for name in names for way in at.view.analysis.program.implementations_of.get(name, ())]
     symbols = [ImplementationSymbol(way.skill.name, way.name) for way in ways]
-    return _locations(session, at, (s for symbol in symbols for s in places.declared(at.view.analysis, symbol)))
-
-
-def references(session: Session, params: types.ReferenceParams) -> list[types.Location]:
-    """Tell where the thing under the cursor is named."""
-    at = session.at(params)
-    wanted = params.context.include_declaration
     return _locations(
-        session, at, places.references(at.view.analysis, at.view.path, at.line, at.column, declarations=wanted)
+        session, at, (s for symbol in symbols for s in places.find_declarations(at.view.analysis, symbol))
     )
 
 
-def highlights(session: Session, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
-    """Tell where the thing under the cursor is named in this file."""
+def find_references(session: Session, params: types.ReferenceParams) -> list[types.Location]:
+    """Return the references to the symbol under the cursor."""
     at = session.at(params)
-    found = places.references(at.view.analysis, at.view.path, at.line, at.column, declarations=True)
+    wanted = params.context.include_declaration
+    return _locations(
+        session, at, places.find_references(at.view.analysis, at.view.path, at.line, at.column, declarations=wanted)
+    )
+
+
+def find_highlights(session: Session, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
+    """Return the references in this file to the symbol under the cursor."""
+    at = session.at(params)
+    found = places.find_references(at.view.analysis, at.view.path, at.line, at.column, declarations=True)
     return [types.DocumentHighlight(at.lines.range(span)) for span in found if span.path == at.view.path]
 
 
-def document_symbols(session: Session, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-    """Tell what the file declares."""
+def list_document_symbols(session: Session, params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+    """Return the declarations of a file as a tree."""
     view = session.libraries.view(params.text_document.uri)
     lines = session.lines(view)
     file = next((unit.file for unit in view.analysis.program.files if unit.file.path == view.path), None)
-    return [_symbol(lines, entry) for entry in outline.outline(file)] if file else []
+    return [_symbol(lines, entry) for entry in outline.make_outline(file)] if file else []
 
 
-def workspace_symbols(session: Session, params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
-    """Tell what the libraries at hand declare whose name holds the letters that are asked for, in their order."""
+def list_workspace_symbols(session: Session, params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
+    """Return the declarations in all open libraries whose names contain the query's letters in order."""
     query = params.query.lower()
     return [symbol for symbol in _declared(session) if _holds(symbol.name.lower(), query)]
 
 
-def colours(session: Session, params: types.SemanticTokensParams) -> types.SemanticTokens:
-    """Tell what each word is, each as its distance from the one before."""
+def encode_semantic_tokens(session: Session, params: types.SemanticTokensParams) -> types.SemanticTokens:
+    """Return the semantic tokens of a file, in the protocol's relative encoding."""
     view = session.libraries.view(params.text_document.uri)
     lines = view.analysis.texts.get(view.path, "").split("\n")
     data: list[int] = []
     row, start = 0, 0
-    for word in highlighting.highlighted(view.analysis, view.path):
+    for word in highlighting.highlight_words(view.analysis, view.path):
         text = lines[word.span.line - 1]
-        at = units(text[: word.span.column - 1], session.encoding)
-        width = units(text[word.span.column - 1 : word.span.end_column - 1], session.encoding)
+        at = count_units(text[: word.span.column - 1], session.encoding)
+        width = count_units(text[word.span.column - 1 : word.span.end_column - 1], session.encoding)
         down = word.span.line - 1 - row
         data += (down, at if down else at - start, width, TOKEN_KINDS.index(word.kind), DECLARATION * word.declares)
         row, start = word.span.line - 1, at
     return types.SemanticTokens(data)
 
 
-def folding(session: Session, params: types.FoldingRangeParams) -> list[types.FoldingRange]:
-    """Tell which lines belong together."""
+def find_folds(session: Session, params: types.FoldingRangeParams) -> list[types.FoldingRange]:
+    """Return the ranges of lines that can be folded."""
     view = session.libraries.view(params.text_document.uri)
     file = next((unit.file for unit in view.analysis.program.files if unit.file.path == view.path), None)
     source = Source(view.path, view.analysis.texts.get(view.path, ""))
-    found = outline.folds(source, file) if file else ()
+    found = outline.find_folds(source, file) if file else ()
     return [types.FoldingRange(fold.first - 1, fold.last - 1, kind=types.FoldingRangeKind(fold.kind)) for fold in found]
 
 
-def signature_help(session: Session, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
-    """Tell what the call around the cursor takes."""
+def show_signature(session: Session, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
+    """Return the parameters of the call around the cursor."""
     at = session.at(params)
-    found = signature(at.view.analysis, at.view.path, at.line, at.column)
+    found = find_signature(at.view.analysis, at.view.path, at.line, at.column)
     if found is None:
         return None
     parameters = [types.ParameterInformation(label, doc or None) for label, doc in found.parameters]
@@ -132,7 +134,7 @@ def _locations(session: Session, at: At, spans: Iterable[Span]) -> list[types.Lo
     return [types.Location(session.libraries.uri(at.view.root, span.path), at.lines.range(span)) for span in spans]
 
 
-def _symbol(lines: Lines, entry: Entry) -> types.DocumentSymbol:
+def _symbol(lines: PositionConverter, entry: OutlineEntry) -> types.DocumentSymbol:
     return types.DocumentSymbol(
         name=entry.name,
         detail=entry.detail or None,
@@ -145,13 +147,15 @@ def _symbol(lines: Lines, entry: Entry) -> types.DocumentSymbol:
 
 def _declared(session: Session) -> Iterator[types.WorkspaceSymbol]:
     for root, analysis in session.libraries.known():
-        lines = Lines(analysis.texts, session.encoding)
+        lines = PositionConverter(analysis.texts, session.encoding)
         for unit in analysis.program.files:
-            for entry in outline.outline(unit.file):
+            for entry in outline.make_outline(unit.file):
                 yield _workspace_symbol(session, root, lines, entry)
 
 
-def _workspace_symbol(session: Session, root: Root, lines: Lines, entry: Entry) -> types.WorkspaceSymbol:
+def _workspace_symbol(
+    session: Session, root: Root, lines: PositionConverter, entry: OutlineEntry
+) -> types.WorkspaceSymbol:
     location = types.Location(session.libraries.uri(root, entry.span.path), lines.range(entry.name_span))
     return types.WorkspaceSymbol(location, entry.name, _SYMBOL_KINDS[entry.kind], container_name=entry.detail or None)
 

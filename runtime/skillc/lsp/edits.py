@@ -1,4 +1,4 @@
-"""Requests that write: completion, renaming, fixes, formatting."""
+"""Handlers of requests that edit: completion, renaming, fixes, formatting."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
 
-from skillc.lsp import problems
-from skillc.lsp.files import Root, is_turtle, place
-from skillc.lsp.libraries import View, parse
-from skillc.lsp.positions import Lines
-from skillc.lsp.scenes import texts
+from skillc.lsp import diagnostics as problems
+from skillc.lsp.files import Root, find_file, is_turtle
+from skillc.lsp.libraries import FileView, parse
+from skillc.lsp.positions import PositionConverter
+from skillc.lsp.scenes import read_scene_texts
 from skillc.lsp.session import Session
 from skillc_compiler.ide.completion import complete
-from skillc_compiler.ide.imports import import_of
+from skillc_compiler.ide.imports import make_import
 from skillc_compiler.ide.offers import Offer
-from skillc_compiler.ide.rename import Refused, renamable
+from skillc_compiler.ide.rename import NotRenamable, find_renamable
 from skillc_compiler.ide.rename import rename as renamed
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import drop_overlapping
@@ -46,43 +46,43 @@ _KINDS = {
 }
 
 
-def completion(session: Session, params: types.CompletionParams) -> types.CompletionList:
+def offer_completions(session: Session, params: types.CompletionParams) -> types.CompletionList:
     """Offer what fits at the cursor."""
     at = session.at(params)
     warnings = sorted({problem.name for problem in at.view.analysis.problems if problem.severity == "warning"})
-    scenes = [*sorted(_scenes_beside(at.view)), *catalogue.scenes()]
+    scenes = [*sorted(_scenes_beside(at.view)), *catalogue.scene_names()]
     found = complete(at.view.analysis, at.view.path, at.line, at.column, scenes, warnings)
     place = at.lines.range(found.replaced)
     items = [_item(offer, order, place) for order, offer in enumerate(found.offers)]
     for item, offer in zip(items, found.offers, strict=True):
         if offer.imports:
-            line = import_of(at.view.analysis, at.view.path, offer.imports)
+            line = make_import(at.view.analysis, at.view.path, offer.imports)
             item.additional_text_edits = [types.TextEdit(at.lines.range(line.span), line.text)]
     return types.CompletionList(False, items)
 
 
 def prepare_rename(session: Session, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder:
-    """Return the name that would be changed; an error says why nothing can be."""
+    """Return the range of the name to be renamed; an error if it cannot be renamed."""
     at = session.at(params)
-    match renamable(at.view.analysis, at.view.path, at.line, at.column):
-        case Refused(reason=reason):
+    match find_renamable(at.view.analysis, at.view.path, at.line, at.column):
+        case NotRenamable(reason=reason):
             raise JsonRpcInvalidParams(reason)
         case span:
             return types.PrepareRenamePlaceholder(at.lines.range(span), at.view.analysis.text_of(span))
 
 
 def rename(session: Session, params: types.RenameParams) -> types.WorkspaceEdit:
-    """Return the edits that rename; an error says why there are none."""
+    """Return the edits that rename the symbol; an error if it cannot be renamed."""
     at = session.at(params)
     match renamed(at.view.analysis, at.view.path, at.line, at.column, params.new_name, parse):
-        case Refused(reason=reason):
+        case NotRenamable(reason=reason):
             raise JsonRpcInvalidParams(reason)
         case renaming:
             return _workspace_edit(session, at.view.root, at.lines, renaming.edits)
 
 
-def code_actions(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
-    """Offer the fixes of the problems in a range, and all safe ones of the file at once."""
+def offer_code_actions(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
+    """Offer the fixes of the diagnostics in a range, and one action for all safe fixes of the file."""
     if is_turtle(session.file(params.text_document.uri)):
         return _in_turtle(session, params)
     view = session.libraries.view(params.text_document.uri)
@@ -91,19 +91,21 @@ def code_actions(session: Session, params: types.CodeActionParams) -> list[types
 
 
 def _in_turtle(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
-    """Offer the fixes of a scene or a vocabulary, as the first library sees it that has something to say of it."""
+    """Offer the fixes of a scene or vocabulary, as the first library with diagnostics in it reports them."""
     libraries, file = session.libraries, session.file(params.text_document.uri)
     for root, analysis in libraries.known():
         around = libraries.problems_around(root)
-        here = [problem for problem in around if place(problem.span.path, root) == file]
+        here = [problem for problem in around if find_file(problem.span.path, root) == file]
         if here:
-            lines = Lines({**analysis.texts, **texts(around, libraries.buffers)}, session.encoding)
+            lines = PositionConverter(
+                {**analysis.texts, **read_scene_texts(around, libraries.buffers)}, session.encoding
+            )
             return _actions(session, params, root, lines, here)
     return []
 
 
 def _actions(
-    session: Session, params: types.CodeActionParams, root: Root, lines: Lines, here: Sequence[Diagnostic]
+    session: Session, params: types.CodeActionParams, root: Root, lines: PositionConverter, here: Sequence[Diagnostic]
 ) -> list[types.CodeAction]:
     actions = []
     if _wanted(params, types.CodeActionKind.QuickFix.value):
@@ -112,12 +114,12 @@ def _actions(
     safe = drop_overlapping(problem.fix for problem in here if problem.fix and problem.fix.safe)
     if safe and _wanted(params, FIX_ALL):
         edit = _workspace_edit(session, root, lines, safe)
-        actions.append(types.CodeAction("Fix everything that is safe to fix", FIX_ALL, edit=edit))
+        actions.append(types.CodeAction("Apply all safe fixes", FIX_ALL, edit=edit))
     return actions
 
 
-def formatting(session: Session, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
-    """Return the edit that lays the file out; none for a file with errors or one that is laid out already."""
+def format_document(session: Session, params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+    """Return the edit that formats the file; none if it has errors or is already formatted."""
     from skillc_dsl.formatting.formatter import format_source
 
     view = session.libraries.view(params.text_document.uri)
@@ -143,17 +145,17 @@ def _item(offer: Offer, order: int, place: types.Range) -> types.CompletionItem:
     )
 
 
-def _scenes_beside(view: View) -> Iterable[str]:
+def _scenes_beside(view: FileView) -> Iterable[str]:
     folder = (view.root.folder / view.path).parent
     return (file.relative_to(folder).as_posix() for pattern in ("*.ttl", "*/*.ttl") for file in folder.glob(pattern))
 
 
-def _quick_fix(session: Session, root: Root, lines: Lines, problem: Diagnostic) -> types.CodeAction:
+def _quick_fix(session: Session, root: Root, lines: PositionConverter, problem: Diagnostic) -> types.CodeAction:
     assert problem.fix is not None
     return types.CodeAction(
         title=problem.fix.message,
         kind=types.CodeActionKind.QuickFix,
-        diagnostics=[problems.convert_problem(session.libraries, root, lines, problem)],
+        diagnostics=[problems.convert_diagnostic(session.libraries, root, lines, problem)],
         is_preferred=problem.fix.safe,
         edit=_workspace_edit(session, root, lines, (problem.fix,)),
     )
@@ -168,7 +170,9 @@ def _meet(one: types.Range, other: types.Range) -> bool:
     return one.start <= other.end and other.start <= one.end
 
 
-def _workspace_edit(session: Session, root: Root, lines: Lines, fixes: Iterable[Fix]) -> types.WorkspaceEdit:
+def _workspace_edit(
+    session: Session, root: Root, lines: PositionConverter, fixes: Iterable[Fix]
+) -> types.WorkspaceEdit:
     changes: dict[str, list[types.TextEdit]] = defaultdict(list)
     for fix in fixes:
         uri = session.libraries.uri(root, fix.span.path)

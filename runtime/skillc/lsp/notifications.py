@@ -1,4 +1,4 @@
-"""What the editor says of its files and folders."""
+"""Handlers of notifications about files and folders: opened, changed, saved, closed."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from skillc.lsp.session import Session
 _WATCHED = ("**/*.skill", "**/*.ttl")
 
 
-def initialized(session: Session, params: types.InitializedParams) -> None:
-    """Note the folders that are open, and ask to be told of changes on disk."""
+def on_initialized(session: Session, params: types.InitializedParams) -> None:
+    """Store the open folders, and subscribe to changes of files on disk."""
     workspace = session.server.workspace
     session.folders([folder.uri for folder in workspace.folders.values()] or _root(workspace.root_uri))
     capabilities = session.server.client_capabilities.workspace
@@ -23,44 +23,44 @@ def initialized(session: Session, params: types.InitializedParams) -> None:
         )
 
 
-def shut_down(session: Session, params: None) -> None:
-    """Note that the editor has said goodbye."""
+def on_shutdown(session: Session, params: None) -> None:
+    """Note that the editor has asked for a shutdown."""
     session.over = True
 
 
-def folders_changed(session: Session, params: types.DidChangeWorkspaceFoldersParams) -> None:
-    """Note which folders are open."""
+def on_folders_changed(session: Session, params: types.DidChangeWorkspaceFoldersParams) -> None:
+    """Store the open folders."""
     session.folders([folder.uri for folder in session.server.workspace.folders.values()])
     session.schedule_publishing()
 
 
-def opened(session: Session, params: types.DidOpenTextDocumentParams) -> None:
-    """Take the text of a file from the editor."""
+def on_open(session: Session, params: types.DidOpenTextDocumentParams) -> None:
+    """Use the editor's text of a file from now on."""
     session.libraries.write(params.text_document.uri, params.text_document.text)
     session.publish()
 
 
-def changed(session: Session, params: types.DidChangeTextDocumentParams) -> None:
-    """Take the new text of a file."""
+def on_change(session: Session, params: types.DidChangeTextDocumentParams) -> None:
+    """Store the new text of a file."""
     uri = params.text_document.uri
     session.libraries.write(uri, session.server.workspace.get_text_document(uri).source)
     session.schedule_publishing()
 
 
-def saved(session: Session, params: types.DidSaveTextDocumentParams) -> None:
-    """Look at the disk again."""
+def on_save(session: Session, params: types.DidSaveTextDocumentParams) -> None:
+    """Read a file from disk again."""
     session.libraries.forget(session.file(params.text_document.uri))
     session.schedule_publishing()
 
 
-def closed(session: Session, params: types.DidCloseTextDocumentParams) -> None:
-    """Take the text of a file from the disk again."""
+def on_close(session: Session, params: types.DidCloseTextDocumentParams) -> None:
+    """Use the text of a file on disk from now on."""
     session.libraries.close(params.text_document.uri)
     session.publish()
 
 
-def changed_on_disk(session: Session, params: types.DidChangeWatchedFilesParams) -> None:
-    """Look at files again that something else has written, made or deleted."""
+def on_disk_change(session: Session, params: types.DidChangeWatchedFilesParams) -> None:
+    """Read files again that another program has written, created or deleted."""
     for change in params.changes:
         session.libraries.forget(session.file(change.uri))
     session.schedule_publishing()
