@@ -17,7 +17,7 @@ from skillc_rdf.vocabulary.types import Position, ValueType
 
 
 @dataclass(frozen=True)
-class Binding:
+class ParameterBinding:
     """Where a local name has its value: an entry of the blackboard and the C++ type of that (None: not known)."""
 
     entry: str
@@ -36,7 +36,7 @@ class TreeWriter:
     model: Model
     owner: tuple[str, ...]
     posts: Sequence[Post] = ()
-    bound: Mapping[str, Binding] = field(default_factory=dict)
+    bound: Mapping[str, ParameterBinding] = field(default_factory=dict)
     start: list[str] = field(default_factory=list)
     """Scripts that the tree runs first, each time it starts."""
     _made: dict[str, int] = field(default_factory=dict)
@@ -52,11 +52,11 @@ class TreeWriter:
         """Return a new entry of the blackboard."""
         return entry_name(word, self.number(f"entry {word}"))
 
-    def at(self, name: str) -> Binding:
+    def at(self, name: str) -> ParameterBinding:
         """Return where a name has its value."""
-        return self.bound.get(name, Binding(port_name(name)))
+        return self.bound.get(name, ParameterBinding(port_name(name)))
 
-    def bind(self, name: str, type_: ValueType | None) -> Binding:
+    def bind(self, name: str, type_: ValueType | None) -> ParameterBinding:
         """Bring a name of this type (None: not known) into scope, unless it is there, and return where its value goes.
 
         An entry keeps its type for good, so a name that was used for another type elsewhere gets another entry.
@@ -68,12 +68,12 @@ class TreeWriter:
             again = held is not None and self._held.get(port_name(name)) == held
             entry = port_name(name) if unused or again else self.entry(name)
             self._held[entry] = held
-            self.bound = {**self.bound, name: Binding(entry, plain)}
+            self.bound = {**self.bound, name: ParameterBinding(entry, plain)}
         return self.bound[name]
 
     def apart(self, parts: Sequence[Callable[[], Element]]) -> list[Element]:
         """Return parts of which none sees the names of another; those that follow see the names of all."""
-        before, found = self.bound, dict[str, Binding]()
+        before, found = self.bound, dict[str, ParameterBinding]()
         elements = []
         for part in parts:
             self.bound = before
@@ -117,7 +117,7 @@ class TreeWriter:
         self.model.declare("Action", identity, path, ports, text)
         return Element(identity, {**self.reads(read), result: pointer(into)})
 
-    def converted(self, name: str, found: Binding, target: Binding) -> Element:
+    def converted(self, name: str, found: ParameterBinding, target: ParameterBinding) -> Element:
         """Return the node that gives a name the value that is found, which is of another type."""
         path = (*self.owner, "evaluate", found.entry)
         identity = self.names.of(*path)
@@ -149,9 +149,9 @@ def _result(read: Sequence[str]) -> str:
     return name
 
 
-def bind_parameters(parameters: Sequence[Parameter]) -> Mapping[str, Binding]:
+def bind_parameters(parameters: Sequence[Parameter]) -> Mapping[str, ParameterBinding]:
     """Return where the tree of a skill finds its parameters."""
-    return {each.name: Binding(port_name(each.name), port_type(each.type)) for each in parameters}
+    return {each.name: ParameterBinding(port_name(each.name), port_type(each.type)) for each in parameters}
 
 
 def pointer(name: str) -> str:

@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
-from skillc_compiler.emit.bt.body import Binding, TreeWriter, join_steps, make_leaf, pointer, run_after, with_children
+from skillc_compiler.emit.bt.body import (
+    ParameterBinding,
+    TreeWriter,
+    join_steps,
+    make_leaf,
+    pointer,
+    run_after,
+    with_children,
+)
 from skillc_compiler.emit.bt.model import Kind, Port
 from skillc_compiler.emit.bt.names import port_name
 from skillc_compiler.emit.bt.ports import (
@@ -136,5 +144,5 @@ def _outputs(writer: TreeWriter, written: Call, skill: Skill) -> tuple[dict[str,
     kind, target = port_type(output.type), writer.bind(written.out, output.type)
     if None in (kind, target.type) or kind == target.type:
         return {port_name(output.name): pointer(target.entry)}, []
-    found = Binding(writer.entry(written.out), kind)
+    found = ParameterBinding(writer.entry(written.out), kind)
     return {port_name(output.name): pointer(found.entry)}, [writer.converted(written.out, found, target)]
