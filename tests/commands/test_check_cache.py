@@ -189,7 +189,7 @@ from pathlib import Path
 from skillc.services import check_cache, library_checks, library_files
 library = library_files.find_library(Path({str(library)!r}))
 opened.clear()
-check_cache.digest_of(library, None)
+check_cache.compute_digest(library, None)
 counted = set(opened) | set(map(str, library.places.values()))
 opened.clear()
 library_checks.check_library(library, None)
