@@ -121,9 +121,9 @@ def test_vectors_have_a_dimension_and_directions_have_none() -> None:
         ("skillc:Vector", "Number", None),
         ("xsd:double", "Froce", "did you mean `Force`?"),
         ("skillc:Vector", "Forces", "did you mean `Force`?"),
-        ("skillc:Direction", "Force", "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"),
-        ("xsd:integer", "Length", "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"),
-        ("xsd:string", "Length", "use xsd:double or skillc:Vector as its range, or leave `skillc:dimension` out"),
+        ("skillc:Direction", "Force", "use xsd:double or skillc:Vector as its range, or remove `skillc:dimension`"),
+        ("xsd:integer", "Length", "use xsd:double or skillc:Vector as its range, or remove `skillc:dimension`"),
+        ("xsd:string", "Length", "use xsd:double or skillc:Vector as its range, or remove `skillc:dimension`"),
     ],
 )
 def test_a_dimension_is_one_of_the_language_and_stands_at_quantities(

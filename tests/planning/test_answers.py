@@ -79,4 +79,4 @@ def test_a_goal_out_of_reach_of_a_large_scene_says_why(depot: Path) -> None:
 
 def test_a_proof_goes_with_work_alone(depot: Path) -> None:
     said = plan(depot, "lab:truck stores lab:c9", "--prove", "--minimise", "makespan")
-    assert said.exit_code == 2 and "--prove goes with --minimise work" in said.stderr
+    assert said.exit_code == 2 and "--prove requires --minimise work" in said.stderr

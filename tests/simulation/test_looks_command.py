@@ -59,4 +59,4 @@ def test_looks_that_there_are_not_are_told(tmp_path: Path) -> None:
 def test_looks_without_pictures_are_a_wrong_command_line(words: list[str]) -> None:
     result = CliRunner().invoke(skillc, [*words, "--looks", "menagerie"])
     assert result.exit_code == 2
-    assert "say with --out where they shall go" in result.stderr
+    assert "which require --out" in result.stderr
