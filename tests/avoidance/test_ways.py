@@ -136,7 +136,7 @@ def test_a_goal_that_touches_is_told_and_another_one_taken() -> None:
 
 def test_a_search_ends_after_so_many_looks(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("ompl", reason="the extra `motion` is not installed")
-    monkeypatch.setattr(ways, "MOST_LOOKS", 1)
+    monkeypatch.setattr(ways, "MAX_CHECKS", 1)
     monkeypatch.setattr(ways, "DRAWN", 0)
     of, known = contacts("ur5e_whiteboard", pillar("ur5e_whiteboard"))
     with pytest.raises(NoPath, match=r"no way around was found in \d+ looks"):

@@ -61,7 +61,7 @@ def test_an_arm_that_touches_something_wherever_it_is_drawn_starts_at_home(monke
     (arm,) = read_scene_spec(world("iiwa_table")).arms
     contacts = looking(arm)
     touching = next(seed for seed in SEEDS if contacts.overlapping_pairs(arm.home + first_draw(arm, seed)))
-    monkeypatch.setattr(starts, "MOST_DRAWS", 1)
+    monkeypatch.setattr(starts, "MAX_DRAWS", 1)
     assert draw_start(arm, touching) == (0.0,) * 7
 
 

@@ -1,4 +1,4 @@
-"""Cells that tasks run in: `mujoco` simulates one in lock step. Another simulator or real robots are a package each.
+"""Cells in which tasks run: `mujoco` simulates one in lock step; other simulators or real robots are a package each.
 
-Start at `mujoco.cell.SimulatedCell`.
+Start with `mujoco.cell.SimulatedCell`.
 """

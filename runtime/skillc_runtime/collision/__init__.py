@@ -1,1 +1,4 @@
-"""Joint motions that keep clear of what the world model knows to be there."""
+"""Joint motions that avoid the obstacles in the world model.
+
+Start with `path_planning`; `collision_checker` checks postures in a `collision_model` of arm and scenery.
+"""

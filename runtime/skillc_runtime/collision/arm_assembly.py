@@ -1,4 +1,4 @@
-"""What an arm consists of as the world model has it: its model, the gripper on it, and what that holds."""
+"""An arm with its gripper and the objects that it holds, read from the world model."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class Hand:
-    """A gripper: its short name, its MJCF, how far its fingers stand apart in m, what it holds, seen from its `tcp`."""
+    """A gripper: its short name, its MJCF, the distance of its fingers in m, held boxes in the frame of its `tcp`."""
 
     name: str
     model: str
@@ -35,7 +35,7 @@ class Hand:
 
 @dataclass(frozen=True, slots=True)
 class ArmAssembly:
-    """An arm: its short name, its MJCF, its hand, and how far in m it keeps from things."""
+    """An arm: its short name, its MJCF, its hand, and the clearance in m that it keeps from obstacles."""
 
     name: str
     model: str
@@ -44,9 +44,11 @@ class ArmAssembly:
 
 
 def read_arm_assembly(state: WorldState, arm: str, opening_m: dict[str, float]) -> ArmAssembly:
-    """Return an arm and what it carries; `opening_m` says how far the fingers of each gripper, by IRI, stand apart.
+    """Return an arm with its gripper and held objects.
 
-    SheetError when a data sheet lacks the model.
+    `opening_m` has the distance of the fingers of each gripper, by IRI.
+
+    Raises SheetError if a data sheet has no model.
     """
     sheet = sheet_of(state, arm)
     grippers = sorted(state.objects(arm, HAS_GRIPPER))
@@ -67,7 +69,7 @@ def _hand(state: WorldState, gripper: str, opening_m: float) -> Hand:
 
 
 def _held(state: WorldState, thing: str) -> BoxObstacle | None:
-    """Return the box of what is in the hand, None when it has no extent."""
+    """Return the box of a held object, None if its size is not known."""
     numbers = [state.value(thing, name) for name in (*POSITION, *ORIENTATION)]
     if any(state.value(thing, name) is None for name in SIZE) or any(not isinstance(n, float) for n in numbers):
         return None

@@ -1,4 +1,4 @@
-"""Whether an arm touches anything in a posture, or comes nearer to it than it shall."""
+"""Checks whether an arm in a posture collides with anything, or comes closer than its clearance."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_runtime.collision.collision_model import MOVES, CollisionModel
 from skillc_runtime.motion.pose import Array
 
 SLACK_M = 0.001
-"""By how much things may come nearer than allowed: what distances are uncertain by."""
+"""Tolerance of distances: their uncertainty."""
 
 Pair: TypeAlias = tuple[int, int]
 """Two geoms of a model."""
@@ -21,7 +21,7 @@ Pair: TypeAlias = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """Two things, by name, the first of the arm, and how far in m they are apart; below 0 they overlap."""
+    """Two parts by name, the first one of the arm, and their distance in m, below 0 if they overlap."""
 
     one: str
     other: str
@@ -33,9 +33,9 @@ class Collision:
 
 
 class CollisionChecker:
-    """Looks at postures of one arm. From what stands around it keeps its clearance; itself it must not touch.
+    """Checks postures (nv,) in rad of one arm: it keeps its clearance from the scenery and must not touch itself.
 
-    What overlaps at `home` does so by the shape of the models and is let pass. Counts how often it looked.
+    Pairs of its own parts that overlap at `home` are ignored: it is due to the models. `checks` counts the checks.
     """
 
     def __init__(self, body: CollisionModel, home: Array) -> None:
@@ -44,11 +44,11 @@ class CollisionChecker:
         self._data.qpos[body.joints :] = body.fingers
         self._arm, self._contact = self._data.qpos[: body.joints], self._data.contact
         self._moves: list[bool] = (body.compiled.geom_contype == MOVES).tolist()
-        self._passed = frozenset(filter(self._within, self.overlapping_pairs(home)))
-        self._allowed, self._unsaid = dict[Pair, float](), frozenset[str]()
+        self._touching_at_home = frozenset(filter(self._within, self.overlapping_pairs(home)))
+        self._allowed, self._ignored = dict[Pair, float](), frozenset[str]()
 
     def near_pairs(self, q: Array) -> dict[Pair, float]:
-        """Return which geoms are nearer to each other than the clearance at joints q (nv,), and how far apart, m."""
+        """Return the pairs of geoms that are closer than the clearance at joints q (nv,), with their distances in m."""
         self._arm[:] = q
         mujoco.mj_kinematics(self.model.compiled, self._data)
         mujoco.mj_collision(self.model.compiled, self._data)
@@ -61,14 +61,14 @@ class CollisionChecker:
         return found
 
     def overlapping_pairs(self, q: Array) -> frozenset[Pair]:
-        """Return which geoms overlap at joints q (nv,), however near the others are."""
+        """Return the pairs of geoms that overlap at joints q (nv,)."""
         return frozenset(pair for pair, far in self.near_pairs(q).items() if far <= 0)
 
     def allow(self, start: Array, goal: Array) -> None:
-        """From now on let things be as near as they are where a motion starts and, short of touching, where it ends.
+        """From now on allow distances as small as at the start of a motion and, without contact, at its end.
 
-        What overlaps at the start may overlap twice as much on the way out. By more than the clearance nothing can
-        really overlap: what is believed of such a thing tells nothing, so it is not asked about.
+        Pairs that overlap at the start may overlap twice as much on the way out. An overlap deeper than the clearance
+        cannot be real, so the pose of such an obstacle is wrong and it is ignored.
         """
         begin = {
             pair: max(far - SLACK_M, 0.0) if far > 0 else 2 * far - SLACK_M
@@ -76,17 +76,18 @@ class CollisionChecker:
         }
         end = {pair: max(far - SLACK_M, 0.0) for pair, far in self.near_pairs(goal).items()}
         deep = [pair for pair, far in begin.items() if far < -2 * self.model.margin and not self._within(pair)]
-        self._unsaid = frozenset(self._thing(pair) for pair in deep)
+        self._ignored = frozenset(self._obstacle(pair) for pair in deep)
         self._allowed = {
-            pair: min(self._least(pair), begin.get(pair, inf), end.get(pair, inf)) for pair in {**begin, **end}
+            pair: min(self._allowed_distance(pair), begin.get(pair, inf), end.get(pair, inf))
+            for pair in {**begin, **end}
         }
 
     def find_collision(self, q: Array) -> Collision | None:
-        """Return the worst that is not allowed at joints q (nv,), None when all is well."""
+        """Return the worst collision at joints q (nv,), None if there is none."""
         wrong = [
             (far, pair)
             for pair, far in self.near_pairs(q).items()
-            if far < self._allowed.get(pair, self._least(pair)) and self._counts(pair)
+            if far < self._allowed.get(pair, self._allowed_distance(pair)) and self._is_relevant(pair)
         ]
         if not wrong:
             return None
@@ -96,25 +97,25 @@ class CollisionChecker:
         return Collision(self.model.names[one], self.model.names[other], distance)
 
     def first_collision(self, way: Iterable[Array]) -> Collision | None:
-        """Return what is touched first along postures (nv,) on a way, None when nothing is."""
+        """Return the first collision along postures (nv,), None if there is none."""
         return next((touch for q in way if (touch := self.find_collision(q)) is not None), None)
 
     def worst_collision(self, way: Iterable[Array]) -> Collision | None:
-        """Return what comes nearest of all that is touched along postures (nv,) on a way, None when nothing is."""
+        """Return the worst collision along postures (nv,), None if there is none."""
         touches = (touch for q in way if (touch := self.find_collision(q)) is not None)
         return min(touches, key=lambda touch: touch.distance_m, default=None)
 
     def _within(self, pair: Pair) -> bool:
-        """Whether both belong to the arm, its hand or what that holds."""
+        """Whether both geoms belong to the arm, its hand or held objects."""
         return self._moves[pair[0]] and self._moves[pair[1]]
 
-    def _thing(self, pair: Pair) -> str:
-        """Return the name of what stands around, of the two."""
+    def _obstacle(self, pair: Pair) -> str:
+        """Return the name of the obstacle of a pair."""
         return self.model.names[pair[1] if self._moves[pair[0]] else pair[0]]
 
-    def _counts(self, pair: Pair) -> bool:
-        """Whether it matters that two geoms are near each other."""
-        return pair not in self._passed and (self._within(pair) or self._thing(pair) not in self._unsaid)
+    def _is_relevant(self, pair: Pair) -> bool:
+        """Whether a small distance of a pair counts as a collision."""
+        return pair not in self._touching_at_home and (self._within(pair) or self._obstacle(pair) not in self._ignored)
 
-    def _least(self, pair: Pair) -> float:
+    def _allowed_distance(self, pair: Pair) -> float:
         return 0.0 if self._within(pair) else max(self.model.margin - SLACK_M, 0.0)

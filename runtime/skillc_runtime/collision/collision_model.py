@@ -1,4 +1,4 @@
-"""The model in which an arm may touch things: itself, its hand, what that holds, and the scenery, nothing else."""
+"""The MuJoCo model for collision checks: an arm, its hand, the objects that it holds, and the scenery."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from skillc_runtime.collision.scenery import BoxObstacle, Scenery, pose_key
 from skillc_runtime.motion.pose import Array, Pose
 
 MOVES, STANDS = 1, 2
-"""Contact bits of what the arm moves, which touches itself too, and of what stands around."""
+"""Contact bits of moving parts, which also collide with each other, and of the scenery."""
 
 ARM, HAND, HELD = "arm/", "hand/", "held/"
-"""What the names of an arm's links, of its gripper's parts and of what that holds begin with."""
+"""Prefixes of the names of an arm's links, of its gripper's parts and of held objects."""
 
 
 @dataclass(frozen=True, slots=True)
 class CollisionModel:
-    """A compiled model in the arm's base frame; its first `joints` positions are the arm's, `fingers` the rest.
+    """A compiled model in the arm's base frame; the first `joints` positions are the arm's, `fingers` the others.
 
-    `names` says of each geom what people call it, `levers` (nv,) m how far from each joint any part of the arm can be;
-    `margin` m is from where on contacts are computed.
+    names: of each geom, for messages; levers (nv,): m, the greatest distance of any part of the arm from each joint;
+    margin: m, the distance below which contacts are computed.
     """
 
     compiled: Any
@@ -40,15 +40,15 @@ class CollisionModel:
 
 @lru_cache(maxsize=8)
 def build_collision_model(outfit: ArmAssembly, scenery: Scenery) -> CollisionModel:
-    """Return the model; ValueError when an arm's model has no site `flange` or a gripper's none called `tcp`."""
-    spec, arm = mujoco.MjSpec(), _bare(outfit.model)
+    """Return the model; ValueError if the model of an arm has no site `flange`, or that of a gripper no site `tcp`."""
+    spec, arm = mujoco.MjSpec(), _moving_model(outfit.model)
     spec.option.timestep, spec.option.integrator = arm.option.timestep, arm.option.integrator
     _add_scenery(spec, scenery)
     spec.attach(arm, prefix=ARM, frame=spec.worldbody.add_frame())
     joints = len(spec.joints)
     if outfit.hand is not None:
         _add_hand(spec, outfit.hand)
-    _let_pass(spec)
+    _exclude_touching(spec)
     model = spec.compile()
     model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_OVERRIDE)
     model.opt.o_margin = outfit.clearance_m
@@ -57,15 +57,15 @@ def build_collision_model(outfit: ArmAssembly, scenery: Scenery) -> CollisionMod
     return CollisionModel(model, names, joints, fingers, levers, outfit.clearance_m)
 
 
-def _bare(path: str) -> Any:
-    """Return a model of what moves, without sensors and motors."""
-    model = _passive(path)
+def _moving_model(path: str) -> Any:
+    """Return a moving model without sensors and motors."""
+    model = _passive_model(path)
     for geom in model.geoms:
         geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
     return model
 
 
-def _passive(path: str) -> Any:
+def _passive_model(path: str) -> Any:
     model = mujoco.MjSpec.from_file(path)
     for part in (*model.actuators, *model.sensors, *model.keys):
         model.delete(part)
@@ -73,8 +73,8 @@ def _passive(path: str) -> Any:
 
 
 def _add_hand(spec: Any, hand: Hand) -> None:
-    """Put the gripper on the flange; what it holds becomes a part of its palm."""
-    spec.attach(_bare(hand.model), prefix=HAND, site=spec.site(ARM + "flange"))
+    """Attach the gripper to the flange, and held objects to its palm."""
+    spec.attach(_moving_model(hand.model), prefix=HAND, site=spec.site(ARM + "flange"))
     centre = spec.site(HAND + "tcp")
     for index, block in enumerate(hand.held):
         at = Pose.of(centre.pos, centre.quat) @ Pose.of(block.place.position, block.place.quaternion)
@@ -82,8 +82,8 @@ def _add_hand(spec: Any, hand: Hand) -> None:
         geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
 
 
-def _let_pass(spec: Any) -> None:
-    """Let pass what always touches: parts of the hand, and the arm's first link and what it stands on."""
+def _exclude_touching(spec: Any) -> None:
+    """Exclude pairs that always touch: parts of the hand, and the arm's first link with its base."""
     hand = [body.name for body in spec.bodies if body.name.startswith(HAND)]
     first = next(body for body in spec.bodies if body.joints and body.name.startswith(ARM))
     feet = [body.name for body in spec.bodies if body.name.startswith(ARM)]
@@ -95,15 +95,15 @@ def _let_pass(spec: Any) -> None:
 def _add_scenery(spec: Any, scenery: Scenery) -> None:
     floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10.0, 10.0, 0.1])
     floor.pos, floor.quat = scenery.floor.position, scenery.floor.quaternion
-    _let_stand(floor)
+    _set_static(floor)
     for index, block in enumerate(scenery.blocks):
-        _let_stand(_box(spec.worldbody, f"block/{index}", block))
+        _set_static(_box(spec.worldbody, f"block/{index}", block))
     for index, thing in enumerate(scenery.modelled):
-        model = _passive(thing.model)
+        model = _passive_model(thing.model)
         for joint in model.joints:
             model.delete(joint)
         for geom in model.geoms:
-            _let_stand(geom)
+            _set_static(geom)
         frame = spec.worldbody.add_frame(pos=thing.place.position, quat=thing.place.quaternion)
         spec.attach(model, prefix=f"thing/{index}/", frame=frame)
 
@@ -114,12 +114,12 @@ def _box(parent: Any, name: str, block: BoxObstacle) -> Any:
     return geom
 
 
-def _let_stand(geom: Any) -> None:
+def _set_static(geom: Any) -> None:
     geom.contype, geom.conaffinity = STANDS, 0
 
 
 def _fingers(model: Any, joints: int, hand: Hand | None) -> Array:
-    """Return where the joints of the fingers are: each takes its share of what stands between them."""
+    """Return the positions of the finger joints: each has its share of the opening."""
     fingers = np.zeros(model.nq)
     if hand is not None:
         tendon = model.tendon(HAND + "opening").id
@@ -130,7 +130,7 @@ def _fingers(model: Any, joints: int, hand: Hand | None) -> Array:
 
 
 def _levers(model: Any, joints: int) -> Array:
-    """Return how far (joints,) in m a point that a joint moves can be from it: along the links, stretched out."""
+    """Return the greatest distance (joints,) in m of a point from each joint that moves it, all links aligned."""
     levers = np.zeros(joints)
     for geom in np.flatnonzero(model.geom_contype == MOVES).tolist():
         for joint, far in _joints_of(model, geom):
@@ -140,7 +140,7 @@ def _levers(model: Any, joints: int) -> Array:
 
 
 def _joints_of(model: Any, geom: int) -> Iterator[tuple[int, float]]:
-    """Yield each joint that moves a geom, and how far in m any part of the geom can be from it."""
+    """Yield each joint that moves a geom, and the greatest distance in m of the geom from it."""
     far = float(np.linalg.norm(model.geom_pos[geom]) + model.geom_rbound[geom])
     for link in _chain(model, int(model.geom_bodyid[geom])):
         first = int(model.body_jntadr[link])
@@ -150,14 +150,14 @@ def _joints_of(model: Any, geom: int) -> Iterator[tuple[int, float]]:
 
 
 def _chain(model: Any, link: int) -> Iterator[int]:
-    """Yield a link and all that carry it, up to but without the world."""
+    """Yield a link and its ancestors, without the world."""
     while link > 0:
         yield link
         link = int(model.body_parentid[link])
 
 
 def _name(model: Any, geom: int, outfit: ArmAssembly, scenery: Scenery) -> str:
-    """Return what people call a geom: a link of the arm, its gripper, what it holds, or what stands around."""
+    """Return the name of a geom for messages: of a link, the gripper, a held object or an obstacle."""
     own, link = model.geom(geom).name, model.body(model.geom_bodyid[geom]).name
     kind, _, index = (own if own.startswith(("block/", HELD)) else link).partition("/")
     match kind:

@@ -1,7 +1,7 @@
-"""A way around obstacles by sampling: RRT-Connect of OMPL, shortened; the extra `motion` installs it.
+"""A path around obstacles by RRT-Connect of OMPL, shortened; the extra `motion` installs OMPL.
 
-J. J. Kuffner, S. M. LaValle, RRT-Connect: an efficient approach to single-query path planning, ICRA 2000. Ended by the
-number of postures that were looked at, not by a clock: the same seed gives the same way on every machine.
+J. J. Kuffner, S. M. LaValle, RRT-Connect: an efficient approach to single-query path planning, ICRA 2000. It ends
+after a number of checks, not after a time, so the same seed gives the same path on every machine.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from skillc_runtime.motion.pose import Array
 
 ROUNDS = 4
-"""How often a way is shortened."""
+"""Number of times a path is shortened."""
 
 
 class SamplerMissing(Exception):
@@ -24,10 +24,10 @@ class SamplerMissing(Exception):
 def sample_path(
     free: Callable[[Array], bool], start: Array, goal: Array, bounds: Array, step: float, most: int, seed: int
 ) -> list[Array] | None:
-    """Return points (n,) on a way from start to goal whose straight pieces are free, None when none was found.
+    """Return the points (n,) of a path from start to goal whose straight segments are free, None if none was found.
 
-    bounds (n, 2) hold start and goal; pieces are looked at every `step`, in the units of the points, at `most` so many
-    times; seed > 0. NoSampler without OMPL.
+    bounds (n, 2) contain start and goal; segments are checked every `step`, in the units of the points, with `most`
+    checks in total; seed > 0. Raises SamplerMissing without OMPL.
     """
     try:
         from ompl import base, geometric, util
@@ -35,7 +35,7 @@ def sample_path(
         raise SamplerMissing from missing
     util.setLogLevel(util.LogLevel.LOG_NONE)
     util.RNG.setSeed(seed)
-    size, looks = len(start), _Looks(free, most)
+    size, looks = len(start), _Checks(free, most)
     space = base.RealVectorStateSpace(size)
     space.setBounds(_bounds(base.RealVectorBounds(size), bounds))
     known = base.SpaceInformation(space)
@@ -55,19 +55,19 @@ def sample_path(
     return [start, *inner, goal]
 
 
-class _Looks:
-    """Tells which points are free, and when enough of them were looked at."""
+class _Checks:
+    """Checks points, and counts the checks."""
 
     def __init__(self, free: Callable[[Array], bool], most: int) -> None:
         self._free, self._left = free, most
 
     def free(self, point: Array) -> bool:
-        """Whether a point is free."""
+        """Return whether a point is free."""
         self._left -= 1
         return self._free(point)
 
     def spent(self) -> bool:
-        """Whether enough points were looked at."""
+        """Return whether all checks have been used."""
         return self._left <= 0
 
 

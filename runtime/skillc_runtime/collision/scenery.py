@@ -1,4 +1,4 @@
-"""What the world model knows to stand around an arm, as plain values in the arm's base frame."""
+"""The obstacles around an arm in the world model, as plain values in the arm's base frame."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from skillc_runtime.world.state.terms import FIXTURE, SIZE, WORKSPACE
 from skillc_runtime.world.state.world_state import WorldState
 
 FAR_M = 3.0
-"""What is farther than this from an arm's base is left out."""
+"""Objects at a greater distance from an arm's base are left out."""
 
 Numbers: TypeAlias = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class PoseKey:
-    """A pose as numbers that can be compared: position m, unit quaternion (w, x, y, z)."""
+    """A pose as hashable numbers: position in m, unit quaternion (w, x, y, z)."""
 
     position: Numbers
     quaternion: Numbers
@@ -33,7 +33,7 @@ class PoseKey:
 
 @dataclass(frozen=True, slots=True)
 class BoxObstacle:
-    """A box: its short name, the place of its middle, half its extent in m."""
+    """A box: its short name, the pose of its centre, half its size in m."""
 
     name: str
     place: PoseKey
@@ -42,7 +42,7 @@ class BoxObstacle:
 
 @dataclass(frozen=True, slots=True)
 class ModelObstacle:
-    """A thing with a model of its own: its short name, its place, the path of its MJCF."""
+    """An object with its own model: its short name, its pose, the path of its MJCF."""
 
     name: str
     place: PoseKey
@@ -51,7 +51,7 @@ class ModelObstacle:
 
 @dataclass(frozen=True, slots=True)
 class Scenery:
-    """What stands around, in order of IRI, and the floor, on which the map's frame lies."""
+    """The obstacles in order of IRI, and the floor, in the plane of the map frame."""
 
     floor: PoseKey
     blocks: tuple[BoxObstacle, ...]
@@ -59,15 +59,15 @@ class Scenery:
 
 
 def pose_key(pose: Pose) -> PoseKey:
-    """Return a pose as numbers, rounded so far that what is the same compares equal: 1 um, 1 urad."""
+    """Return a pose as numbers, rounded to 1 um and 1 urad so that equal poses compare equal."""
     quaternion = quaternion_from_rotation(pose.rotation)
     return PoseKey(tuple(np.round(pose.position, 6).tolist()), tuple(np.round(quaternion, 6).tolist()))
 
 
 def read_scenery(state: WorldState, base: Pose) -> Scenery:
-    """Return everything with a place and an extent or a model around an arm that stands at `base` in the world.
+    """Return all objects with a pose and a size or a model around an arm with its base at `base` in the world.
 
-    What is held by an arm has no place in the world; a workspace is nothing to touch.
+    Objects that an arm holds have no pose in the world; a workspace is not an obstacle.
     """
     inward = base.inverse()
     return Scenery(pose_key(inward), tuple(_blocks(state, inward)), tuple(_modelled(state, inward)))

@@ -1,4 +1,4 @@
-"""Films and stills of a simulated run: frames are sampled while it runs and drawn afterwards.
+"""Films and stills of a simulated run: frames are sampled during the run and rendered afterwards.
 
-Start at `film.Film`; `looks` and its neighbours replace the shipped shapes by meshes of other collections.
+Start with `film.Film`; `looks`, `look_cache` and `look_meshes` replace the shipped shapes by meshes of collections.
 """

@@ -1,4 +1,4 @@
-"""A film of a run, and stills: its postures are kept as they happen, pictures are drawn afterwards."""
+"""A film of a run, and stills: postures are stored during the run, pictures are rendered afterwards."""
 
 from __future__ import annotations
 
@@ -23,28 +23,28 @@ from skillc_runtime.motion.pose import Array
 FILM = "film.mp4"
 FRAMES_PER_S = 12
 SPEED_UP = 4
-"""How much faster than the run the film is."""
+"""Speed of the film relative to the run."""
 
 WIDTH, HEIGHT = 720, 360
-"""Of what is shown of one arm: a view of it, and one of its hand."""
+"""Size in pixels of the picture of one arm: a view of the arm and one of its hand."""
 
 STILL_WIDTH, STILL_HEIGHT = 960, 720
 AZIMUTH_DEG, ELEVATION_DEG, DISTANCE_M = 50.0, -20.0, 2.0
-"""A camera looks over its robot's right shoulder: the azimuth counts from where the arm's base points."""
+"""The camera looks over the robot's right shoulder; the azimuth is relative to the x axis of the arm's base."""
 
 AHEAD_M, ABOVE_M = 0.25, 0.25
-"""The camera looks at a point so far before an arm's base and above it."""
+"""Distance of the point that the camera looks at in front of an arm's base and above it."""
 
 CLOSE_DEG, CLOSE_M, CLOSER_M = -28.0, 0.75, 0.6
-"""Elevation of the camera that looks at a hand, and its distance in films and in stills."""
+"""Elevation of the camera of a hand, and its distance in films and in stills."""
 
 REACH_M = 0.15
-"""How far before its palm a hand works."""
+"""Distance of the point that the camera of a hand looks at from the palm."""
 
 
 @dataclass(frozen=True, slots=True)
 class CameraTarget:
-    """An arm that cameras stay with: the bodies of its base and its hand, and where the base points, in its axes."""
+    """An arm that cameras follow: the bodies of its base and its hand, and the forward direction (3,) of the base."""
 
     body: int
     hand: int
@@ -53,7 +53,7 @@ class CameraTarget:
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A moment of a run, s, in which an arm, by IRI, does something to be looked at."""
+    """A moment of a run, in s, to show in a still, and the arm, by IRI, that it shows."""
 
     title: str
     time: float
@@ -62,7 +62,7 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Still:
-    """A picture of a moment, by the name of its file."""
+    """A still: its title and the name of its file."""
 
     title: str
     file: str
@@ -70,37 +70,39 @@ class Still:
 
 @dataclass(frozen=True, slots=True)
 class FilmFiles:
-    """The names of the files that were made: a film, and stills of some of its moments."""
+    """The names of the written files: a film and stills."""
 
     film: str
     stills: tuple[Still, ...]
 
 
 class Film:
-    """Takes what moves every so often.
+    """Samples frames of a run and renders them.
 
-    Each arm has a camera that stays with it, and one that stays with its hand; what arms do is shown side by side.
+    One camera follows each arm, and one its hand; all are shown side by side.
     """
 
     def __init__(self, cell: SimulatedCell, drawn: mujoco.MjModel | None = None) -> None:
-        """Watch a cell; `drawn` is what it looks like, a model with the same joints, if not its own."""
+        """Film a cell; `drawn` is the model to render, with the same joints, if it is not that of the cell."""
         self._cell, self._drawn = cell, cell.model if drawn is None else drawn
         self._frames: list[tuple[Array, Array, Array]] = []
-        self._arms = {arm.individual: _watched(cell, arm) for arm in cell.scene.arms}
+        self._arms = {arm.individual: _camera_target(cell, arm) for arm in cell.scene.arms}
         places = ((cell.ground_truth.surface_pose(each.individual), each) for each in cell.scene.surfaces)
         present = ((pose, each) for pose, each in places if cell.variation.of(each.individual).present)
         self._props = tuple(prop for pose, each in present for prop in make_props(pose, each.size))
 
     def sample(self) -> None:
-        """Take a frame if it is time for one."""
+        """Sample a frame if one is due."""
         if self._cell.now * FRAMES_PER_S / SPEED_UP >= len(self._frames):
             data = self._cell.data
             self._frames.append((data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy()))
 
     def write(self, directory: Path, moments: Sequence[Moment] = ()) -> FilmFiles:
-        """Draw all frames as film.mp4, and stills of some moments as PNG; each file is written whole or not at all.
+        """Render all frames to film.mp4, and stills of some moments to PNG.
 
-        FilmError or RenderingError where that is not possible, OSError where the folder cannot be written to.
+        Each file is written completely or not at all.
+
+        Raises FilmError or RenderingError if that is not possible, OSError if the folder cannot be written to.
         """
         if not self._arms:
             raise FilmError("there is no arm in the scene for a camera to stay with")
@@ -113,24 +115,24 @@ class Film:
         return FilmFiles(FILM, stills)
 
     def pictures(self) -> Iterator[Picture]:
-        """Draw the frames, one after the other, each (HEIGHT, WIDTH times the number of arms, 3)."""
+        """Render the frames, each (HEIGHT, WIDTH times the number of arms, 3)."""
         with self._drawing(WIDTH, HEIGHT, "film") as (renderer, data):
             for frame in self._frames:
                 self._show(data, frame)
                 pictures = [
-                    renderer.picture(data, (_whole(data, arm), _close(data, arm))) for arm in self._arms.values()
+                    renderer.picture(data, (_arm_view(data, arm), _hand_view(data, arm))) for arm in self._arms.values()
                 ]
                 yield np.concatenate(pictures, axis=1)
 
     def stills(self, moments: Sequence[Moment]) -> Iterator[Picture]:
-        """Draw some moments from nearby, each (STILL_HEIGHT, STILL_WIDTH, 3)."""
+        """Render close views of some moments, each (STILL_HEIGHT, STILL_WIDTH, 3)."""
         if not moments:
             return
         with self._drawing(STILL_WIDTH, STILL_HEIGHT, "still") as (renderer, data):
             for moment in moments:
                 at = min(round(moment.time * FRAMES_PER_S / SPEED_UP), len(self._frames) - 1)
                 self._show(data, self._frames[at])
-                yield renderer.picture(data, (_close(data, self._arms[moment.arm], CLOSER_M),))
+                yield renderer.picture(data, (_hand_view(data, self._arms[moment.arm], CLOSER_M),))
 
     @contextmanager
     def _drawing(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:
@@ -145,7 +147,7 @@ class Film:
         mujoco.mj_forward(self._drawn, data)
 
 
-def _watched(cell: SimulatedCell, arm: ArmSpec) -> CameraTarget:
+def _camera_target(cell: SimulatedCell, arm: ArmSpec) -> CameraTarget:
     model, own = cell.model, part_name(cell.scene.names[arm.individual], "")
     joint = next(each for each in range(model.njnt) if model.joint(each).name.startswith(own))
     body = int(model.body_parentid[model.jnt_bodyid[joint]])
@@ -155,15 +157,15 @@ def _watched(cell: SimulatedCell, arm: ArmSpec) -> CameraTarget:
     return CameraTarget(body, hand, cell.data.xmat[body].reshape(3, 3).T @ arm.base.rotation[:, 0])
 
 
-def _whole(data: Any, arm: CameraTarget) -> CameraView:
-    """Look at an arm."""
+def _arm_view(data: Any, arm: CameraTarget) -> CameraView:
+    """Return the view of an arm."""
     forward = _forward(data, arm)
     focus = data.xpos[arm.body] + AHEAD_M * forward + np.array([0.0, 0.0, ABOVE_M])
     return CameraView(focus, DISTANCE_M, _heading_deg(forward) + AZIMUTH_DEG, ELEVATION_DEG)
 
 
-def _close(data: Any, arm: CameraTarget, distance: float = CLOSE_M) -> CameraView:
-    """Look at what an arm has in its hand."""
+def _hand_view(data: Any, arm: CameraTarget, distance: float = CLOSE_M) -> CameraView:
+    """Return the view of the hand of an arm."""
     focus = data.xpos[arm.hand] + REACH_M * data.xmat[arm.hand].reshape(3, 3)[:, 2]
     return CameraView(focus, distance, _heading_deg(_forward(data, arm)) + AZIMUTH_DEG, CLOSE_DEG)
 

@@ -1,6 +1,6 @@
-"""Keeps folders of model collections in the user's cache; what is not there is fetched by Git, which checks every byte.
+"""Stores folders of model collections in the user's cache; missing ones are fetched by Git, which verifies them.
 
-Of a collection only the folders that are asked for are fetched, at its commit, without history. A repository's address
+Only the requested folders of a collection are fetched, at its commit, without history. A repository's address
 can be changed as with any use of Git: `git config --global url.MIRROR.insteadOf ADDRESS`.
 """
 
@@ -15,14 +15,14 @@ from skillc_dsl.cache import VARIABLE, cache_folder
 from skillc_runtime.film.looks import Collection, LooksError
 
 SLOW_BYTES_S, SLOW_S = 1000, 30
-"""A connection that is slower than this for so long is given up."""
+"""A connection that is slower than this for this time is closed."""
 
 CONFUSING = ("GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE", "GIT_OBJECT_DIRECTORY", "GIT_COMMON_DIR")
-"""What a hook of the user's own repository would make Git work on."""
+"""Variables that make Git work on another repository, for example in a hook."""
 
 
 def model_file(collection: Collection, path: str) -> Path:
-    """Return a model's file, fetched with its folder if need be; LooksError where that fails says what to put where."""
+    """Return a model's file, fetched with its folder if necessary; LooksError with instructions if that fails."""
     folder, _, rest = path.partition("/")
     kept = _place(collection) / folder
     if not kept.is_dir():
@@ -33,7 +33,7 @@ def model_file(collection: Collection, path: str) -> Path:
 
 
 def _place(collection: Collection) -> Path:
-    """Return where a collection's folders are kept."""
+    """Return the folder of a collection in the cache."""
     base = cache_folder()
     if base is None:
         raise LooksError(f"there is no home to keep {collection.name} in; name a folder in {VARIABLE}")
@@ -41,7 +41,7 @@ def _place(collection: Collection) -> Path:
 
 
 def _fetch(collection: Collection, folder: str, kept: Path) -> None:
-    """Fetch a folder, whole or not at all, whoever else does."""
+    """Fetch a folder completely or not at all; other processes may do the same."""
     try:
         kept.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=kept.parent, prefix=".new-") as new:
@@ -51,15 +51,15 @@ def _fetch(collection: Collection, folder: str, kept: Path) -> None:
             if not kept.is_dir():
                 Path(new, folder).replace(kept)
     except FileNotFoundError as error:
-        raise _unfetched(collection, folder, kept, "git is not installed") from error
+        raise _fetch_error(collection, folder, kept, "git is not installed") from error
     except subprocess.CalledProcessError as error:
-        raise _unfetched(collection, folder, kept, _said(error.stderr)) from error
+        raise _fetch_error(collection, folder, kept, _git_error(error.stderr)) from error
     except OSError as error:
         raise LooksError(f"cannot write to {kept.parent}: {error.strerror or error}") from error
 
 
 def _check_out(collection: Collection, folder: str, place: str) -> None:
-    """Check one folder of the collection out; only its files are fetched, each of the content that the commit says."""
+    """Check out one folder of the collection; only its files are fetched."""
     _git(place, "init", "--quiet")
     _git(place, "remote", "add", "origin", collection.repository)
     _git(place, "fetch", "--quiet", "--depth", "1", "--filter", "blob:none", "origin", collection.commit)
@@ -80,14 +80,14 @@ def _git(place: str, *words: str) -> None:
     )
 
 
-def _said(stderr: bytes) -> str:
-    """Return Git's own reason: the last line that it calls fatal, else its last."""
+def _git_error(stderr: bytes) -> str:
+    """Return the reason that Git gives: its last line that begins with `fatal`, else its last line."""
     lines = [line for line in stderr.decode(errors="replace").splitlines() if line.strip()]
     fatal = [line for line in lines if line.startswith("fatal: ")]
     return (fatal or lines or ["git failed"])[-1].removeprefix("fatal: ")
 
 
-def _unfetched(collection: Collection, folder: str, kept: Path, why: str) -> LooksError:
+def _fetch_error(collection: Collection, folder: str, kept: Path, why: str) -> LooksError:
     return LooksError(
         f"the models of {collection.name} are not in the cache and cannot be fetched: {why}\n"
         f"by hand: put the folder {folder} of {collection.repository} at commit {collection.commit[:12]} "

@@ -1,6 +1,6 @@
-"""Draws devices with the meshes of somebody else's models: a second model of a scene, for pictures only.
+"""Builds a second model of a scene, for pictures only, with the meshes of a model collection for devices.
 
-The physics never sees it. It has the same joints in the same order, so postures of the one are postures of the other.
+It has the same joints in the same order as the simulated model, so postures apply to both.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from skillc_runtime.film.looks import Look, Looks, LooksError
 from skillc_runtime.motion.pose import Pose, exp, log, quaternion_from_rotation
 
 FAR_M, FAR_RAD = 0.005, 0.02
-"""How differently from the device's own links those of a look may move: models are rounded."""
+"""Greatest difference between the motion of links of a device and of its look; models have rounded numbers."""
 
 HINGE_RAD, SLIDE_M = 0.4, 0.01
-"""How far joints are moved to compare two models."""
+"""Joint displacements with which two models are compared."""
 
 
 def build_look_model(spec: Any, looks: Looks) -> mujoco.MjModel:
@@ -34,7 +34,7 @@ def build_look_model(spec: Any, looks: Looks) -> mujoco.MjModel:
 
 
 def _dress(spec: Any, look: Look, file: Path) -> None:
-    """Take a device's own shapes away and add the meshes of its look, each to the link that moves as its own does."""
+    """Remove a device's own shapes and add the meshes of its look, each to the corresponding link."""
     theirs = _read(file)
     model = _compiled(theirs, look.model)
     ours = mujoco.MjModel.from_xml_path(str(look.own))
@@ -64,7 +64,7 @@ def _compiled(spec: Any, name: str) -> mujoco.MjModel:
 
 
 def _turn(ours: Any, theirs: Any, look: Look) -> Pose:
-    """Return how a look's base is turned in the device's: by the quarter turn with which its links move alike."""
+    """Return the rotation of a look's base in the device's: the quarter turn with which their links move equally."""
     if ours.njnt != theirs.njnt:
         raise LooksError(f"{look.model} has {theirs.njnt} joints and {look.device} has {ours.njnt}")
     quarters = [Pose(np.zeros(3), exp(np.array([0.0, 0.0, k * np.pi / 2]))) for k in range(4)]
@@ -76,7 +76,7 @@ def _turn(ours: Any, theirs: Any, look: Look) -> Pose:
 
 
 def _difference(ours: Any, theirs: Any, turn: Pose) -> float:
-    """Return how differently the links of two models move when their joints do; up to 1 is allowed."""
+    """Return the difference of the motions of links of two models; up to 1 is allowed."""
     places = [zip(_links(ours, at_rest), _links(theirs, at_rest), strict=True) for at_rest in (True, False)]
     rest, bent = ([one.inverse() @ turn @ other for one, other in pairs] for pairs in places)
     moves = [before.inverse() @ after for before, after in zip(rest, bent, strict=True)]
@@ -86,7 +86,7 @@ def _difference(ours: Any, theirs: Any, turn: Pose) -> float:
 
 
 def _placed(model: Any, at_rest: bool) -> Any:
-    """Return where everything of a model is with its joints at zero, or all of them away from it."""
+    """Return the kinematics of a model with its joints at zero, or all of them displaced."""
     data = mujoco.MjData(model)
     if not at_rest:
         data.qpos[:] += np.where(model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE, SLIDE_M, HINGE_RAD)
@@ -95,7 +95,7 @@ def _placed(model: Any, at_rest: bool) -> Any:
 
 
 def _links(model: Any, at_rest: bool) -> list[Pose]:
-    """Return where the links are, seen from where the model is mounted: the base, then what each joint moves."""
+    """Return the poses of the links in the frame of the model: the base, then the link of each joint."""
     data = _placed(model, at_rest)
     return [Pose(data.xpos[body].copy(), data.xmat[body].reshape(3, 3).copy()) for body in _bodies(model)]
 
@@ -106,27 +106,27 @@ def _bodies(model: Any) -> list[int]:
 
 
 def _link_of(model: Any, body: int) -> int:
-    """Return the number of the link that a body belongs to: of the nearest joint above it, 0 for the base."""
+    """Return the index of the link that a body belongs to, 0 for the base."""
     while body != 0 and model.body_jntnum[body] == 0:
         body = int(model.body_parentid[body])
     return 0 if body == 0 else int(model.body_jntadr[body]) + 1
 
 
 def _meshes_of(model: Any) -> list[int]:
-    """Return the geoms that are there to be seen: meshes that touch nothing."""
+    """Return the visual geoms: meshes without contact."""
     seen = (model.geom_type == mujoco.mjtGeom.mjGEOM_MESH) & (model.geom_contype == 0) & (model.geom_conaffinity == 0)
     return [int(geom) for geom in np.flatnonzero(seen)]
 
 
 def _authored(model: Any, data: Any, geom: int) -> Pose:
-    """Return where a mesh's own frame is: MuJoCo moves meshes to their centres and turns them to their main axes."""
+    """Return the pose of a mesh's own frame; MuJoCo moves meshes to their centres and principal axes."""
     mesh = int(model.geom_dataid[geom])
     centred = Pose(data.geom_xpos[geom].copy(), data.geom_xmat[geom].reshape(3, 3).copy())
     return centred @ Pose.of(model.mesh_pos[mesh], model.mesh_quat[mesh]).inverse()
 
 
 def _add_mesh(spec: Any, body: Any, look: Look, theirs: Any, model: Any, geom: int, pose: Pose) -> None:
-    """Add a mesh of a look to a body of the scene, without mass and touching nothing, in its colour."""
+    """Add a mesh of a look to a body of the scene, without mass and contact, in its colour."""
     mesh = theirs.mesh(model.mesh(int(model.geom_dataid[geom])).name)
     name = part_name(look.device, f"look/{mesh.name or Path(mesh.file).stem}")
     if spec.mesh(name) is None:

@@ -1,4 +1,4 @@
-"""How devices look in films: which models of which collection may be drawn for them, as the facts say."""
+"""The looks of devices in films: models of a collection that are rendered for them, from facts of the scene."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ HAS_LOOK, IN_COLLECTION, LOOK_MODEL = SKILLC + "hasLook", SKILLC + "inCollection
 
 
 class LooksError(ValueError):
-    """Devices cannot be drawn as wished; the message says why, and what to do."""
+    """Devices cannot be rendered with these looks; the message says why, and what to do."""
 
 
 @dataclass(frozen=True, slots=True)
 class Collection:
-    """Models that somebody publishes as a Git repository, at one commit."""
+    """Models that are published as a Git repository, at one commit."""
 
     name: str
     repository: str
@@ -30,7 +30,7 @@ class Collection:
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """A device by its name in the simulation, its own model, and what is drawn in its place: a path in a collection."""
+    """A device by its name in the simulation, its own model, and the path of its look in a collection."""
 
     device: str
     own: Path
@@ -39,16 +39,16 @@ class Look:
 
 @dataclass(frozen=True, slots=True)
 class Looks:
-    """What is drawn otherwise than it ships."""
+    """A collection and the looks of devices from it."""
 
     collection: Collection
     looks: tuple[Look, ...]
 
 
 def read_looks(state: WorldState, scene: SceneSpec, name: str) -> Looks:
-    """Return how a scene's devices look in a collection.
+    """Return the looks of a scene's devices in a collection.
 
-    LooksError where there is no collection of this name, or none of its models is a device's of this scene.
+    Raises LooksError if there is no collection of this name, or it has no model of any device of this scene.
     """
     collections = {text_of(state, iri, COLLECTION_NAME): iri for iri in sorted(state.instances(COLLECTION))}
     if name not in collections:
@@ -65,7 +65,7 @@ def _devices(scene: SceneSpec) -> list[ArmSpec | GripperSpec]:
 
 
 def _looks_of(state: WorldState, scene: SceneSpec, device: ArmSpec | GripperSpec, collection: str) -> list[Look]:
-    """Return how one device looks in a collection: one look, or none."""
+    """Return the look of one device in a collection: one, or none."""
     there = [
         look
         for look in sorted(state.objects(sheet_of(state, device.individual).individual, HAS_LOOK))

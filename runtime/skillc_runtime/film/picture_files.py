@@ -1,4 +1,4 @@
-"""Writes pictures as files: one after the other as a film, or one by one."""
+"""Writes pictures to files: as a film, or one by one."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ class FilmError(RuntimeError):
 
 
 def write_film(path: Path, pictures: Iterable[Picture], width: int, height: int, rate: int) -> None:
-    """Write pictures (height, width, 3) as MP4 of `rate` pictures a second, whole or not at all.
+    """Write pictures (height, width, 3) as MP4 of `rate` pictures a second, completely or not at all.
 
-    FilmError where that is not possible, OSError where the path cannot be written.
+    Raises FilmError if that is not possible, OSError if the path cannot be written.
     """
     try:
         import av
     except ImportError as error:
         raise FilmError("films need PyAV: pip install 'skillc[video]'") from error
-    with _whole(path) as partial, av.open(str(partial), "w", format="mp4") as container:
+    with _partial_file(path) as partial, av.open(str(partial), "w", format="mp4") as container:
         stream: Any = container.add_stream("libx264", rate=rate)
         stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
         for picture in pictures:
@@ -36,14 +36,14 @@ def write_film(path: Path, pictures: Iterable[Picture], width: int, height: int,
 
 
 def write_picture(path: Path, picture: Picture) -> None:
-    """Write a picture as PNG, whole or not at all; OSError where the path cannot be written."""
-    with _whole(path) as partial:
+    """Write a picture as PNG, completely or not at all; OSError if the path cannot be written."""
+    with _partial_file(path) as partial:
         imsave(partial, np.ascontiguousarray(picture), format="png", metadata={"Software": ""})
 
 
 @contextmanager
-def _whole(path: Path) -> Iterator[Path]:
-    """Give a path to write to, which becomes `path` in the end."""
+def _partial_file(path: Path) -> Iterator[Path]:
+    """Yield a path to write to, which replaces `path` at the end."""
     partial = path.with_name(f"{path.name}.part")
     try:
         yield partial

@@ -1,4 +1,4 @@
-"""What pictures show besides the model: a wall behind an upright surface, legs under a lying one."""
+"""Boxes that pictures show in addition to the model: a wall behind an upright surface, legs under a horizontal one."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 
 UPRIGHT = 0.7
-"""A surface whose normal points up less than this share stands."""
+"""A surface is upright if the vertical component of its normal is smaller."""
 
 LEG_M, WALL_M, BEHIND_M, AROUND_M = 0.03, 0.02, 0.03, 0.08
-"""Thickness of legs and of a wall, room between a surface and a wall, how far a wall reaches beyond a surface."""
+"""Thickness of legs and of a wall, gap between surface and wall, overhang of a wall beyond a surface."""
 
 LEG_RGBA, WALL_RGBA = (0.45, 0.47, 0.5, 1.0), (0.72, 0.76, 0.8, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Prop:
-    """A box in the world: the pose of its middle, its size (3,) m, its colour."""
+    """A box in the world: the pose of its centre, its size (3,) in m, its colour."""
 
     pose: Pose
     size: Array
@@ -29,7 +29,7 @@ class Prop:
 
 
 def make_props(surface: Pose, size: Array) -> tuple[Prop, ...]:
-    """Return what holds up a surface: its frame in the middle of its face, z the normal; size (3,) m."""
+    """Return what supports a surface of size (3,) in m; its frame is at the centre of its face, z the normal."""
     lying = surface.rotation[2, 2] > UPRIGHT
     return tuple(_legs(surface, size) if lying else _wall(surface, size))
 

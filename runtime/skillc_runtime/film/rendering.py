@@ -1,4 +1,4 @@
-"""Pictures of a simulated cell, drawn off screen where a GL library is installed."""
+"""Renders pictures of a simulated cell off screen, with a GL library."""
 
 from __future__ import annotations
 
@@ -17,32 +17,32 @@ from skillc_runtime.motion.pose import Array
 
 Picture = NDArray[np.uint8]
 Quality: TypeAlias = Literal["film", "still"]
-"""A still has shadows and smooth edges; where a processor draws, each costs as much as a picture of a film."""
+"""A still has shadows and smooth edges, each of which takes as long as a picture of a film without a GPU."""
 
 SAMPLES = {"film": 2, "still": 8}
-"""Samples a pixel."""
+"""Samples per pixel."""
 
 LIGHT_FROM = (-0.35, 0.5, -1.0)
-"""Where the light shines: it is as far as the sun, so that whatever drives about is lit alike."""
+"""Direction of the light, which is directional so that moving robots are lit equally everywhere."""
 
 SUN, HEADLIGHT = 0.45, (0.4, 0.33)
-"""How bright the light is; how much the camera's brightens everything, and what faces it."""
+"""Brightness of the light; ambient and diffuse brightness of the light at the camera."""
 
 SHADOW_M, SHADOW_PIXELS = 1.5, 8192
-"""How far from the middle of a still shadows reach, and how many pixels the map of them has."""
+"""Distance from the centre of a still up to which there are shadows, and pixels of the shadow map."""
 
 MOST_GEOMS = 2000
 PLATFORMS = {"EGL": "egl", "OSMesa": "osmesa"}
-"""GL libraries that draw without a screen, and what PyOpenGL calls them."""
+"""GL libraries that render off screen, and their names in PyOpenGL."""
 
 
 class RenderingError(RuntimeError):
-    """There is no GL library that draws off screen; the message says how to get one."""
+    """There is no GL library that renders off screen; the message says how to install one."""
 
 
 @dataclass(frozen=True, slots=True)
 class CameraView:
-    """A camera that looks at a point (3,) of the world from `distance` m."""
+    """A camera that looks at a point (3,) in m of the world from `distance` m."""
 
     point: Array
     distance: float
@@ -51,16 +51,16 @@ class CameraView:
 
 
 def check_rendering() -> str:
-    """Draw one picture and return the name of the GL library that did; RenderingError where none can."""
+    """Render one picture and return the name of the GL library; RenderingError if there is none."""
     renderer = Renderer(mujoco.MjModel.from_xml_string("<mujoco/>"), 16, 16)
     renderer.close()
     return renderer.library
 
 
 class Renderer:
-    """Draws a model's states, width x height pixels, and some props that the model does not have.
+    """Renders states of a model, with props, to pictures of width x height pixels.
 
-    RenderingError when there is no GL library.
+    Raises RenderingError if there is no GL library.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class Renderer:
         self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = quality == "still"
         self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
         self._camera, self._option = mujoco.MjvCamera(), mujoco.MjvOption()
-        self._option.sitegroup[:] = 0  # places that only programs need
+        self._option.sitegroup[:] = 0  # sites are not shown
 
     def picture(self, data: Any, views: Sequence[CameraView]) -> Picture:
         """Return the picture (height, width, 3) of a state: views side by side, equally wide."""
@@ -93,7 +93,7 @@ class Renderer:
         return pixels[::-1]
 
     def close(self) -> None:
-        """Give the GL resources back."""
+        """Release the GL resources."""
         self._gl.free()
         self._context.free()
 
@@ -104,7 +104,7 @@ class Renderer:
         everything = mujoco.mjtCatBit.mjCAT_ALL
         mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, everything, self._scene)
         for light in self._scene.lights[: self._scene.nlight]:
-            _shine(light)
+            _set_light(light)
         for prop in self._props:
             self._add(prop)
         mujoco.mjr_render(where, self._scene, self._gl)
@@ -117,8 +117,8 @@ class Renderer:
         self._scene.ngeom += 1
 
 
-def _shine(light: Any) -> None:
-    """Make the sun of a lamp, and let the light from the camera only brighten what the sun leaves dark."""
+def _set_light(light: Any) -> None:
+    """Make a light directional, and let the light at the camera brighten only dark parts."""
     if light.headlight:
         light.ambient[:], light.diffuse[:] = HEADLIGHT
         return
@@ -128,7 +128,7 @@ def _shine(light: Any) -> None:
 
 
 def _context(width: int, height: int) -> tuple[str, Any]:
-    """Return the first GL context that can be made, with its library's name."""
+    """Return the first GL context that can be created, with the name of its library."""
     reasons = []
     for library, platform in PLATFORMS.items():
         if ctypes.util.find_library(library) is None:
@@ -136,14 +136,14 @@ def _context(width: int, height: int) -> tuple[str, Any]:
         if os.environ.setdefault("PYOPENGL_PLATFORM", platform) != platform:
             continue
         try:
-            return library, _made(library, width, height)
+            return library, _create_context(library, width, height)
         except (ImportError, AttributeError, RuntimeError) as error:
             reasons.append(f"{library}: {error}")
     tried = f" ({'; '.join(reasons)})" if reasons else ""
     raise RenderingError(f"no GL library draws off screen{tried}; on Debian: apt install libegl1 libgl1-mesa-dri")
 
 
-def _made(library: str, width: int, height: int) -> Any:
+def _create_context(library: str, width: int, height: int) -> Any:
     if library == "EGL":
         from mujoco.egl import GLContext
     else:

@@ -60,10 +60,10 @@ class ReleaseAxis(Primitive):
 
 
 class Push(Primitive):
-    """Approach what lies opposite to `along` (3,) at `approach` m/s, then press on it with `force` N in the scope.
+    """Approaches a surface opposite to `along` (3,) at `approach` m/s, then presses on it with `force` N in the scope.
 
-    Where what bears the press gives way, a hole, an edge, the tool goes on as it approached until it is borne again.
-    Fails when nothing is met within `travel` m; stops the arm when, later, contact is lost and it sinks by as much.
+    If contact is lost, at a hole or an edge, the tool approaches again. Fails if there is no contact within `travel` m;
+    stops the arm if the tool later sinks by as much.
     """
 
     activity = "press"

@@ -1,4 +1,4 @@
-"""An arm in the simulation: what it measures and carries; `motors` says how it moves."""
+"""A simulated arm: its measurements and its payload; `motors` moves it."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, Comman
 from skillc_runtime.motion.pose import Array, Pose
 
 MASS_MATRIX_PERIOD_S = 0.01
-"""The mass matrix changes slowly; it is computed anew at 100 Hz."""
+"""Period with which the mass matrix, which changes slowly, is computed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Payload:
-    """What the arm believes to carry beside its gripper: mass kg, centre of mass (3,) m in the last link's frame."""
+    """The assumed payload of an arm without its gripper: mass kg, centre of mass (3,) m in the last link's frame."""
 
     mass_kg: float
     centre: Array
@@ -45,8 +45,8 @@ NO_PAYLOAD = Payload(0.0, np.zeros(3))
 class SimulatedArm:
     """One arm of a simulated cell, implementing `Arm`.
 
-    Reads what `mj_step1` left in `data`, so it is called between `mj_step1` and `mj_step2`. There is one state, a
-    read-only view of this object's buffers, renewed by every call of `state`.
+    It reads the results of `mj_step1` in `data`, so it is called between `mj_step1` and `mj_step2`. There is one state,
+    a read-only view of this object's buffers, updated by every call of `state`.
     """
 
     def __init__(
@@ -87,21 +87,21 @@ class SimulatedArm:
 
     @property
     def capabilities(self) -> Capabilities:
-        """What the arm offers."""
+        """The capabilities of the arm."""
         return Capabilities(self._motors.modes, self._wrist is not None, self.limits)
 
     @property
     def interface(self) -> Mode:
-        """Which command the arm takes."""
+        """The kind of commands that the arm takes."""
         return self._motors.mode
 
     def switch(self, mode: Mode) -> None:
-        """Take commands of this kind, at rest until the first; ModeRefused for any that the arm does not offer."""
+        """Take commands of this kind, at rest until the first; ModeRefused if the arm does not offer it."""
         self._motors.switch(mode)
 
     @property
     def base(self) -> Pose:
-        """The arm's base in the world."""
+        """The pose of the arm's base in the world."""
         live = self._sensing.base
         return Pose(live.position.copy(), live.rotation.copy())
 
@@ -114,20 +114,20 @@ class SimulatedArm:
         return self._state
 
     def command(self, command: Command) -> None:
-        """Take a command for the next step; TypeError for a kind the interface does not take."""
+        """Take a command for the next step; TypeError for another kind than `interface`."""
         self._motors.command(command)
 
     def before_step(self) -> None:
-        """Move as commanded; one that is not commanded any more is braked."""
+        """Move as commanded, or brake if commands have stopped."""
         self._motors.before_step()
 
     def after_step(self) -> None:
-        """Filter the wrist sensor; to be called once a step."""
+        """Filter the wrist sensor; to be called once per step."""
         if self._wrist is not None:
             self._wrist.sample()
 
     def carry(self, payload: Payload, tool_in_fixed: Pose) -> None:
-        """Configure what the gripper holds: its weight, and the tool centre point relative to the gripper's own."""
+        """Configure a held object: its payload, and the tool centre point in the frame of the gripper's own."""
         self._configure(payload, self.fixed_tool @ tool_in_fixed)
 
     def carry_nothing(self) -> None:
@@ -184,19 +184,19 @@ class SimulatedArm:
 
 
 def _live_body(data: Any, body: int) -> Pose:
-    """Return where a body is in the world, changing with the simulation."""
+    """Return the pose of a body in the world; its arrays change with the simulation."""
     return Pose(data.xpos[body], data.xmat[body].reshape(3, 3))
 
 
 def _blank(joints: Array, tool: Pose) -> ArmState:
-    """Return a state of which q, dq and bias are rows of `joints`."""
+    """Return a state whose q, dq and bias are rows of `joints`."""
     count = joints.shape[1]
     jacobian, mass = np.zeros((6, count)), np.zeros((count, count))
     return ArmState(joints[Q], joints[SPEED], tool, jacobian, mass, joints[BIAS], np.zeros(6))
 
 
 def _read_only(state: ArmState) -> ArmState:
-    """Return views of the same arrays through which nothing can be written."""
+    """Return read-only views of the same arrays."""
     tool = Pose(*(_view(part) for part in (state.tool.position, state.tool.rotation)))
     q, dq, jacobian, mass, bias, wrench = map(
         _view, (state.q, state.dq, state.jacobian, state.mass_matrix, state.bias, state.wrench)
@@ -217,7 +217,7 @@ def _wrist(facts: ArmSpec, gripper: str | None, model: Any, data: Any, seed: int
 
 
 def _actuator_of(joint: int, model: Any) -> int:
-    """Return the actuator that moves a joint; those of tendons count tendons where others count joints."""
+    """Return the actuator of a joint; `actuator_trnid` of other actuators may be the index of a tendon."""
     on_joints = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
     return int(np.flatnonzero(on_joints & (model.actuator_trnid[:, 0] == joint))[0])
 
@@ -230,7 +230,7 @@ def _root_body(model: Any, body: int, prefix: str) -> int:
 
 
 def _fixed_tool(model: Any, name: str, gripper: str | None) -> Pose:
-    """Return the gripper's own tool centre point, or the flange of an arm without gripper, in the last link's frame."""
+    """Return the gripper's tool centre point, or the flange of an arm without gripper, in the last link's frame."""
     flange = _in_body(model.site(part_name(name, "flange")))
     return flange if gripper is None else flange @ _in_body(model.site(part_name(gripper, "tcp")))
 

@@ -1,4 +1,4 @@
-"""What is fixed to an arm's last link, seen from the arm's base, and how it moves with the joints."""
+"""The measurements of a simulated arm: joints, tool centre point, Jacobian, payload and wrench, in its base frame."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ TOOL = 6
 """The row of the tool centre point."""
 
 LEVER = 7
-"""The row of what leads from there to the payload's centre of mass."""
+"""The row of the vector from there to the payload's centre of mass."""
 
 Q, SPEED, BIAS, CARRYING = range(4)
-"""Rows of what is measured at the joints; the last are the torques that carry a payload."""
+"""Rows of the joint measurements; the last are the torques that carry a payload."""
 
 
 class LastLink:
     """Tool centre point, wrist axes and payload of an arm; all arrays are reused.
 
     tool: the tool centre point; lever (3,): from there to the payload's centre of mass; in the arm's base frame, as of
-    the last call of `see_hand`. `on_link` and `in_base` hold all of it, and the wrist's axes, one vector a row.
+    the last call of `update_hand`. `on_link` and `in_base` hold all of it, and the wrist's axes, one vector a row.
     """
 
     def __init__(self) -> None:
@@ -34,7 +34,7 @@ class LastLink:
         self.lever = self.in_base[LEVER]
 
     def configure(self, tool: Pose, wrist: Array, payload: Array) -> None:
-        """Take the tool centre point, the wrist's axes (3, 3) and the payload's centre (3,), in the link's frame."""
+        """Set the tool centre point, the wrist's axes (3, 3) and the payload's centre (3,) m, in the link's frame."""
         self.on_link[:3], self.on_link[3:6] = tool.rotation.T, wrist.T
         self.on_link[TOOL], self.on_link[LEVER] = tool.position, payload - tool.position
 
@@ -43,7 +43,7 @@ class LastLink:
 def add_payload_bias(
     bias: OutVector, carrying: OutVector, weight: Vector, base_rotation: Matrix, lever: Vector, J: Matrix
 ) -> None:
-    """Add to `bias` (nv,) what carries a payload: J^T [w; r x w], w = -m g, in the world, at r from the tool centre."""
+    """Add to `bias` (nv,) the torques that carry a payload: J^T [w; r x w], w = -m g, at r from the tool centre."""
     load = np.empty(6)
     transposed_times(base_rotation, weight, load[:3])
     cross(lever, load[:3], load[3:])
@@ -63,11 +63,11 @@ def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matr
 
 @dataclass(frozen=True, slots=True)
 class ArmSensing:
-    """What `measure` reads and writes for one arm; all arrays are reused or change with the simulation.
+    """The inputs and outputs of `measure` for one arm; all arrays are reused or change with the simulation.
 
     Written, in the arm's base frame. joints (4, nv): Q rad, SPEED rad/s, BIAS and CARRYING N m; in_base (8, 3): see
     `Hand`; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
-    tool, zeros where there is no sensor.
+    tool, zeros without sensor.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): see `Hand`. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
@@ -93,7 +93,7 @@ class ArmSensing:
 
 @inlined
 def update_hand(arm: ArmSensing) -> None:
-    """Compute, in base axes, what is on the link, and the Jacobian (6, nv) of the tool centre point.
+    """Compute, in base axes, the vectors of the last link and the Jacobian (6, nv) of the tool centre point.
 
     motion_axes: [angular; linear] velocity at `centre` per joint speed. With d = tool - centre and base axes a_i:
     a_i . (v + w x d) = a_i . v + (d x a_i) . w.
@@ -114,7 +114,7 @@ def update_hand(arm: ArmSensing) -> None:
 
 @compiled
 def measure(arm: ArmSensing, noise: Vector) -> None:
-    """Compute what an arm measures: hand and Jacobian; speeds with noise (nv,) rad/s, bias with a payload's; wrench."""
+    """Compute the measurements: hand, Jacobian, speeds with noise (nv,) in rad/s, bias with payload, and wrench."""
     joints, J, axes = arm.joints, arm.jacobian, arm.base.rotation
     update_hand(arm)
     for j in range(arm.q.size):
@@ -125,7 +125,7 @@ def measure(arm: ArmSensing, noise: Vector) -> None:
 
 @compiled
 def add_payload_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: float) -> None:
-    """Add to a mass matrix (nv, nv) that of a payload as a point: m J_c^T J_c with J_c = J_v - lever x J_w."""
+    """Add to a mass matrix (nv, nv) that of a point payload: m J_c^T J_c with J_c = J_v - lever x J_w."""
     joints = J.shape[1]
     at_centre, moved, spun = np.empty((3, joints)), np.empty(3), np.empty((joints, joints))
     for j in range(joints):

@@ -1,4 +1,4 @@
-"""A mobile base in the simulation: it turns, goes straight and turns again, each with trapezoidal speed."""
+"""A simulated mobile base: it rotates, drives straight and rotates again, each with a trapezoidal profile."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotatio
 from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 
 NEAR_M = 1e-3
-"""Shorter ways, in m or rad, are not driven."""
+"""Shorter motions, in m or rad, are left out."""
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """One part of a drive: `profile` along `direction` (3,) of the world, or of a turn about the vertical by `sign`.
+    """One part of a drive: `profile` along the unit vector `direction` (3,) in the world, or of a rotation.
 
-    A leg either goes straight, its sign being 0, or turns.
+    sign: of the rotation about the vertical; 0 for a straight leg.
     """
 
     start: Pose
@@ -54,21 +54,21 @@ class SimulatedBase:
 
     @property
     def pose(self) -> Pose:
-        """Where the base is."""
+        """The pose of the base."""
         return self._pose
 
     @property
     def done(self) -> bool:
-        """Whether the base stands at the last goal."""
+        """Whether the base has arrived at the last goal."""
         return self._done
 
     @property
     def at_rest(self) -> bool:
-        """Whether the base stands, at a goal or anywhere else."""
+        """Whether the base does not move, at a goal or elsewhere."""
         return not self._legs
 
     def drive_to(self, goal: Pose) -> None:
-        """Begin to drive: brake if the base moves, turn towards the goal, go straight, turn into its heading."""
+        """Begin to drive: brake if the base moves, rotate towards the goal, drive straight, rotate to its heading."""
         self.stop()
         start = self._legs[0].end if self._legs else self._pose
         way = (goal.position - start.position) * [1.0, 1.0, 0.0]

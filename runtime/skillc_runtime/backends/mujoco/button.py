@@ -1,4 +1,4 @@
-"""Buttons in the simulation: whether they have switched, and what really pressed on them."""
+"""Simulated buttons: whether they have switched, and the true forces on them."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ class SimulatedButton:
 
     @property
     def switched(self) -> bool:
-        """Whether the cap is in far enough."""
+        """Whether the cap is pressed in far enough."""
         return bool(self._travel[0] >= self._switches_at)
 
     @property
     def pressing(self) -> Array:
-        """Every step (n, 3) in which something pressed: when in s, with how much in N, 1 where it had switched."""
+        """The steps (n, 3) with a force on the button: time in s, force in N, 1 if it had switched, else 0."""
         return np.array(self._pressed).reshape(-1, 3)
 
     def sample(self, now: float) -> None:
-        """Take in one step that began at `now` s."""
+        """Record one step that began at `now` s."""
         force = float(self._force[0])
         if force > 0.0:
             self._pressed.append((now, force, float(self.switched)))
@@ -44,7 +44,7 @@ class SimulatedButton:
 def make_buttons(
     fixtures: Sequence[FixtureSpec], variations: Sequence[FixtureVariation], names: Mapping[str, str], data: Any
 ) -> dict[str, SimulatedButton]:
-    """Return those of the fixtures that are buttons, by IRI."""
+    """Return the buttons among the fixtures, by IRI."""
     return {
         each.individual: SimulatedButton(names[each.individual], each.switch_travel_m + true.switch_m, data)
         for each, true in zip(fixtures, variations, strict=True)

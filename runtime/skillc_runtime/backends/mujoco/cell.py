@@ -34,8 +34,7 @@ class SimulatedCell:
     """A cell built from the facts of a world model, implementing `Cell`; `variation` is how reality differs from them.
 
     The same facts and the same seed give the same run, bit for bit. Between calls of `advance` all measurements are of
-    the present instant. The world model knows which arms can be controlled: all at the start, one that is broken never
-    again.
+    the present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
     """
 
     def __init__(
@@ -48,7 +47,7 @@ class SimulatedCell:
     ) -> None:
         """Build the cell; controllers run every `steps_per_command` steps, `reality` draws how it differs from facts.
 
-        SheetError or FrameError when facts are missing or contradict the models.
+        Raises SheetError or FrameError if facts are missing or contradict the models.
         """
         print_warnings()
         self._world = world
@@ -78,18 +77,18 @@ class SimulatedCell:
 
     @property
     def now(self) -> float:
-        """Simulated seconds since the cell started."""
+        """The simulated time in s since the cell started."""
         return float(self.data.time)
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing moves or pushes any more."""
+        """Whether nothing moves or pushes."""
         arms = all(arm.at_rest for arm in self._drivers.values())
         return arms and all(base.at_rest for base in self._bases.values())
 
     @property
     def period_s(self) -> float:
-        """The control period."""
+        """The control period in s."""
         return self._timestep * self._steps_per_command
 
     @property
@@ -98,34 +97,34 @@ class SimulatedCell:
         return self._world
 
     def arm(self, individual: str) -> CompliantArmDriver:
-        """Return an arm's driver; KeyError where the cell has no such arm."""
+        """Return an arm's driver; KeyError if the cell has no such arm."""
         return self._drivers[individual]
 
     def gripper(self, individual: str) -> SimulatedGripper:
-        """Return a gripper; KeyError where the cell has no such gripper."""
+        """Return a gripper; KeyError if the cell has no such gripper."""
         return self._grippers[individual]
 
     def base(self, individual: str) -> SimulatedBase:
-        """Return the mobile base of a robot; KeyError where it has none."""
+        """Return the mobile base of a robot; KeyError if it has none."""
         return self._bases[individual]
 
     def camera(self) -> SimulatedCamera:
-        """Return what inspects surfaces."""
+        """Return the camera that inspects surfaces."""
         return self._camera
 
     def button(self, individual: str) -> SimulatedButton:
-        """Return a button; KeyError where the cell has no such button."""
+        """Return a button; KeyError if the cell has no such button."""
         return self._buttons[individual]
 
     def advance(self, seconds: float) -> None:
-        """Let time pass: controllers, devices and physics, step by step. ControlError when a controller gives up."""
+        """Advance controllers, devices and physics, step by step. ControlError if a controller cannot continue."""
         for _ in range(round(seconds / self._timestep)):
             self._advance_one()
 
     def secure(self) -> tuple[str, ...]:
-        """Stop everything, push nothing, make stiff what yields; say what was left to do, and why arms had stopped.
+        """Stop all devices and pushes and restore releases; return what was not in order, and why arms had stopped.
 
-        For the end of a run, however it ended; where all went well nothing is left to do.
+        For the end of a run, however it ended; the result is empty after a regular end.
         """
         names, found = self.scene.names, []
         for individual, arm in self._drivers.items():
@@ -142,7 +141,7 @@ class SimulatedCell:
         self._stop_devices()
 
     def _stop_devices(self) -> None:
-        """Stop what moves beside the arms."""
+        """Stop grippers and bases."""
         for gripper in self._grippers.values():
             if gripper.moving:
                 gripper.stop()
@@ -175,7 +174,7 @@ class SimulatedCell:
         self._step += 1
 
     def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
-        """Do a control period of one arm; note, once, that it is broken."""
+        """Run a control period of one arm; write to the world model, once, that it is broken."""
         worked = arm.broken is None
         try:
             arm.step(now)
@@ -194,7 +193,7 @@ class SimulatedCell:
                     self._lose(arm, gripper, gripper.holding, why)
 
     def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
-        """Stop an arm whose gripper cannot hold a thing any more, and note where that was."""
+        """Stop an arm whose gripper has lost an object, and write the object's pose to the world model."""
         state, there = self._world.snapshot(), self._drivers[arm].measured.pose
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.lose()
@@ -202,13 +201,13 @@ class SimulatedCell:
         self._world.commit(placement_changes(thing, left_at), why, "assumed")
 
     def _carry_along(self, robot: str, motion: Pose) -> None:
-        """Move what the arms of a driving robot hold along with it."""
+        """Move objects held by the arms of a driving robot along with it."""
         for arm in self.scene.arms:
             if arm.robot == robot and arm.individual in self._hands:
                 self._hands[arm.individual].move_with_base(motion)
 
     def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
-        """Return the arms, and the grippers by the arms that carry them."""
+        """Return the arms, and the grippers by arm."""
         names, arms, hands = self.scene.names, {}, {}
         for facts in self.scene.arms:
             gripper = facts.gripper
@@ -222,7 +221,7 @@ class SimulatedCell:
 
 
 def print_warnings() -> None:
-    """Have every warning of MuJoCo told on stderr, and no file written, from now on in this process."""
+    """Print warnings of MuJoCo to stderr in this process; by default it writes MUJOCO_LOG.TXT."""
     mujoco.set_mju_user_warning(_print_warning)
 
 

@@ -1,4 +1,4 @@
-"""Which parts of a surface were worked on: cells of 5 mm that a tool reached while it was pressed on the surface."""
+"""The coverage of a surface: cells of 5 mm that a tool reached while it was pressed on the surface."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ CELL_M = 0.005
 """Edge of a cell."""
 
 TOUCHES_M = 1e-4
-"""How far above a cell the face of a tool that does not yield may be and still touches it."""
+"""Height of a point of a rigid tool face above a cell up to which it touches the cell."""
 
 NEAR_PLANE_M = 0.03
-"""How far from a surface's plane a pressed tool may be to work on it: a tilted tool's middle is a little off."""
+"""Distance of the centre of a pressed tool from the surface's plane up to which it works; it may be tilted."""
 
 
 class CoverageMap:
     """The contact time of every cell of one surface: `dose` (rows along y, columns along x) in s; 0 is unwiped.
 
-    `surface` is the true frame in the middle of the surface; `layout` says which cells count. A tool that is pressed on
-    the surface with less than `least_n` does nothing to it.
+    `surface` is the true frame at the centre of the surface in the world; `layout` gives the cells that count. A tool
+    works if it is pressed on the surface with at least `least_n` N.
     """
 
     def __init__(self, surface: Pose, layout: Layout, least_n: float) -> None:
@@ -39,32 +39,32 @@ class CoverageMap:
 
     @property
     def wiped_share(self) -> float:
-        """The share of the cells that count that were wiped."""
+        """The share of the counted cells that were wiped."""
         return self.rubbed_share(0.0)
 
     def rubbed_share(self, seconds: float) -> float:
-        """Return the share of the cells that count that were wiped, and for so long at least; 1 where none counts."""
+        """Return the share of the counted cells that were wiped for at least `seconds`; 1 if no cell counts."""
         dose = self.dose[self.mask]
         return float(((dose > 0) & (dose >= seconds)).mean()) if dose.size else 1.0
 
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
-        """Count, for some seconds, the cells that a tool's working face reaches.
+        """Add `seconds` to the cells that a tool's working face reaches.
 
-        position (3,), rotation (3, 3): the middle of the face in the world, x and y along its edges, as if it did not
-        yield: pressed it lies below the surface, and tilted one side of it above. tool (2,): its size in m.
+        position (3,) in m, rotation (3, 3): the centre of the undeformed face in the world, x and y along its edges; it
+        is below the surface when pressed, with one side above if tilted. tool (2,): its size in m.
         """
         frame = self._in_surface
         add_dose(self.dose, self.x, self.y, frame.position, frame.rotation, position, rotation, tool, seconds)
 
     def near(self, position: Array, reach_m: float) -> bool:
-        """Whether a point of the world is close to this surface's plane, over it or within `reach_m` of its edge."""
+        """Tell whether a point (3,) m of the world is near the surface's plane, within `reach_m` of its edge."""
         point = self._in_surface.apply(position)
         over = abs(point[0]) <= self.x[-1] + reach_m and abs(point[1]) <= self.y[-1] + reach_m
         return bool(over and abs(point[2]) <= NEAR_PLANE_M)
 
 
 def _centres(length: float) -> Array:
-    """Return the middles of the cells along an edge in m, symmetric to 0; the cells fill the edge evenly."""
+    """Return the centres of the cells along an edge in m, symmetric to 0; the cells divide the edge evenly."""
     count = max(1, round(length / CELL_M))
     return np.asarray((np.arange(count) + 0.5) * (length / count) - length / 2, dtype=np.float64)
 
@@ -91,15 +91,15 @@ def add_dose(
 
 
 class SimulatedCamera:
-    """Implements `Camera` from the coverage of each surface by IRI, which the running cell keeps up to date."""
+    """Implements `Camera` with the coverage of each surface by IRI, which the cell updates."""
 
     def __init__(self, coverage: Mapping[str, CoverageMap]) -> None:
         self._coverage = coverage
 
     def inspect(self, surface: str) -> float:
-        """Return the share of the surface that is wiped; KeyError for a surface that is not there."""
+        """Return the share of the surface that is wiped; KeyError if there is no such surface."""
         return self._coverage[surface].wiped_share
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
-        """Return the share that was under a pressed tool for so long; KeyError for a surface that is not there."""
+        """Return the share under a pressed tool for at least `seconds`; KeyError if there is no such surface."""
         return self._coverage[surface].rubbed_share(seconds)

@@ -28,16 +28,16 @@ WRIST_SENSORS = (
     ("torque", mujoco.mjtSensor.mjSENS_TORQUE),
     ("acceleration", mujoco.mjtSensor.mjSENS_ACCELEROMETER),
 )
-"""What a wrist measures, in this order."""
+"""The sensors of a wrist, in this order."""
 
 NET_FORCE = 3
-"""How MuJoCo's contact sensor makes one of many contacts: it adds their forces up, in world axes."""
+"""The reduction of MuJoCo's contact sensor that adds the forces of all contacts, in world axes."""
 
 BLOCKAGE = "blockage"
 """The geom of a model that blocks a fixture; it is removed unless the fixture is blocked."""
 
 TOUCH_MARGIN_M = 0.01
-"""How far the zone of a tool's touch sensor reaches beyond its working geom, so that pressed-in contacts count."""
+"""Margin of a tool's touch sensor around its working geom, so that penetrating contacts count."""
 
 
 def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base: Pose) -> None:
@@ -55,9 +55,9 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base:
 
 
 def add_tool(spec: Any, names: Mapping[str, str], tool: ToolSpec, pad_stiffness: float | None) -> None:
-    """Add a tool, free to move, with its mass and sensors of the truth.
+    """Add a tool, free to move, with its mass and ground truth sensors.
 
-    Under its working face is a pad in N/m, None for a tool that does not yield.
+    pad_stiffness: N/m, of the pad under its working face; None for a rigid tool.
     """
     name, model = names[tool.individual], mujoco.MjSpec.from_file(str(tool.model))
     _check_face(model, name, tool)
@@ -117,7 +117,7 @@ def _set_foundation(model: Any, tool: ToolSpec, stiffness: float) -> None:
     """Set the springs under the working face, an elastic foundation: K_z = k, K_rx = k b^2/12, K_ry = k a^2/12.
 
     a, b: extent of the face along x and y; the dampers follow in the same way. A face whose model has joints for it
-    gives way along itself as well, as much as it does when pressed: K_x = K_y = k.
+    yields along itself as well, with the same stiffness: K_x = K_y = k.
     """
     damping = tool.sheet.number("padDamping")
     a, b = tool.size[:2]
@@ -170,26 +170,26 @@ def _add_sensor(spec: Any, name: str, kind: Any, site: str) -> None:
 
 
 def add_fixture(spec: Any, name: str, fixture: FixtureSpec, true: FixtureVariation) -> None:
-    """Attach the model of a fixture to the world as it really is; one that is missing is seen and touched by nobody."""
+    """Attach the model of a fixture at its true pose; an absent one is invisible and without contact."""
     model, pose = mujoco.MjSpec.from_file(str(fixture.model)), true.true_pose(fixture.pose)
     blockage = model.geom(BLOCKAGE)
     if blockage is not None and not true.blocked:
         model.delete(blockage)
     for geom in model.geoms:
-        _rub(geom, true.friction)
+        _set_friction(geom, true.friction)
         if not true.present:
-            _vanish(geom)
+            _hide(geom)
     for joint in model.joints:
         joint.stiffness[0] *= 1.0 + true.stiffness_share
     frame = spec.worldbody.add_frame(pos=pose.position, quat=quaternion_from_rotation(pose.rotation))
     spec.attach(model, prefix=part_name(name, ""), frame=frame)
 
 
-def _rub(geom: Any, friction: float | None) -> None:
+def _set_friction(geom: Any, friction: float | None) -> None:
     if friction is not None:
         geom.friction[0] = friction
 
 
-def _vanish(geom: Any) -> None:
+def _hide(geom: Any) -> None:
     geom.contype = geom.conaffinity = 0
     geom.rgba = [0.0, 0.0, 0.0, 0.0]

@@ -1,4 +1,4 @@
-"""Makes the driver of a simulated arm from what is known about it."""
+"""Creates the driver of a simulated arm from its specification."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ from skillc_runtime.world.state.terms import (
 
 
 def make_driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:
-    """Return the driver of an arm with the controller its facts name; SheetError for an unknown one, a missing gain."""
+    """Return the driver of an arm with the controller its facts name; SheetError if it or a gain is missing."""
     jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
         chosen = read_gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
     chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
-    _engage(facts, arm, chosen.law)
+    _switch_mode(facts, arm, chosen.law)
     virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
     return CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
 
 
-def _engage(facts: ArmSpec, arm: SimulatedArm, law: LawGains) -> None:
-    """Make the arm take what the law commands; SheetError where it cannot, or does not feel what the law needs."""
+def _switch_mode(facts: ArmSpec, arm: SimulatedArm, law: LawGains) -> None:
+    """Switch the arm to the commands of the law; SheetError if it cannot, or has no force sensor that the law needs."""
     short = facts.sheet.state.vocabulary.short
     try:
         arm.switch(law.mode)
@@ -52,7 +52,7 @@ def _engage(facts: ArmSpec, arm: SimulatedArm, law: LawGains) -> None:
 
 
 def read_safety_limits(facts: ArmSpec) -> SafetyLimits:
-    """Return what is known of the limits of an arm: those of its sheet, and its workspace, which goes with its base."""
+    """Return the safety limits of an arm: those of its sheet, and its workspace, which moves with its base."""
     state, sheet = facts.sheet.state, facts.sheet.individual
     force, speed = (number_of(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, TOOL_SPEED_LIMIT))
     spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))

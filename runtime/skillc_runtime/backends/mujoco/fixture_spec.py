@@ -1,4 +1,4 @@
-"""What the simulation needs to know of fixtures: what stands in a cell with a model of its own."""
+"""The specification of fixtures: objects in a cell with their own models."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class FixtureSpec:
-    """A fixture where it is believed to be in the world, its model and its sheet.
+    """A fixture at its assumed pose in the world, its model and its sheet.
 
-    It may really stand `place_range_m` beside that, across its z, and `depth_range_m` before or behind it, along z,
-    tilted by `tilt_range_rad` about its x and y, with a sliding friction between the two of `friction`, None for that
-    of its model, and springs that are stiffer or softer by the share `stiffness_range`.
-    A button switches when its cap is `switch_travel_m` in, `switch_range_m` more or less; other fixtures have None.
+    The true pose may differ by `place_range_m` across its z and `depth_range_m` along it, and be tilted by
+    `tilt_range_rad` about its x and y. friction: least and greatest, None for that of the model. stiffness_range: share
+    by which springs may differ. A button switches when its cap is pressed in by `switch_travel_m`, up to
+    `switch_range_m` more or less; other fixtures have None.
     """
 
     individual: str
@@ -47,7 +47,7 @@ class FixtureSpec:
 
 
 def read_fixtures(state: WorldState) -> tuple[FixtureSpec, ...]:
-    """Read all fixtures in order of IRI; SheetError or FrameError name the fact that is missing."""
+    """Read all fixtures in order of IRI; SheetError or FrameError if a fact is missing."""
     return tuple(_fixture(state, each) for each in sorted(state.instances(FIXTURE)))
 
 

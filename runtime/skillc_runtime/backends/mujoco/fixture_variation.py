@@ -1,4 +1,4 @@
-"""How a fixture really is: where it stands, how its parts rub, spring and switch, whether something is in the way."""
+"""How a fixture differs from its specification: pose, friction, stiffness, switching, and whether it is blocked."""
 
 from __future__ import annotations
 
@@ -13,11 +13,10 @@ from skillc_runtime.motion.pose import Pose, exp
 
 @dataclass(frozen=True, slots=True)
 class FixtureVariation:
-    """One fixture: m beside its believed place along its x and y and along its z, rad about its x and y.
+    """One fixture: the offset in m from its assumed pose along its axes, the tilt in rad about its x and y.
 
-    `friction`: sliding, None for that of the model. `stiffness_share`: how much stiffer its springs are. `switch_m`:
-    how much later a button switches. `present` is false for one that is not there at all; in one that is `blocked`
-    something is in the way.
+    friction: sliding, None for that of the model; stiffness_share: how much stiffer its springs are; switch_m: how much
+    later a button switches; present: false if it is absent; blocked: true if something is in the way.
     """
 
     fixture: str
@@ -30,12 +29,12 @@ class FixtureVariation:
     blocked: bool = False
 
     def true_pose(self, believed: Pose) -> Pose:
-        """Return where the fixture really is."""
+        """Return the true pose of the fixture, in the frame of the assumed one."""
         return believed @ Pose(np.array(self.place_m), exp(np.array([*self.tilt_rad, 0.0])))
 
     @property
     def description(self) -> str:
-        """What differs, in words."""
+        """The differences in words."""
         x, y, z = (1e3 * each for each in self.place_m)
         tilt = "" if self.tilt_rad == (0.0, 0.0) else f", tilted {_degrees(self.tilt_rad)} deg"
         friction = "" if self.friction is None else f", friction {self.friction:.2f}"
@@ -45,7 +44,7 @@ class FixtureVariation:
 
 
 def draw_fixture(fixture: FixtureSpec, seed: int) -> FixtureVariation:
-    """Draw the differences: the place on a disc across the axis and along it, the rest within ranges, all evenly."""
+    """Draw the differences uniformly: the position on a disc across the axis and along it, the rest within ranges."""
     rng = rng_for(fixture.individual, seed)
     away = fixture.place_range_m * float(np.sqrt(rng.uniform()))
     towards, along = float(rng.uniform(0.0, 2 * np.pi)), float(rng.uniform(-1.0, 1.0))

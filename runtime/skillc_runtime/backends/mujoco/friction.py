@@ -1,4 +1,4 @@
-"""The friction that a thing may really have."""
+"""The range of the friction of an object."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def read_friction_range(state: WorldState, thing: str) -> tuple[float, float]:
-    """Return the least and the greatest friction: the range where one of its ends is given, else the one value."""
+    """Return the least and the greatest friction: the range if one of its ends is given, else the single value."""
     if not has_friction_range(state, thing):
         believed = number_of(state, thing, FRICTION)
         return believed, believed
@@ -20,5 +20,5 @@ def read_friction_range(state: WorldState, thing: str) -> tuple[float, float]:
 
 
 def has_friction_range(state: WorldState, thing: str) -> bool:
-    """Tell whether a range is given, or an end of one."""
+    """Tell whether one end of a range is given."""
     return any(state.value(thing, end) is not None for end in (FRICTION_LOW, FRICTION_HIGH))

@@ -1,7 +1,7 @@
-"""Whether friction between fingers and a thing bears what pulls at it, which the weld that keeps the thing measures.
+"""Whether friction between fingers and an object can carry the load on it, which is measured at its weld.
 
-Coulomb: two sides that press with F each bear 2 mu F along them. They bear what presses on the fingers however
-strong it is, since grippers do not give way, and moments, since real pads are wider than simulated ones.
+Coulomb: two sides that press with F each carry 2 mu F along them. Forces normal to the fingers are always carried,
+since grippers do not yield, and moments too, since real pads are wider than simulated ones.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ import numpy as np
 from skillc_runtime.motion.pose import Array
 
 CHECK_PERIOD_S = 0.01
-"""How often the pull is looked at."""
+"""Period with which the load is checked."""
 
 OVERLOAD_S = 0.03
-"""A shorter overload is a jolt, in which a thing creeps by less than it is grasped off its middle."""
+"""A shorter overload is an impact, in which an object slips by less than the uncertainty of its grasp."""
 
 SIDES = 2
 
 
 @dataclass(slots=True)
 class Grip:
-    """A grasp: the direction (3,) in which fingers press, in the palm's axes, and how much friction bears across it, N.
+    """A grasp: the direction (3,) in which fingers press, in the palm's axes, and the friction `bears_n` across it.
 
-    `equality` is the weld, `palm` the body it ends at. All is well until `overloaded_from`; the pull is looked at again
-    at `next_look`, both in s.
+    equality: the weld; palm: its body; overloaded_from: s, start of the present overload; next_check: s, of the next
+    check.
     """
 
     equality: int
@@ -36,21 +36,21 @@ class Grip:
     pressing: Array
     bears_n: float
     overloaded_from: float = np.inf
-    next_look: float = 0.0
+    next_check: float = 0.0
 
     def overload(self, data: Any, now: float) -> float | None:
-        """Return the pull in N that the grip has not borne for a while, None while it holds.
+        """Return the load in N if it has exceeded the grip for `OVERLOAD_S`, else None.
 
-        To be called each step, between `mj_step2` and the next `mj_step1`.
+        To be called in each step, between `mj_step2` and the next `mj_step1`.
         """
-        if now < self.next_look:
+        if now < self.next_check:
             return None
-        self.next_look, pull = now + CHECK_PERIOD_S, self._pull(data)
+        self.next_check, pull = now + CHECK_PERIOD_S, self._load(data)
         self.overloaded_from = min(self.overloaded_from, now) if pull > self.bears_n else np.inf
         return pull if now - self.overloaded_from >= OVERLOAD_S else None
 
-    def _pull(self, data: Any) -> float:
-        """Return the force across the pressing direction that the weld bears; none before it first acts."""
+    def _load(self, data: Any) -> float:
+        """Return the force of the weld in N across the pressing direction; 0 before it acts."""
         kinds, owners = data.efc_type[: data.ne], data.efc_id[: data.ne]
         rows = np.flatnonzero((kinds == mujoco.mjtConstraint.mjCNSTR_EQUALITY) & (owners == self.equality))
         force = data.efc_force[rows[:3]]
@@ -61,6 +61,6 @@ class Grip:
 
 
 def make_grip(data: Any, equality: int, palm: int, normals: list[Array], friction: float, force_n: float) -> Grip:
-    """Return the grip of fingers that press with so much force each along normals (3,) of the world."""
+    """Return the grip of fingers that press with `force_n` each along normals (3,) in the world."""
     pressing = data.xmat[palm].reshape(3, 3).T @ normals[0]
     return Grip(equality, palm, pressing, SIDES * friction * force_n)

@@ -1,7 +1,7 @@
-"""A gripper in the simulation: a servo on the opening; contact from both sides is a grasp.
+"""A simulated gripper: a servo for the opening; contact from opposite sides is a grasp.
 
-A weld keeps it, since friction grasps creep in rigid-body simulation, as long as friction bears what pulls at the weld.
-A thing that it does not bear any more slips through the fingers, which hold it as well as contact and friction can.
+A weld holds the object, since friction grasps creep in rigid-body simulation, as long as friction could carry the load
+on the weld. After that only contact and friction hold it.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
-"""Fingers that have been slower than this for that long, at the end of their way or held up, have arrived."""
+"""Fingers that have been slower than this for this time, at their goal or blocked, have arrived."""
 
 HANDLE, PAD = 4, 8
-"""Contact bits of what fingers may touch and of the fingers' pads."""
+"""Contact bits of handles and of the fingers' pads."""
 
 OPPOSING = -0.7
 """Cosine below which two contact normals count as opposite sides."""
 
 
 class SimulatedGripper:
-    """One gripper of a simulated cell, implementing `Gripper`; contact decides, a weld keeps."""
+    """One gripper of a simulated cell, implementing `Gripper`; contact is required for a grasp, a weld holds it."""
 
     def __init__(
         self,
@@ -55,38 +55,38 @@ class SimulatedGripper:
 
     @property
     def max_opening_m(self) -> float:
-        """Greatest distance between the fingers."""
+        """The greatest distance between the fingers in m."""
         return self._facts.max_opening_m
 
     @property
     def max_force_n(self) -> float:
-        """Greatest grasping force."""
+        """The greatest grasping force in N."""
         return self._facts.max_force_n
 
     @property
     def opening_m(self) -> float:
-        """Measured distance between the fingers."""
+        """The measured distance between the fingers in m."""
         return float(self._length[0])
 
     @property
     def moving(self) -> bool:
-        """Whether the fingers still move, or have just begun to be held up."""
+        """Whether the fingers still move, or were blocked just now."""
         return not self._idle
 
     @property
     def holding(self) -> str | None:
-        """The thing that counts as held."""
+        """The IRI of the object that counts as held."""
         return self._holding or None
 
     def move(self, opening_m: float, force_n: float) -> None:
-        """Move the fingers to an opening with at most this force, both cut to what the gripper can do."""
+        """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""
         force = min(force_n, self._facts.max_force_n)
         self._model.actuator_forcerange[self._actuator] = (-force, force)
         self._goal = min(max(opening_m, 0.0), self._facts.max_opening_m)
         self._target, self._idle, self._still_since = self.opening_m, False, self._data.time
 
     def stop(self) -> None:
-        """Keep the fingers where they are."""
+        """Stop the fingers at their present opening."""
         self._goal = self._target = self.opening_m
         self._data.ctrl[self._actuator], self._idle = self._target, True
 
@@ -101,17 +101,17 @@ class SimulatedGripper:
             self._still_since = self._data.time
         elif self._data.time - self._still_since > STILL_TIME_S:
             arrived = abs(self.opening_m - self._goal) < STILL_M_S
-            self._idle = arrived or self._target == self._goal or self._pushes()
+            self._idle = arrived or self._target == self._goal or self._is_at_force_limit()
 
     def touches(self, thing: str) -> bool:
-        """Whether pads of at least two fingers touch a thing from opposite sides."""
-        normals, _ = self._touched(thing)
+        """Tell whether pads of at least two fingers touch an object from opposite sides."""
+        normals, _ = self._contacts_with(thing)
         return any(one @ other < OPPOSING for one in normals for other in normals)
 
     def attach(self, thing: str, in_tool_centre: Pose) -> None:
-        """Keep a touched thing by a weld where it really is; it becomes the arm's payload and tool centre point.
+        """Hold a touched object by a weld at its true pose; it becomes the arm's payload and tool centre point.
 
-        The arm believes the thing to be at `in_tool_centre`. RuntimeError when it is not touched from both sides.
+        The arm assumes it at `in_tool_centre`. Raises RuntimeError if it is not touched from opposite sides.
         """
         if not self.touches(thing):
             raise RuntimeError(f"the fingers do not touch {self._names[thing]} from both sides")
@@ -120,7 +120,7 @@ class SimulatedGripper:
         truth = _pose(self._data, hand).inverse() @ _pose(self._data, block)
         equality = self._model.equality(weld_name(self._name, self._names[thing])).id
         force = abs(float(self._data.actuator_force[self._actuator]))
-        normals, friction = self._touched(thing)
+        normals, friction = self._contacts_with(thing)
         self._grip = make_grip(self._data, equality, hand, normals, friction, force)
         row = self._model.eq_data[equality]
         row[:3], row[3:6], row[6:10], row[10] = 0.0, truth.position, quaternion_from_rotation(truth.rotation), 1.0
@@ -132,7 +132,7 @@ class SimulatedGripper:
         self._arm.carry(payload, in_tool_centre @ working_face(tool.size))
 
     def detach(self) -> None:
-        """Take the weld away; the arm's payload and tool centre point become those of the empty gripper."""
+        """Remove the weld; the arm's payload and tool centre point become those of the empty gripper."""
         if not self._holding:
             return
         equality = self._model.equality(weld_name(self._name, self._names[self._holding])).id
@@ -141,9 +141,9 @@ class SimulatedGripper:
         self._arm.carry_nothing()
 
     def slip_message(self, now: float) -> str | None:
-        """Return why what is held slips through the fingers, None while friction bears it.
+        """Return a message if the held object slips, None while friction carries it.
 
-        To be called each step, between `mj_step2` and the next `mj_step1`.
+        To be called in each step, between `mj_step2` and the next `mj_step1`.
         """
         pull = None if self._grip is None else self._grip.overload(self._data, now)
         if self._grip is None or pull is None:
@@ -154,12 +154,12 @@ class SimulatedGripper:
         )
 
     def lose(self) -> None:
-        """Leave what is held to contact and friction; the fingers close with the force they had."""
+        """Remove the weld of a held object and close the fingers with the same force."""
         self.detach()
         self.move(0.0, float(self._model.actuator_forcerange[self._actuator, 1]))
 
     def move_with_base(self, motion: Pose) -> None:
-        """Move a held thing along with the base that carries the arm: new = motion @ old, in the world."""
+        """Move a held object with the base of the arm: new = motion @ old, in the world."""
         if self._holding:
             joint = self._model.joint(part_name(self._names[self._holding], "free"))
             q = self._data.qpos[joint.qposadr[0] : joint.qposadr[0] + 7]
@@ -167,7 +167,7 @@ class SimulatedGripper:
             q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
 
     def _set_opening(self, opening_m: float) -> None:
-        """Put the fingers somewhere at once: each joint of the opening's tendon takes its share."""
+        """Set the opening at once: each joint of its tendon takes its share."""
         tendon = int(self._model.actuator_trnid[self._actuator, 0])
         first = int(self._model.tendon_adr[tendon])
         span = slice(first, first + int(self._model.tendon_num[tendon]))
@@ -176,20 +176,20 @@ class SimulatedGripper:
         self._data.ctrl[self._actuator] = self._goal = self._target = opening_m
 
     def _set_grip_contact(self, thing: str, on: bool) -> None:
-        """Let pads touch a thing or not: while the weld keeps it, their contact would only cost time."""
+        """Enable or disable contact of pads with an object: while a weld holds it, contact would only cost time."""
         handle = self._model.geom(part_name(self._names[thing], "handle")).id
         self._model.geom_contype[handle], self._model.geom_conaffinity[handle] = (HANDLE, PAD) if on else (0, 0)
         if not on:
             self.stop()
 
-    def _pushes(self) -> bool:
-        """Whether the servo pushes with all the force it may."""
+    def _is_at_force_limit(self) -> bool:
+        """Return whether the servo pushes with its greatest force."""
         return bool(
             abs(self._data.actuator_force[self._actuator]) > 0.95 * self._model.actuator_forcerange[self._actuator, 1]
         )
 
-    def _touched(self, thing: str) -> tuple[list[Array], float]:
-        """Return the directions (3,), in the world, in which pads press on a thing, and the least friction there."""
+    def _contacts_with(self, thing: str) -> tuple[list[Array], float]:
+        """Return the contact normals (3,), in the world, of pads on an object, and the least friction."""
         contacts, handle = self._data.contact, self._model.geom(part_name(self._names[thing], "handle")).id
         normals: list[Array] = []
         frictions: list[float] = []

@@ -1,4 +1,4 @@
-"""From the facts of a scene to a MuJoCo model: places, devices, contacts, sensors."""
+"""Builds the MuJoCo model of a scene: surfaces, furniture, devices, contacts and sensors."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.state.data_sheet import SheetError
 
 CARRIES, WORKS = 1, 2
-"""Contact bits of what carries tools and of what works on surfaces; handles and finger pads have 4 and 8."""
+"""Contact bits of supports and of tools; handles and finger pads have 4 and 8."""
 
 MARK_M = 0.0003
-"""How thick the mark of a flat hole is."""
+"""Thickness of the mark of a flat hole."""
 
 FURNITURE_FRICTION = 0.6
 """Wood against felt; it only keeps a tool where it lies."""
@@ -40,9 +40,9 @@ WOOD, BOARD, STEEL = (0.62, 0.52, 0.4, 1.0), (0.93, 0.94, 0.95, 1.0), (0.4, 0.43
 
 
 def build_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjModel:
-    """Build the model of a scene as it really is.
+    """Build the model of a scene with its true differences from the facts.
 
-    SheetError when a data sheet's model cannot be read, or lacks a part that the simulation needs.
+    Raises SheetError if a data sheet's model cannot be read or lacks a part that the simulation needs.
     """
     try:
         return describe_model(scene, variation, timestep_s).compile()
@@ -51,9 +51,9 @@ def build_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.00
 
 
 def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjSpec:
-    """Return the description of a scene as it really is, of which MuJoCo makes a model.
+    """Return the specification of a scene with its true differences, which MuJoCo compiles to a model.
 
-    ValueError when a model cannot be read, or lacks a part.
+    Raises ValueError if a model cannot be read or lacks a part.
     """
     spec = _empty(timestep_s)
     for piece in scene.furniture:
@@ -100,14 +100,14 @@ def _add_sky(spec: mujoco.MjSpec) -> None:
 
 
 def _carry(geom: Any, friction: float) -> None:
-    """Let tools touch the geom: their own softness counts (solmix 0), the geom's friction is the greater."""
+    """Let tools touch the geom; their own softness applies (solmix 0), and the geom's friction is the greater one."""
     geom.contype, geom.conaffinity = CARRIES, WORKS
     geom.friction = [friction, 0.005, 0.0001]
     geom.solmix = 0.0
 
 
 def _add_box(spec: Any, name: str, top: Pose, size: Array, friction: float, rgba: tuple[float, ...]) -> None:
-    """Add a fixed box whose top's middle is at `top`."""
+    """Add a fixed box with the centre of its top at `top`."""
     body = spec.worldbody.add_body(name=name, pos=top.position, quat=quaternion_from_rotation(top.rotation))
     geom = body.add_geom(name=box_geom_name(name), type=mujoco.mjtGeom.mjGEOM_BOX, size=size / 2)
     geom.pos, geom.rgba = [0.0, 0.0, -size[2] / 2], list(rgba)
@@ -115,7 +115,7 @@ def _add_box(spec: Any, name: str, top: Pose, size: Array, friction: float, rgba
 
 
 def _add_surface(spec: Any, name: str, surface: SurfaceSpec, true: SurfaceVariation) -> None:
-    """Add a surface where it really is, with what lies on it."""
+    """Add a surface at its true pose, with its holes and an obstacle on it."""
     pose = true.true_pose(surface.pose)
     _add_box(spec, name, pose, surface.size, true.friction, BOARD)
     for number, each in enumerate(surface.layout.holes):
@@ -127,7 +127,7 @@ def _add_surface(spec: Any, name: str, surface: SurfaceSpec, true: SurfaceVariat
 
 
 def _add_hole(spec: Any, name: str, surface: Pose, area: Hole, friction: float) -> None:
-    """Add what stands out of a surface at a hole; one that is flat is shown as a dark mark, which nothing touches."""
+    """Add the protrusion of a hole, or a dark mark without contact for a flat one."""
     height = max(area.height, MARK_M)
     top = surface @ Pose(np.append(area.centre, height), np.eye(3))
     _add_box(spec, name, top, np.append(area.size, height), friction, STEEL)
@@ -136,7 +136,7 @@ def _add_hole(spec: Any, name: str, surface: Pose, area: Hole, friction: float) 
 
 
 def _add_base(spec: Any, scene: SceneSpec, base: BaseSpec) -> tuple[Any, Pose]:
-    """Add a mobile base, moved as a whole from outside; its frame lies on the floor in its middle."""
+    """Add a mobile base as a mocap body; its frame is at its centre on the floor."""
     name = base_body_name(scene.names[base.individual])
     body = spec.worldbody.add_body(name=name, mocap=True)
     body.pos, body.quat = base.pose.position, quaternion_from_rotation(base.pose.rotation)
@@ -146,7 +146,7 @@ def _add_base(spec: Any, scene: SceneSpec, base: BaseSpec) -> tuple[Any, Pose]:
 
 
 def _add_welds(spec: Any, scene: SceneSpec) -> None:
-    """Add an inactive weld for every gripper and tool; a grasp switches it on."""
+    """Add an inactive weld for every gripper and tool; a grasp activates it."""
     grippers = [scene.names[arm.gripper.individual] for arm in scene.arms if arm.gripper is not None]
     for gripper, tool in product(grippers, (scene.names[tool.individual] for tool in scene.tools)):
         equality = spec.add_equality(name=weld_name(gripper, tool), type=mujoco.mjtEq.mjEQ_WELD)

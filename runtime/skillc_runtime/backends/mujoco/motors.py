@@ -1,4 +1,4 @@
-"""How a simulated arm moves by itself: motors that take torques, or servos that take positions or speeds."""
+"""The motors of a simulated arm: torque motors, or servos that take positions or speeds."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 
 COMMAND_TIMEOUT_S = 0.05
-"""An arm that is not commanded for so long holds still by itself."""
+"""Time without command after which an arm holds still by itself."""
 
 HOLD_RATE = 20.0
-"""1/s: natural frequency, critically damped, with which an arm that takes torques holds its joints by itself."""
+"""1/s: natural frequency, critically damped, with which a torque-controlled arm holds its joints by itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class Joints:
-    """The joints of a simulated arm, live: arrays (nv,) in rad, rad/s, N m.
+    """The joints of a simulated arm: views (nv,) in rad, rad/s, N m.
 
-    control, applied: commands of their actuators, and torques beside theirs, both to be written. q, dq, own_bias: as
-    they are, without payload. bias: as measured last, payload included; carrying: what of it carries the payload.
-    mass_matrix (nv, nv): as measured last. effort: greatest torque of the actuators.
+    control, applied: actuator commands, and additional torques, both written here. q, dq, own_bias: present values,
+    without payload. bias: measured last, with payload; carrying: the part of it for the payload. mass_matrix (nv, nv):
+    measured last, kg m^2. effort: greatest torque of the actuators.
     """
 
     control: Array
@@ -41,14 +41,14 @@ class Joints:
 
 
 class Motors(ABC):
-    """Take commands of one mode at a time, and hold still when none has come for `SILENCE_S`."""
+    """Take commands of one mode at a time, and hold still if none has arrived for `COMMAND_TIMEOUT_S`."""
 
     def __init__(self, joints: Joints, modes: tuple[Mode, ...], timestep_s: float) -> None:
         self._joints, self.modes, self.mode = joints, modes, modes[0]
-        self._unheard, self._patience = 0, round(COMMAND_TIMEOUT_S / timestep_s)
+        self._steps_without_command, self._timeout_steps = 0, round(COMMAND_TIMEOUT_S / timestep_s)
 
     def switch(self, mode: Mode) -> None:
-        """Take commands of this kind from now on, at rest until the first; ModeRefused for one there is not."""
+        """Take commands of this kind from now on, at rest until the first; ModeRefused for an unknown one."""
         if mode not in self.modes:
             raise ModeRefused(f"the arm takes {' and '.join(self.modes)} commands, not {mode} commands")
         if mode != self.mode:
@@ -56,15 +56,15 @@ class Motors(ABC):
             self._rest()
 
     def command(self, command: Command) -> None:
-        """Take a command for the next control period; TypeError for a kind the mode does not take."""
+        """Take a command for the next control period; TypeError for another kind than the mode."""
         self._take(command)
-        self._unheard = 0
+        self._steps_without_command = 0
 
     def before_step(self) -> None:
         """Set the actuators for one step of the simulation."""
-        self._unheard += 1
-        if self._unheard > self._patience:
-            self._hold(first=self._unheard == self._patience + 1)
+        self._steps_without_command += 1
+        if self._steps_without_command > self._timeout_steps:
+            self._hold(first=self._steps_without_command == self._timeout_steps + 1)
         else:
             self._move()
 
@@ -76,24 +76,24 @@ class Motors(ABC):
 
     @abstractmethod
     def _rest(self) -> None:
-        """Forget what was commanded."""
+        """Discard the last command."""
 
     @abstractmethod
     def _move(self) -> None: ...
 
     @abstractmethod
     def _hold(self, first: bool) -> None:
-        """Hold still without commands, for the `first` time since the last of them."""
+        """Hold still without commands; `first` in the first step after the timeout."""
 
 
 class TorqueMotors(Motors):
-    """Motors that exert what they are commanded. Left alone they carry the arm and brake each joint."""
+    """Motors that exert the commanded torques. Without commands they carry the arm and brake each joint."""
 
     MODES: ClassVar[tuple[Mode, ...]] = ("torque",)
 
     def __init__(self, joints: Joints, timestep_s: float) -> None:
         super().__init__(joints, self.MODES, timestep_s)
-        self._held = np.zeros_like(joints.q)
+        self._held_q = np.zeros_like(joints.q)
 
     def _take(self, command: Command) -> None:
         if not isinstance(command, Torque):
@@ -101,16 +101,16 @@ class TorqueMotors(Motors):
         self._joints.control[:] = command.tau
 
     def _rest(self) -> None:
-        """There is no other mode to come from."""
+        """Do nothing: there is no other mode."""
 
     def _move(self) -> None:
-        """The motors have been commanded already."""
+        """Do nothing: torques were set by the command."""
 
     def _hold(self, first: bool) -> None:
         joints = self._joints
         if first:
-            self._held[:] = joints.q
-        slowing = HOLD_RATE * (joints.q - self._held) + 2 * joints.dq
+            self._held_q[:] = joints.q
+        slowing = HOLD_RATE * (joints.q - self._held_q) + 2 * joints.dq
         joints.control[:] = joints.own_bias + joints.carrying - HOLD_RATE * joints.mass_matrix.diagonal() * slowing
         np.clip(joints.control, -joints.effort, joints.effort, out=joints.control)
 
@@ -126,9 +126,9 @@ class ServoGains:
 class Servos(Motors):
     """Servos that follow targets, like those of industrial arms; weight and Coriolis forces are compensated.
 
-    tau = kp (target - q) - kv dq. Given positions, the targets move there evenly over the control period; given speeds,
-    they move as fast as that, but no further ahead than takes all effort. Where it takes all and the arm is to
-    stand still, the joint stays where it is, instead of pressing on against what is in its way.
+    tau = kp (target - q) - kv dq. With position commands the targets move linearly over the control period; with speed
+    commands they move at that speed, limited to a lead that needs the full effort. If a joint that is commanded to
+    stand still needs the full effort, its target becomes its position, so it does not press against an obstacle.
     """
 
     def __init__(
@@ -152,7 +152,7 @@ class Servos(Motors):
                 self._refuse(command)
 
     def _rest(self) -> None:
-        """Stay with the targets that there are."""
+        """Keep the present targets."""
         self._speed[:], self._steps_left = 0.0, 0
 
     def _move(self) -> None:
@@ -171,7 +171,7 @@ class Servos(Motors):
         np.add(self._joints.own_bias, self._joints.carrying, out=self._joints.applied)
 
     def _approach(self) -> None:
-        """Move the targets so that they arrive with the last step of the control period."""
+        """Move the targets linearly so that they arrive in the last step of the control period."""
         control = self._joints.control
         if self._steps_left == 1:
             control[:] = self._target
@@ -184,10 +184,10 @@ class Servos(Motors):
 def update_servo_targets(
     control: OutVector, speed: Vector, q: Vector, dq: Vector, lead: Vector, farthest: Vector, timestep: float
 ) -> None:
-    """Move the targets of servos by speed for a step of the simulation, in s; all else (nv,).
+    """Move the targets `control` (nv,) in rad of servos by speed (nv,) in rad/s for a simulation step in s.
 
-    lead: kv / kp, s, for which a target is ahead of a joint that moves freely; farthest: how much more takes all
-    effort, rad. While all are commanded to stand still, the target of a joint that takes it all is where the joint is.
+    lead (nv,): kv / kp in s, by which a target is ahead of a joint that moves freely; farthest (nv,): rad, the further
+    lead that needs the full effort. While all speeds are zero, the target of such a joint becomes its position.
     """
     still = True
     for j in range(q.size):

@@ -1,4 +1,4 @@
-"""How the parts of a simulated cell are called in its MuJoCo model: by the short names of their individuals."""
+"""Names of the parts of a simulated cell in its MuJoCo model, from the short names of individuals."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ def box_geom_name(individual: str) -> str:
 
 
 def obstacle_name(surface: str) -> str:
-    """Return the name of what lies on a surface unknown to the world model."""
+    """Return the name of an obstacle on a surface that the world model does not have."""
     return f"{surface}/obstacle"
 
 
 def hole_name(surface: str, number: int) -> str:
-    """Return the name of what marks a hole of a surface, or stands there."""
+    """Return the name of the mark or protrusion of a hole of a surface."""
     return f"{surface}/hole/{number}"
 
 
 def weld_name(gripper: str, tool: str) -> str:
-    """Return the name of the equality that keeps a grasped tool in a gripper."""
+    """Return the name of the weld that holds a tool in a gripper."""
     return f"{gripper}/holds/{tool}"
 
 

@@ -1,4 +1,4 @@
-"""Noise of sensors: normal, independent from one sample to the next, the same for the same seed."""
+"""Noise of sensors: normally distributed, independent between samples, reproducible by seed."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class Noise:
 
 
 def make_joint_noise(arm: ArmSpec, seed: int) -> Noise | None:
-    """Return the noise of an arm's joint speeds (nv,) rad/s; None where there is none."""
+    """Return the noise of an arm's joint speeds (nv,) rad/s; None if there is none."""
     deviation = np.full(arm.home.size, arm.joint_speed_noise)
     return Noise(deviation, rng_for(arm.individual, seed, 1)) if deviation.any() else None
 
 
 def make_wrist_noise(arm: ArmSpec, seed: int) -> Noise | None:
-    """Return the noise of an arm's wrist (9,): force N, torque N m, acceleration; None where there is none."""
+    """Return the noise of an arm's wrist (9,): force N, torque N m, acceleration; None if there is none."""
     deviation = np.repeat([arm.force_noise_n, arm.torque_noise_n_m, 0.0], 3)
     return Noise(deviation, rng_for(arm.individual, seed, 2)) if deviation.any() else None

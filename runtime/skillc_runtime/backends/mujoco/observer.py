@@ -1,4 +1,4 @@
-"""Watches one held tool: records what really happens to it and keeps the coverage of surfaces up to date."""
+"""Observes one held tool: records its true motion and forces, and updates the coverage of surfaces."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
 STEPS_PER_UPDATE = 10
-"""Coverage and reference are looked at every so many steps: at 100 Hz with steps of 1 ms."""
+"""Number of steps between samples of coverage and reference: 100 Hz with steps of 1 ms."""
 
 
 class ToolObserver:
-    """Looks at one tool once a step, from the sensors at its working face and those of what it presses on."""
+    """Samples one tool in each step, from the sensors at its working face and on surfaces."""
 
     def __init__(
         self, facts: ToolSpec, names: Mapping[str, str], model: Any, data: Any, coverage: Mapping[str, CoverageMap]
@@ -37,15 +37,15 @@ class ToolObserver:
         self.recorder, self.peak_force = Recorder(self._truth), PeakForce(name, model, data)
 
     def sample(self, time: float, driver: ArmDriver) -> None:
-        """Take in one step that began at `time` s, in which `driver` moved the tool."""
+        """Sample one step that began at `time` s, in which `driver` moved the tool."""
         self.recorder.sample(time)
         self.peak_force.sample()
         if self._steps % STEPS_PER_UPDATE == 0:
-            self.recorder.sample_reference(time, driver.motion.reference, driver.motion.path, self._cover())
+            self.recorder.sample_reference(time, driver.motion.reference, driver.motion.path, self._update_coverage())
         self._steps += 1
 
-    def _cover(self) -> float:
-        """Count what the tool works on now; return the greatest force in N with which it presses on a surface."""
+    def _update_coverage(self) -> float:
+        """Update the coverage; return the greatest force in N with which the tool presses on a surface."""
         greatest = 0.0
         for surface, force in self._pressing:
             force_n = abs(float(surface.normal @ force))
@@ -58,11 +58,11 @@ class ToolObserver:
 class PeakForce:
     """The greatest length so far of the sum of contact forces on one tool that is held, N.
 
-    The fingers that hold it are not among them: a weld keeps it, and their contacts do not count meanwhile.
+    Contacts of the fingers are not included, since a weld holds the tool meanwhile.
     """
 
     def __init__(self, tool: str, model: Any, data: Any) -> None:
-        """Look at a tool of that name in the model."""
+        """Observe the tool of a name in the model."""
         first = int(model.sensor(contact_sensor_name(tool)).adr[0])
         self._force = data.sensordata[first : first + 3]
         self._square = 0.0
@@ -73,14 +73,14 @@ class PeakForce:
         return sqrt(self._square)
 
     def sample(self) -> None:
-        """Take in one step."""
+        """Sample one step."""
         self._square = max(self._square, float(self._force.dot(self._force)))
 
 
 def _pressing(
     tool: str, names: Mapping[str, str], model: Any, data: Any, coverage: Mapping[str, CoverageMap]
 ) -> list[tuple[CoverageMap, Array]]:
-    """Return the surfaces that are really there, each with the view (3,) of the force of the tool on it."""
+    """Return the surfaces that are present, each with a view (3,) of the force in N of the tool on it."""
     found = []
     for individual, surface in coverage.items():
         sensor = pressing_sensor_name(tool, names[individual])
@@ -91,19 +91,19 @@ def _pressing(
 
 
 class SimulatedTruth:
-    """Implements `GroundTruth` from what observers saw of tools and where surfaces were put."""
+    """Implements `GroundTruth` with the observers of tools and the true poses of surfaces."""
 
     def __init__(self, observers: Mapping[str, ToolObserver], surfaces: Mapping[str, Pose]) -> None:
         self._observers, self._surfaces = observers, surfaces
 
     def recording(self, tool: str) -> Recording:
-        """Return what was recorded of a tool while it was held; KeyError where the cell has no such tool."""
+        """Return the recording of a tool while it was held; KeyError if the cell has no such tool."""
         return self._observers[tool].recorder.recording()
 
     def peak_force_n(self, tool: str) -> float:
-        """Return the greatest force on a tool while it was held; KeyError where the cell has no such tool."""
+        """Return the greatest force on a tool while it was held; KeyError if the cell has no such tool."""
         return self._observers[tool].peak_force.newton
 
     def surface_pose(self, surface: str) -> Pose:
-        """Return where a surface really is, in the world; KeyError where the cell has no such surface."""
+        """Return the true pose of a surface in the world; KeyError if the cell has no such surface."""
         return self._surfaces[surface]

@@ -1,4 +1,4 @@
-"""What the simulation needs to know of people who lead tools by the hand."""
+"""People who guide tools by hand: their specification, and how they differ from it in a run."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class PersonSpec:
-    """A person: the arm they lead, where they want its tool in the world (3,) m, and how hard they pull at most in N.
+    """A person: the arm they guide, the goal of its tool in the world (3,) m, and their greatest force in N.
 
-    The place may really be `range_m` beside that along each axis, the strength `strength_range_n` more or less.
+    The true goal may differ by `range_m` along each axis, the force by `strength_range_n`.
     """
 
     individual: str
@@ -28,7 +28,7 @@ class PersonSpec:
 
 
 def read_people(state: WorldState) -> tuple[PersonSpec, ...]:
-    """Read all people in order of IRI; SheetError or FrameError name the fact that is missing."""
+    """Read all people in order of IRI; SheetError or FrameError if a fact is missing."""
     return tuple(
         PersonSpec(
             individual=each,
@@ -45,7 +45,7 @@ def read_people(state: WorldState) -> tuple[PersonSpec, ...]:
 
 @dataclass(frozen=True, slots=True)
 class PersonVariation:
-    """One person: m beside the believed place along each axis of the world, N at most; or not `present` at all."""
+    """One person: the offset in m of the goal along each world axis, the greatest force in N, and whether present."""
 
     person: str
     place_m: tuple[float, float, float]
@@ -54,13 +54,13 @@ class PersonVariation:
 
     @property
     def description(self) -> str:
-        """What differs, in words."""
+        """The differences in words."""
         x, y, z = (1e3 * each for each in self.place_m)
         return f"leads {x:+.0f}, {y:+.0f} and {z:+.0f} mm beside, with {self.strength_n:.0f} N at most"
 
 
 def draw_person(person: PersonSpec, seed: int) -> PersonVariation:
-    """Draw the differences, evenly within the ranges of the facts."""
+    """Draw the differences, uniformly within the ranges of the facts."""
     rng = rng_for(person.individual, seed)
     x, y, z = (person.range_m * rng.uniform(-1.0, 1.0, 3)).tolist()
     strength = person.strength_n + person.strength_range_n * float(rng.uniform(-1.0, 1.0))

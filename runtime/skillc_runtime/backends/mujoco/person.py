@@ -1,4 +1,4 @@
-"""A simulated person who takes a yielding tool by the hand and leads it to where they want it."""
+"""A simulated person who guides a released tool by hand to a goal."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.motion.pose import Array
 
 REACTION_S = 1.0
-"""How long a person takes to notice that the arm yields."""
+"""Time until a person notices that the arm is released."""
 
 PULL_N_M, HOLD_N_S_M = 150.0, 40.0
-"""A person pulls the more the farther it is, up to their strength, and lets nothing swing."""
+"""Stiffness and damping with which a person pulls the tool to the goal, up to their greatest force."""
 
 THERE_M, THERE_S = 0.002, 1.0
-"""This near, for that long, is there: the person lets go."""
+"""The person lets go when the tool has been this close to the goal for this time."""
 
 
 class SimulatedPerson:
-    """Acts on the hand of one arm, every step; `place` (3,) is where they want the tool of `arm`.
+    """Acts on the hand of one arm in every step; `place` (3,) in m is the goal of the tool in the world.
 
-    `forces` are the forces in N with which they led it, one a step.
+    forces: N, one for each step in which they guide the tool.
     """
 
     def __init__(self, facts: PersonSpec, true: PersonVariation, hand: str, driver: ArmDriver, data: Any) -> None:
@@ -42,15 +42,15 @@ class SimulatedPerson:
         self.let_go = False
 
     def step(self, now: float) -> None:
-        """Pull, or do not."""
+        """Apply the force of one step at `now` s."""
         yields = not self._driver.compliance.commanded_stiffness[:3].any()
         self._yields_since = None if not yields else now if self._yields_since is None else self._yields_since
         leading = self._yields_since is not None and now - self._yields_since >= REACTION_S and not self.let_go
         self._force[:] = 0.0
         if leading:
-            self._lead(now)
+            self._guide(now)
 
-    def _lead(self, now: float) -> None:
+    def _guide(self, now: float) -> None:
         tool = self._driver.measured.pose.position
         away = self.place - tool
         pull = PULL_N_M * away
@@ -66,7 +66,7 @@ class SimulatedPerson:
 def make_people(
     scene: SceneSpec, variation: Variation, drivers: Mapping[str, ArmDriver], data: Any
 ) -> tuple[SimulatedPerson, ...]:
-    """Return those who come and lead an arm that has a gripper to take hold of."""
+    """Return the people who are present and guide an arm with a gripper."""
     hands = {arm.individual: palm for arm in scene.arms if (palm := _palm(arm, scene.names)) is not None}
     return tuple(
         SimulatedPerson(each, true, hands[each.arm], drivers[each.arm], data)

@@ -1,4 +1,4 @@
-"""The recording of a run: what really happened at every simulation step, in arrays that grow by doubling."""
+"""The recording of a run: the true values of every simulation step, in arrays that grow by doubling."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ normal force on a surface."""
 
 
 class Recorder:
-    """Takes one row a step for one tool, and the reference, which is smooth, every so often."""
+    """Records one row per step for one tool, and the reference, which is smooth, at a lower rate."""
 
     def __init__(self, truth: Array, expected_steps: int = 1 << 16) -> None:
         """`truth` (11,) is the view of the tool's sensors: force, position 3, quaternion 4, velocity 3."""
@@ -27,7 +27,7 @@ class Recorder:
         self._references: list[tuple[float, Array]] = []
 
     def sample(self, time: float) -> None:
-        """Take the row of one step that began at `time` s."""
+        """Record the row of one step that began at `time` s."""
         if self._count == len(self._rows):
             self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
         row = self._rows[self._count]
@@ -35,12 +35,12 @@ class Recorder:
         self._count += 1
 
     def sample_reference(self, time: float, reference: Reference, path: Reference, on_surface_n: float) -> None:
-        """Take what the arm is asked for at `time` s, and the same without overlays, in the world; the force there."""
+        """Record reference and path in the world at `time` s, and the force on a surface in N."""
         asked = (reference.pose.position, reference.twist[:3], path.pose.position, path.twist[:3], (on_surface_n,))
         self._references.append((time, np.concatenate(asked)))
 
     def recording(self) -> Recording:
-        """Return what was taken so far, as a read-only copy; between two samples those are interpolated."""
+        """Return a read-only copy of the recording; references are interpolated between samples."""
         rows = np.empty((self._count, COLUMNS))
         rows[:, :MEASURED] = self._rows[: self._count]
         if self._references:

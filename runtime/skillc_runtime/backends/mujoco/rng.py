@@ -1,4 +1,4 @@
-"""Random numbers of a simulated run: a generator for each thing, whatever else there is in the scene."""
+"""Random numbers of a simulated run: a generator for each individual, independent of the rest of the scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the simulation needs to know of a scene, read from the world model into typed values, once."""
+"""The specification of a simulated scene, read once from the world model into typed values."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ MODES: Final[dict[str, Mode]] = {
     POSITION_CONTROLLED_ARM: "position",
     VELOCITY_CONTROLLED_ARM: "velocity",
 }
-"""What arms of these classes take."""
+"""The kinds of commands of arms by class."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class GripperSpec:
 
     @property
     def first_opening_m(self) -> float:
-        """How far the fingers stand apart at the start."""
+        """The distance of the fingers in m at the start."""
         return self.max_opening_m / 2
 
 
@@ -90,13 +90,13 @@ class ArmSpec:
 
     @property
     def has_servos(self) -> bool:
-        """Whether the arm has servos of its own, which take positions or speeds, and no bare motors."""
+        """Whether the arm has its own servos, which take positions or speeds."""
         return "torque" not in self.modes
 
 
 @dataclass(frozen=True, slots=True)
 class BaseSpec:
-    """A mobile base: where it stands, its size (3,) m, speed m/s, acceleration m/s^2, turn rate rad/s, rad/s^2."""
+    """A mobile base: pose in the world, size (3,) m, speed m/s, acceleration m/s^2, turn rate rad/s, rad/s^2."""
 
     individual: str
     pose: Pose
@@ -127,9 +127,9 @@ class ToolSpec:
 
 @dataclass(frozen=True, slots=True)
 class SurfaceSpec:
-    """A surface as it is believed to be, and how far reality may differ: m along the normal, rad, friction.
+    """A surface at its assumed pose, and the ranges of true values: m along the normal, rad, friction.
 
-    `layout` says which of it is to be worked on; a tool pressed with less than `least_n` does nothing to it.
+    `layout` gives the area to work on; a tool works if it is pressed with at least `least_n` N.
     """
 
     individual: str
@@ -144,7 +144,7 @@ class SurfaceSpec:
 
 @dataclass(frozen=True, slots=True)
 class FurnitureSpec:
-    """A box that carries things: the middle of its top in the world, its size (3,) m."""
+    """A box that supports objects: the pose of the centre of its top in the world, its size (3,) in m."""
 
     individual: str
     pose: Pose
@@ -166,7 +166,7 @@ class SceneSpec:
 
 
 def read_scene_spec(state: WorldState) -> SceneSpec:
-    """Read what a simulation needs; SheetError or FrameError name the fact that is missing."""
+    """Read what a simulation needs; SheetError or FrameError if a fact is missing."""
     short = state.vocabulary.short
     return SceneSpec(
         names={individual: short(individual) for individual in sorted(state.individuals)},

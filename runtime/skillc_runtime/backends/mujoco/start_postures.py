@@ -1,4 +1,4 @@
-"""Where an arm starts: somewhere near its home, where it touches nothing that is believed to be there."""
+"""Draws the start posture of an arm: near its home and free of collisions with known obstacles."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from skillc_runtime.collision.collision_model import build_collision_model
 from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.motion.pose import Array
 
-MOST_DRAWS = 100
-"""So often a start is drawn at most until nothing is touched; otherwise the arm starts at home."""
+MAX_DRAWS = 100
+"""Greatest number of draws; if all collide, the arm starts at home."""
 
 
 def draw_start(arm: ArmSpec, seed: int) -> tuple[float, ...]:
-    """Draw how far each joint is from its home, rad: the first draw that touches no more than the arm does at home."""
+    """Draw the offsets of the joints from home in rad: the first draw without more collisions than at home."""
     if arm.posture_range_rad == 0:
         return (0.0,) * arm.home.size
     draws = _draws(arm, seed)
     try:
         contacts = _contacts(arm)
     except ValueError:
-        # Models that cannot be used are told when the cell is built of them.
+        # Invalid models are reported when the cell is built.
         return tuple(next(draws).tolist())
     at_home = contacts.overlapping_pairs(arm.home)
     free = (off for off in draws if contacts.overlapping_pairs(arm.home + off) <= at_home)
@@ -33,7 +33,7 @@ def draw_start(arm: ArmSpec, seed: int) -> tuple[float, ...]:
 
 def _draws(arm: ArmSpec, seed: int) -> Iterator[Array]:
     rng = rng_for(arm.individual, seed)
-    for _ in range(MOST_DRAWS):
+    for _ in range(MAX_DRAWS):
         yield rng.uniform(-1.0, 1.0, arm.home.size) * arm.posture_range_rad
 
 

@@ -1,4 +1,4 @@
-"""How reality differs from what the world model believes: drawn once from the ranges in the facts and a seed."""
+"""The differences between a simulated run and the world model, drawn from ranges in the facts and a seed."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from skillc_runtime.backends.mujoco.start_postures import draw_start
 from skillc_runtime.motion.pose import Array, Pose, exp
 
 OBSTACLE_M = (0.03, 0.03, 0.012)
-"""A magnet that somebody left on a surface."""
+"""Size of an obstacle that the world model does not have, such as a magnet on a surface."""
 
 OBSTACLE_SHARE = 0.5
-"""An obstacle lies within this share of the surface, in the middle."""
+"""An obstacle lies within this share of the surface, around its centre."""
 
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """A box on a surface: its place (2,) m along the surface's x and y, and its size (3,) m."""
+    """A box on a surface: its position (2,) in m along the surface's x and y, and its size (3,) in m."""
 
     place: tuple[float, float]
     size: tuple[float, float, float] = OBSTACLE_M
@@ -31,9 +31,9 @@ class Obstacle:
 
 @dataclass(frozen=True, slots=True)
 class SurfaceVariation:
-    """One surface: m along its believed normal, rad about its believed x and y, sliding friction.
+    """One surface: the offset in m along its assumed normal, the tilt in rad about its assumed x and y, its friction.
 
-    `present` is false for one that is not there at all; `obstacle` is what lies on it unknown to the world model.
+    present: false if it is absent; obstacle: a box on it that the world model does not have.
     """
 
     surface: str
@@ -44,7 +44,7 @@ class SurfaceVariation:
     obstacle: Obstacle | None = None
 
     def true_pose(self, believed: Pose) -> Pose:
-        """Return where the surface really is."""
+        """Return the true pose of the surface, in the frame of the assumed one."""
         tilt = exp(np.array([*self.tilt_rad, 0.0]))
         return believed @ Pose(np.array([0.0, 0.0, self.offset_m]), tilt)
 
@@ -53,8 +53,8 @@ class SurfaceVariation:
 class Variation:
     """All differences of one simulated run.
 
-    `start_rad`: how far each joint of an arm is from its home at the start; `pad_share`: how much stiffer or softer the
-    working face of a tool is than its sheet says; both by IRI. `fixtures` and `people` are in the order of the facts.
+    start_rad: offsets of the joints of an arm from home at the start; pad_share: relative difference of the stiffness
+    of a tool's working face from its sheet; both by IRI. Fixtures and people are in the order of the scene.
     """
 
     seed: int
@@ -72,16 +72,16 @@ class Variation:
         raise KeyError(surface)
 
     def start(self, arm: ArmSpec) -> Array:
-        """Return the joints (nv,) rad in which an arm starts."""
+        """Return the start posture (nv,) in rad of an arm."""
         return np.asarray(arm.home + self.start_rad[arm.individual], dtype=np.float64)
 
     def pad_stiffness(self, tool: ToolSpec) -> float:
-        """Return how stiff the working face of a tool really is, N/m."""
+        """Return the true stiffness of the working face of a tool in N/m."""
         return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual])
 
 
 def draw_variation(scene: SceneSpec, seed: int) -> Variation:
-    """Draw the differences, uniform within the ranges of the facts; no thing's draw depends on the others."""
+    """Draw the differences uniformly within the ranges of the facts, independently for each individual."""
     return Variation(
         seed,
         tuple(_draw(surface, seed) for surface in scene.surfaces),
@@ -93,7 +93,7 @@ def draw_variation(scene: SceneSpec, seed: int) -> Variation:
 
 
 def make_all_absent(variation: Variation) -> Variation:
-    """Return the same reality, where nothing is there to work on and nobody to work with."""
+    """Return the same variation without surfaces, fixtures and people."""
     return replace(
         variation,
         surfaces=tuple(replace(each, present=False) for each in variation.surfaces),
@@ -103,7 +103,7 @@ def make_all_absent(variation: Variation) -> Variation:
 
 
 def add_obstacles(variation: Variation, scene: SceneSpec) -> Variation:
-    """Return the same reality, with an obstacle somewhere on each surface, and one in each fixture."""
+    """Return the same variation with an obstacle on each surface and in each fixture."""
     littered = (replace(variation.of(s.individual), obstacle=_obstacle(s, variation.seed)) for s in scene.surfaces)
     blocked = (replace(each, blocked=True) for each in variation.fixtures)
     return replace(variation, surfaces=tuple(littered), fixtures=tuple(blocked))

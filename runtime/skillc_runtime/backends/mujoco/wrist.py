@@ -1,4 +1,4 @@
-"""The force/torque sensor at a wrist: low-passed, weight and inertia of the hand removed, moved to the tool."""
+"""The force/torque sensor at a wrist: low-passed, without weight and inertia of the hand, at the tool centre point."""
 
 from __future__ import annotations
 
@@ -20,9 +20,8 @@ class Wrist:
 
     MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. An accelerometer
     beside the sensor reads s = a - g. With masses m at c, relative to the sensor: f_ext = m s - f_S,
-    t_ext = c x m s - t_S, at the tool centre point p: t_ext - p x f_ext. So weight and inertia are removed at once,
-    but for the inertia of turning. All of it is one constant matrix until something is grasped: w = G [f; t; s], along
-    the sensor's axes.
+    t_ext = c x m s - t_S, at the tool centre point p: t_ext - p x f_ext. This removes weight and inertia, except for
+    rotational inertia. It is one constant matrix until the next grasp: w = G [f; t; s], along the sensor's axes.
 
     gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample.
     """
@@ -38,7 +37,7 @@ class Wrist:
         self.gain, self._quiet = np.zeros((6, 9)), np.zeros(9)
 
     def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
-        """Take a tool centre point and a payload with its centre of mass (3,) m, both in the sensor's frame."""
+        """Set the tool centre point and a payload with its centre of mass (3,) in m, both in the sensor's frame."""
         mass = self._hand_mass + payload_kg
         moment = skew(self._hand_mass * self._hand_centre + payload_kg * payload_centre)
         at_sensor = np.hstack([-np.eye(6), np.vstack([mass * np.eye(3), moment])])
@@ -47,7 +46,7 @@ class Wrist:
         self.gain[:] = to_tool @ at_sensor
 
     def sample(self) -> None:
-        """Take in the reading of one simulation step; the first one fills the filter."""
+        """Filter the reading of one simulation step; the first one initialises the filter."""
         if self._started:
             noise = self._quiet if self._noise is None else self._noise.row()
             low_pass(self.readings, self._raw, noise, self._share)
@@ -57,7 +56,7 @@ class Wrist:
 
 @compiled
 def low_pass(readings: OutVector, raw: Vector, noise: Vector, share: float) -> None:
-    """Let the readings (9,) go a share of the way to the noisy raw ones."""
+    """Move the readings (9,) by a share of the difference to the noisy raw ones (9,)."""
     readings += share * (raw + noise - readings)
 
 
