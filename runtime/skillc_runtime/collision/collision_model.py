@@ -39,22 +39,22 @@ class CollisionModel:
 
 
 @lru_cache(maxsize=8)
-def build_collision_model(outfit: ArmAssembly, scenery: Scenery) -> CollisionModel:
+def build_collision_model(assembly: ArmAssembly, scenery: Scenery) -> CollisionModel:
     """Return the model; ValueError if the model of an arm has no site `flange`, or that of a gripper no site `tcp`."""
-    spec, arm = mujoco.MjSpec(), _moving_model(outfit.model)
+    spec, arm = mujoco.MjSpec(), _moving_model(assembly.model)
     spec.option.timestep, spec.option.integrator = arm.option.timestep, arm.option.integrator
     _add_scenery(spec, scenery)
     spec.attach(arm, prefix=ARM, frame=spec.worldbody.add_frame())
     joints = len(spec.joints)
-    if outfit.hand is not None:
-        _add_hand(spec, outfit.hand)
+    if assembly.hand is not None:
+        _add_hand(spec, assembly.hand)
     _exclude_touching(spec)
     model = spec.compile()
     model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_OVERRIDE)
-    model.opt.o_margin = outfit.clearance_m
-    names = tuple(_name(model, geom, outfit, scenery) for geom in range(model.ngeom))
-    fingers, levers = _fingers(model, joints, outfit.hand), _levers(model, joints)
-    return CollisionModel(model, names, joints, fingers, levers, outfit.clearance_m)
+    model.opt.o_margin = assembly.clearance_m
+    names = tuple(_name(model, geom, assembly, scenery) for geom in range(model.ngeom))
+    fingers, levers = _fingers(model, joints, assembly.hand), _levers(model, joints)
+    return CollisionModel(model, names, joints, fingers, levers, assembly.clearance_m)
 
 
 def _moving_model(path: str) -> Any:
@@ -156,17 +156,17 @@ def _chain(model: Any, link: int) -> Iterator[int]:
         link = int(model.body_parentid[link])
 
 
-def _name(model: Any, geom: int, outfit: ArmAssembly, scenery: Scenery) -> str:
+def _name(model: Any, geom: int, assembly: ArmAssembly, scenery: Scenery) -> str:
     """Return the name of a geom for messages: of a link, the gripper, a held object or an obstacle."""
     own, link = model.geom(geom).name, model.body(model.geom_bodyid[geom]).name
     kind, _, index = (own if own.startswith(("block/", HELD)) else link).partition("/")
     match kind:
         case "arm":
-            return f"{outfit.name} {index}"
-        case "hand" if outfit.hand is not None:
-            return outfit.hand.name
-        case "held" if outfit.hand is not None:
-            return outfit.hand.held[int(index)].name
+            return f"{assembly.name} {index}"
+        case "hand" if assembly.hand is not None:
+            return assembly.hand.name
+        case "held" if assembly.hand is not None:
+            return assembly.hand.held[int(index)].name
         case "block":
             return scenery.blocks[int(index)].name
         case "thing":

@@ -50,7 +50,7 @@ class JointSpace:
 
 
 def plan_joint_path(
-    contacts: CollisionChecker, start: Array, goals: Iterable[Array], known: JointSpace
+    contacts: CollisionChecker, start: Array, goals: Iterable[Array], space: JointSpace
 ) -> tuple[Array, ...]:
     """Return the postures (nv,) of a path, without the start, to the first goal that can be reached.
 
@@ -65,7 +65,7 @@ def plan_joint_path(
             continue
         if find_path_collision(contacts, (start, goal)) is None:
             return (goal,)
-        found, missing = _around(contacts, start, goal, known)
+        found, missing = _around(contacts, start, goal, space)
         if found:
             return tuple(min(found, key=lambda postures: _length(contacts, postures))[1:])
         reasons.append(f"on the straight way {contacts.worst_collision(interpolate(contacts, start, goal))}; {missing}")
@@ -102,15 +102,15 @@ def interpolate(contacts: CollisionChecker, start: Array, goal: Array) -> Iterat
     yield from (start + change * (index / pieces) for index in range(1, pieces + 1))
 
 
-def _around(contacts: CollisionChecker, start: Array, goal: Array, known: JointSpace) -> tuple[list[list[Array]], str]:
+def _around(contacts: CollisionChecker, start: Array, goal: Array, space: JointSpace) -> tuple[list[list[Array]], str]:
     """Return paths around obstacles, and the message if there are none."""
     before, missing = contacts.checks, ""
     try:
-        found = _sampled_paths(contacts, start, goal, known.range)
+        found = _sampled_paths(contacts, start, goal, space.range)
     except SamplerMissing:
         found, missing = [], "; the extra `motion` searches longer"
-    found = found or _through(contacts, start, goal, known.safe)
-    found = found or _through(contacts, start, goal, _random_postures(start, goal, known.range))
+    found = found or _through(contacts, start, goal, space.safe)
+    found = found or _through(contacts, start, goal, _random_postures(start, goal, space.range))
     return found, f"no way around was found in {contacts.checks - before} looks{missing}"
 
 
