@@ -25,6 +25,7 @@ from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
 from skillc_runtime.backends.mujoco.variation import Variation
 from skillc_runtime.backends.mujoco.wrist import Wrist
 from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, Command, Mode
+from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.pose import Array, Pose
 
 MASS_MATRIX_PERIOD_S = 0.01
@@ -80,6 +81,7 @@ class SimulatedArm:
         self._flange = _in_body(model.site(part_name(name, "flange")))
         self._wrist = _wrist(facts, gripper, model, data, reality.seed)
         self._sensing = self._make_sensing()
+        self._measure = bind(measure, self._sensing)
         self._speed_noise = noise.make_joint_noise(facts, reality.seed)
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._q[:] = reality.start(facts)
@@ -108,7 +110,7 @@ class SimulatedArm:
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
         noise = self._speed_noise
-        measure(self._sensing, self._quiet if noise is None else noise.row())
+        self._measure(self._quiet if noise is None else noise.row())
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
         return self._state

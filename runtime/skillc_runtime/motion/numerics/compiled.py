@@ -13,18 +13,19 @@ from collections import namedtuple
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import fields, is_dataclass
-from functools import cache
+from functools import cache, partial
 from hashlib import sha256
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import get_annotations, isfunction
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, Concatenate, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
 
 from skillc_dsl.cache import cache_folder
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
+First = TypeVar("First")
 
 COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("numba") is not None
 """Whether functions are compiled; SKILLC_COMPILED=0 in the environment turns it off."""
@@ -42,6 +43,17 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
     if any(is_dataclass(annotation) for annotation in get_annotations(function, eval_str=True).values()):
         return _unpacking(function)
     return _compiled_lazily(function)
+
+
+def bind(function: Callable[Concatenate[First, Parameters], Result], first: First) -> Callable[Parameters, Result]:
+    """Return the function with its first parameter fixed: a dataclass whose arrays keep their places in memory.
+
+    Its fields are read once, here, and not at every call.
+    """
+    if hasattr(function, "bind"):
+        bound: Callable[Parameters, Result] = function.bind(first)
+        return bound
+    return partial(function, first)
 
 
 def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
@@ -86,20 +98,24 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     annotations = get_annotations(function, eval_str=True)
     returns = annotations.pop("return")
     leaves: dict[str, Any] = {}
-    names: dict[str, Any] = {"function": inlined(function), "__name__": function.__module__}
+    names: dict[str, Any] = {"function": inlined(function), "partial": partial, "__name__": function.__module__}
     packed = [_packed(function, annotation, name, leaves, names) for name, annotation in annotations.items()]
     flat = {path.replace(".", "__"): annotation for path, annotation in leaves.items()}
+    first = next(iter(annotations))
+    fields_of_first = ", ".join(each for each in leaves if each.startswith(f"{first}."))
     source = (
         f"def flat({', '.join(flat)}):\n    return function({', '.join(packed)})\n"
         f"def call({', '.join(annotations)}):\n    return flat({', '.join(leaves)})\n"
+        f"def bind({first}):\n    return partial(flat, {fields_of_first})\n"
     )
     exec(compile(source, function.__code__.co_filename, "exec"), names)
     names["flat"].__qualname__ = f"{function.__qualname__}_flat"
     names["flat"].__annotations__ = {**flat, "return": returns}
     names["flat"] = _compiled_lazily(names["flat"])
-    call: Callable[Parameters, Result] = names["call"]
-    call.__doc__, call.__name__ = function.__doc__, function.__name__
-    return call
+    call: Any = names["call"]
+    call.__doc__, call.__name__, call.bind = function.__doc__, function.__name__, names["bind"]
+    unpacking: Callable[Parameters, Result] = call
+    return unpacking
 
 
 @cache
