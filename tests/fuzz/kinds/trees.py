@@ -11,9 +11,9 @@ from functools import cache
 from pathlib import Path
 from random import Random
 
+from analysis.plays import Writer
 from fuzz.kinds._trees import write_library
 from peers.comparing import differences
-from proof.plays import Writer
 from skillc_compiler.emit import bt
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source

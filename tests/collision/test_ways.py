@@ -11,8 +11,8 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from avoidance.around import aside, box, contacts, home, pillar, posture
-from avoidance.test_contacts import least_distance
+from collision.around import aside, box, contacts, home, pillar, posture
+from collision.test_contacts import least_distance
 from simulation.cells import SCENES
 from skillc_runtime.collision import path_planning as ways
 from skillc_runtime.collision.collision_checker import SLACK_M, CollisionChecker

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from avoidance.around import box, world
+from collision.around import box, world
 from simulation.cells import ARM, ERASER, GRIPPER, LAB, PLACE
 from skillc_runtime.collision.arm_assembly import ArmAssembly, read_arm_assembly
 from skillc_runtime.collision.scenery import read_scenery

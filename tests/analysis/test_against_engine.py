@@ -12,8 +12,8 @@ from random import Random
 
 import pytest
 
-from proof.actors import ITEMS, SPOTS, Chance, world
-from proof.plays import Writer
+from analysis.actors import ITEMS, SPOTS, Chance, world
+from analysis.plays import Writer
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     BrokenHold,

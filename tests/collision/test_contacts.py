@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from avoidance.around import ASIDE_RAD, OWN, aside, contacts, home, pillar
+from collision.around import ASIDE_RAD, OWN, aside, contacts, home, pillar
 from simulation.cells import SCENES
 from skillc_runtime.collision.collision_checker import SLACK_M, CollisionChecker
 from skillc_runtime.motion.pose import Array

@@ -7,8 +7,8 @@ import sys
 import numpy as np
 import pytest
 
-from avoidance.around import aside, cell, pillar, posture, true_gap
-from avoidance.test_ways import UPRIGHT
+from collision.around import aside, cell, pillar, posture, true_gap
+from collision.test_ways import UPRIGHT
 from simulation.cells import ARM, SCENES
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.collision import path_planning as ways
