@@ -1,1 +1,1 @@
-"""Goals and calls given at run time, in the words of a library and of a scene. Start reading at `parsing`."""
+"""Parsing and checking of goals and calls given at run time. Start at `parsing`."""

@@ -1,4 +1,4 @@
-"""What names in a goal or a call can refer to: all vocabularies, a library's skills, a scene's individuals."""
+"""The context of a goal or call: the vocabularies, the skills of a library and the individuals of a scene."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def make_context(
     prefixes: Mapping[str, str],
     skills: Mapping[str, library.Skill] | None = None,
 ) -> FileContext:
-    """Return the context in which a goal is resolved: every term may be written bare where that is unambiguous.
+    """Return the context in which a goal is resolved; every unambiguous term may be written without its prefix.
 
-    `individuals` are the IRIs known, with their classes; `prefixes` may be written besides the vocabulary's.
+    `individuals` are the IRIs of the scene with their classes; `prefixes` are allowed in addition to the vocabulary's.
     """
     callees = {name: _skill(skill) for name, skill in (skills or {}).items()}
     names = Names(
@@ -49,7 +49,7 @@ def make_context(
 
 
 def _skill(skill: library.Skill) -> Skill:
-    """Return a compiled skill as the callee that calls are resolved against."""
+    """Return a compiled skill as the resolved skill that calls refer to."""
     return Skill(
         name=skill.name,
         doc=skill.doc,

@@ -1,4 +1,4 @@
-"""Mistakes in a goal or call that are found in its text before it is parsed, which would take it for something else."""
+"""Checks on the text of a goal or call, for mistakes that the parser would report misleadingly."""
 
 from __future__ import annotations
 
@@ -24,9 +24,10 @@ _DECLARED = re.compile(r"([A-Za-z]\w*)\s*:\s")
 def find_mistakes(
     text: str, what: InputKind, individuals: Iterable[str], means_something: Callable[[str], bool]
 ) -> tuple[Diagnostic, ...]:
-    """Return what is wrong: nothing is written, a parenthesis lacks its other half, or an individual its prefix.
+    """Report an empty text, unbalanced parentheses, and individuals without their prefix.
 
-    `individuals` are those of the scene as they are written, `means_something` tells which bare names are taken.
+    `individuals` are the qualified names of the scene's individuals; `means_something` is true for a bare name that
+    already has a meaning.
     """
     if not text.strip():
         return (Diagnostic("syntax", Span(what, 1, 1, 1, 2), f"the {what} is empty", EXAMPLES[what]),)
@@ -35,7 +36,7 @@ def find_mistakes(
 
 
 def reword(problem: Diagnostic, what: InputKind) -> tuple[str, str]:
-    """Return message and help of a syntax error in words of goals and calls, not of the task that was put round it."""
+    """Return the message and help of a syntax error for a goal or call, without mentioning the task that wraps it."""
     found, _, expected = problem.message.partition(": expected ")
     if "a member of a task" in expected or "`}`" in expected:
         return found, EXAMPLES[what]

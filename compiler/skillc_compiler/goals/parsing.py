@@ -1,4 +1,4 @@
-"""Goals and calls given at run time, in `.skill` or PDDL text, understood and checked like those in files."""
+"""Parses goals and calls given at run time, in `.skill` or PDDL syntax, with the same checks as for files."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ from skillc_rdf.vocabulary.types import Position, Vocabulary
 T = TypeVar("T")
 
 LONGEST, DEEPEST = 50_000, 100
-"""How many characters a goal or a call may have, and how deep it may be nested."""
+"""The maximum length of a goal or call in characters, and its maximum depth of nesting."""
 LINES_ABOVE = 2
 BETWEEN = frozenset(("==", "!=", "<", "<=", ">", ">=", "is", "has"))
-"""Words that stand between two others in a condition of the language."""
+"""Infix keywords in conditions."""
 
 
 def parse_goal(
@@ -43,8 +43,8 @@ def parse_goal(
 ) -> Outcome[Condition | None]:
     """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
-    `individuals` are the IRIs of the scene with their classes, `prefixes` those its file declares. The value is None
-    if there are errors; spans count in `text`, under the path `goal`.
+    `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares. The value is
+    None if there are errors; spans are positions in `text`, with the path `goal`.
     """
     return _bounded(lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {})), text, "goal")
 
@@ -52,13 +52,13 @@ def parse_goal(
 def parse_call(
     text: str, library: SkillLibrary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
 ) -> Outcome[tree.Call | None]:
-    """Parse a call such as `Wipe(surface: lab:Board)`; as `parse_goal`, with the path `call`."""
+    """Parse a call such as `Wipe(surface: lab:Board)`, like `parse_goal`, with the path `call`."""
     asked = make_context(library.vocabulary, individuals, prefixes or {}, library.skills)
     return _bounded(lambda: _call(text, asked), text, "call")
 
 
 def _bounded(understand: Callable[[], Outcome[T]], text: str, what: InputKind) -> Outcome[T | None]:
-    """Parse a text unless it is longer, or nested deeper, than anybody would write it."""
+    """Parse a text, unless it exceeds the maximum length or depth of nesting."""
     if len(text) > LONGEST:
         return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
     try:
@@ -105,7 +105,7 @@ def _mistakes(asked: FileContext, text: str, what: InputKind) -> tuple[Diagnosti
 
 
 def _is_pddl(group: PddlGroup, names: Names) -> bool:
-    """Whether a text in parentheses is PDDL: `(a r b)` is not when `r` is a relation and `a` is none."""
+    """Whether a text in parentheses is PDDL: `(a r b)` is not if `r` is a relation and `a` is not."""
     match group.parts:
         case [PddlWord(text="not"), PddlGroup() as inner]:
             return _is_pddl(inner, names)
@@ -133,7 +133,7 @@ def _from_pddl(group: PddlGroup, text: str, names: Names) -> Outcome[s.TaskDecla
 
 
 def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
-    """Parse a goal or a call as the only member of a task, which begins LINES_ABOVE lines before it."""
+    """Parse a goal or call as the only member of a task, which begins LINES_ABOVE lines above it."""
     member = "goal" if what == "goal" else "do"
     parsed = parse(Source(what, f"task {what} {{\n{member}\n{text}\n}}\n"))
     if parsed.diagnostics:
@@ -152,7 +152,7 @@ def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
 
 
 def _resolve(asked: FileContext, written: Outcome[s.TaskDeclaration | None]) -> Outcome[Task | None]:
-    """Resolve and check; the value is None if there are errors."""
+    """Resolve and check a goal or call; the value is None if there are errors."""
     if written.value is None:
         return Outcome(None, written.diagnostics)
     resolved = resolve_task(asked, written.value)
@@ -162,7 +162,7 @@ def _resolve(asked: FileContext, written: Outcome[s.TaskDeclaration | None]) -> 
 
 
 def _in_text(outcome: Outcome[Task | None], text: str, path: str) -> Outcome[Task | None]:
-    """Count places in the text itself, not in the task that was put around it."""
+    """Move the places of diagnostics from the wrapping task to the text itself."""
     last = max(1, len(text.splitlines()))
 
     def place(span: Span) -> Span:

@@ -1,4 +1,4 @@
-"""Goals in PDDL text, as the same syntax that a `.skill` goal has."""
+"""Converts goals in PDDL to the syntax tree of a `.skill` goal."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Expression: TypeAlias = PddlWord | PddlGroup
 
 
 class PddlGoalError(Exception):
-    """A text that is no PDDL goal; `problem` says where and why."""
+    """The text is not a PDDL goal; `problem` is the diagnostic."""
 
     def __init__(self, problem: Diagnostic) -> None:
         super().__init__(problem.message)
@@ -43,7 +43,7 @@ class PddlGoalError(Exception):
 
 
 def parse_group(text: str, path: str) -> PddlGroup | None:
-    """Return a text as nested groups, None if it is not exactly one well-nested group."""
+    """Return a text as nested groups, or None if it is not exactly one balanced group."""
     open_groups: list[list[Expression]] = [[]]
     starts: list[Span] = []
     for word in _words(text, path):
@@ -65,7 +65,7 @@ def parse_group(text: str, path: str) -> PddlGroup | None:
 
 
 def convert_goal(group: PddlGroup, is_class: Callable[[str], bool]) -> s.Condition:
-    """Return the condition that a PDDL goal stands for. Raises PddlGoalError for what is no goal."""
+    """Return the condition that is equivalent to a PDDL goal. Raises PddlGoalError if the group is not a goal."""
     match group.parts:
         case [PddlWord(text="and"), *parts]:
             return s.And(tuple(convert_goal(_group(part), is_class) for part in parts), group.span)
@@ -108,7 +108,7 @@ def _group(part: Expression) -> PddlGroup:
 
 
 def _typed(parts: Sequence[Expression], of: PddlGroup) -> Iterator[tuple[s.Name, s.Name]]:
-    """Yield the variables of `(?x ?y - Class ..)` with their classes; `Thing` where none is written."""
+    """Yield the variables of `(?x ?y - Class ..)` with their classes; the default is `Thing`."""
     waiting: list[PddlWord] = []
     remaining = iter(parts)
     for part in remaining:
@@ -139,14 +139,14 @@ def _refusal(span: Span, message: str) -> PddlGoalError:
 
 
 def _comparison(operator: str, left: Expression, right: Expression, span: Span) -> PddlGoalError:
-    """Refuse what compares values: PDDL has no units to do it in."""
+    """Return the error for a comparison of values, which PDDL cannot express since it has no units."""
     own = f"{_said(left)} {'==' if operator == '=' else operator} {_said(right)}"
     help_ = f"write it as in a .skill file, numbers with their units: `{own}`, and all around it in that way too"
     return PddlGoalError(Diagnostic("syntax", span, "a PDDL goal compares no values of properties", help_))
 
 
 def _said(expression: Expression) -> str:
-    """Return a value as the language says it: `(p x)` is `x.p`."""
+    """Return a value in the syntax of the language: `(p x)` becomes `x.p`."""
     match expression:
         case PddlWord(text=text):
             return text.removeprefix("?")

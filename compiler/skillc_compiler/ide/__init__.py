@@ -1,1 +1,1 @@
-"""What an editor asks while somebody writes: pure functions over an understood library, no protocol."""
+"""Editor features as pure functions over an analysed library, independent of any protocol. Start at `analysis`."""

@@ -1,4 +1,4 @@
-"""A library as an editor sees it: understood as far as possible, with its problems and the places of its names."""
+"""The analysis of a library for an editor: its program, its diagnostics and the index of its names, despite errors."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 @dataclass(frozen=True, slots=True)
 class Library:
-    """What is analysed: the texts of a library, the files that it may import, the ontology, the scenes of its tasks.
+    """The input of an analysis: the sources of a library, the importable files, the ontology, the scenes of its tasks.
 
-    `sources` are keyed by path relative to the library, `importable` by the name that an import gives.
+    `sources` are keyed by path relative to the library, `importable` by the name written in the import.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Library:
 
 @dataclass(frozen=True)
 class Analysis:
-    """A library with what was understood of it."""
+    """A library with the result of parsing and resolving it; everything else is computed on first use."""
 
     library: Library
     files: Outcome[tuple[ParsedFile, ...]]
@@ -47,18 +47,18 @@ class Analysis:
 
     @property
     def program(self) -> Program:
-        """The program that the files mean together."""
+        """The resolved program of all files; parts with errors are missing."""
         return self.resolved.value
 
     @cached_property
     def compiled(self) -> Outcome[SkillLibrary]:
-        """The compiled library with what the author is told, as by the compiler. Takes longer than all else here."""
+        """The compiled library with all diagnostics, as from the compiler; by far the slowest property."""
         checked = Outcome(self.program, find_problems(self.files, self.resolved))
         return lower_and_report(checked, _ordered(self.library))
 
     @property
     def problems(self) -> tuple[Diagnostic, ...]:
-        """What the author is told, in order of place."""
+        """All diagnostics, in order of their places."""
         return self.compiled.diagnostics
 
     @cached_property
@@ -69,26 +69,26 @@ class Analysis:
 
     @cached_property
     def visible(self) -> Mapping[str, VisibleNames]:
-        """What each file can name."""
+        """The names visible in each file, by path."""
         return find_visible(self.program, self.library.vocabulary)
 
     @cached_property
     def index(self) -> Index:
-        """Where each name stands and what it stands for."""
+        """The occurrences of all symbols."""
         return build_index(self.program, self.visible)
 
     @cached_property
     def types(self) -> Mapping[Span, Type]:
-        """The type of every value that was understood, by its place."""
+        """The type of every resolved value, by its place."""
         return {value.span: value.type for value in all_values(self.program)}
 
     def line(self, path: str, number: int) -> str:
-        """Return a line of a file, counted from 1; empty where there is none."""
+        """Return a line of a file, counted from 1, or an empty string if it does not exist."""
         lines = self.texts.get(path, "").split("\n")
         return lines[number - 1] if 0 < number <= len(lines) else ""
 
     def text_of(self, span: Span) -> str:
-        """Return what stands at a place, its lines joined with blanks."""
+        """Return the text at a place, with its lines joined by spaces."""
         lines = [self.line(span.path, number) for number in range(span.line, span.end_line + 1)]
         lines[-1] = lines[-1][: span.end_column - 1]
         lines[0] = lines[0][span.column - 1 :]
@@ -96,7 +96,7 @@ class Analysis:
 
 
 def analyse(library: Library, parsed_by: Parser = parse) -> Analysis:
-    """Understand a library; `parsed_by` may remember what it parsed before."""
+    """Parse and resolve a library; `parsed_by` is the parser, which may cache its results."""
     files = read_sources(_ordered(library), library.importable, library.name, parsed_by)
     program = resolve_program(files.value, library.vocabulary, library.name, library.scenes)
     return Analysis(library, files, program, parsed_by)

@@ -22,7 +22,7 @@ from skillc_dsl.source import Span
 
 @dataclass(frozen=True, slots=True)
 class BodyContext:
-    """Where a body stands: the place of its declaration, and the skill it implements if it is no task's."""
+    """The declaration that a body belongs to: its place, and the skill and implementation unless it is a task."""
 
     span: Span
     skill: str = ""
@@ -31,10 +31,10 @@ class BodyContext:
 
 @dataclass(frozen=True, slots=True)
 class BodyOccurrences(ValueOccurrences):
-    """Finds the occurrences in bodies. A name bound by a node is known to the nodes after it."""
+    """Finds the occurrences in bodies. A name bound by a node is visible in the nodes after it."""
 
     def node(self, home: BodyContext, known: dict[str, Symbol], written: s.Node) -> Iterator[Occurrence]:
-        """Yield the occurrences in a node; `known` gains the names it binds."""
+        """Yield the occurrences in a node; the names that it binds are added to `known`."""
         match written:
             case s.Block(children=children) | s.Counted(children=children):
                 yield from self.nodes(home, known, children)
@@ -65,12 +65,12 @@ class BodyOccurrences(ValueOccurrences):
                 assert_never(written)
 
     def nodes(self, home: BodyContext, known: dict[str, Symbol], written: Sequence[s.Node]) -> Iterator[Occurrence]:
-        """Yield the occurrences in nodes, one after the other."""
+        """Yield the occurrences in consecutive nodes."""
         for node in written:
             yield from self.node(home, known, node)
 
     def label(self, home: BodyContext, text: str) -> LabelSymbol:
-        """Return the label of that name in a skill or, failing that, in the implementation itself."""
+        """Return the label with this name: that of the skill if it declares one, else that of the implementation."""
         own = f"{home.skill}.{home.implementation}"
         return LabelSymbol(home.skill if (home.skill, text) in self.labels else own, text)
 

@@ -1,4 +1,4 @@
-"""The call whose parentheses are open at the cursor, and its signature."""
+"""Signature help: the call whose parentheses are open at the cursor, and its signature."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _CLOSING = {")": "(", "]": "[", "}": "{"}
 
 @dataclass(frozen=True, slots=True)
 class OpenCall:
-    """A call at the cursor: who is called, the labels passed so far, the argument that is being written.
+    """The call at the cursor: the callee, the labels passed so far, and the current argument.
 
-    `position` counts the commas before the cursor; `label` is the parameter named for this argument, if any.
+    `position` is the index of the current argument; `label` is its parameter name, if it is already written.
     """
 
     name: str
@@ -31,7 +31,7 @@ class OpenCall:
 
 @dataclass(frozen=True, slots=True)
 class CallSignature:
-    """What a call takes: its head, documentation, and each parameter as it stands in the head, with its own."""
+    """The signature of a call: its head, its documentation, and the text in the head and documentation of each parameter."""
 
     head: str
     documentation: str
@@ -40,7 +40,7 @@ class CallSignature:
 
 
 def find_open_call(tokens: Sequence[Token]) -> OpenCall | None:
-    """Return the innermost call that is not closed after `tokens`."""
+    """Return the innermost call that is still open after `tokens`."""
     opening = _unclosed(tokens)
     if opening is None or tokens[opening].type != "LPAR" or opening == 0:
         return None
@@ -55,7 +55,7 @@ def find_open_call(tokens: Sequence[Token]) -> OpenCall | None:
 
 
 def find_signature(analysis: Analysis, path: str, line: int, column: int) -> CallSignature | None:
-    """Return the signature of the call around a place; None outside of calls and for unknown names."""
+    """Return the signature of the call around a place, or None outside of calls and for an unknown callee."""
     cursor = locate_cursor(analysis.texts.get(path, ""), path, line, column)
     call = find_open_call(cursor.before) if isinstance(cursor, InCode) else None
     if call is None:
@@ -72,7 +72,7 @@ def find_signature(analysis: Analysis, path: str, line: int, column: int) -> Cal
 
 
 def _of_skill(analysis: Analysis, skill: Skill, call: OpenCall) -> CallSignature:
-    """The next parameter that is not passed is active until another one is named."""
+    """Return the signature of a skill; the active parameter is the named one, else the first that is not passed."""
     takes = [parameter for parameter in skill.parameters if parameter.direction != "out"]
     parameters = tuple((format_parameter(analysis, parameter), parameter.doc) for parameter in takes)
     outputs = [format_bare_type(parameter.declared) for parameter in skill.parameters if parameter.direction == "out"]
@@ -84,7 +84,7 @@ def _of_skill(analysis: Analysis, skill: Skill, call: OpenCall) -> CallSignature
 
 
 def _unclosed(tokens: Sequence[Token]) -> int | None:
-    """Return where the innermost bracket stands that is not closed."""
+    """Return the index of the innermost bracket that is not closed."""
     depth = 0
     for index in range(len(tokens) - 1, -1, -1):
         if tokens[index].value in _CLOSING:
@@ -97,7 +97,7 @@ def _unclosed(tokens: Sequence[Token]) -> int | None:
 
 
 def _split(tokens: Sequence[Token]) -> list[list[Token]]:
-    """Return the tokens between the commas that stand in no further brackets."""
+    """Split tokens at the commas that are not inside nested brackets."""
     parts: list[list[Token]] = [[]]
     depth = 0
     for token in tokens:

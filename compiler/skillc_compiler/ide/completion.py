@@ -1,4 +1,4 @@
-"""What fits at the cursor: keywords by the grammar, names by what stands around them."""
+"""Completion at the cursor: keywords from the grammar, names from the surrounding declaration."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "CO
 
 @dataclass(frozen=True, slots=True)
 class Completion:
-    """The words that fit, and the place that one of them replaces."""
+    """The offered words, and the place that the chosen one replaces."""
 
     replaced: Span
     offers: tuple[Offer, ...]
@@ -40,7 +40,9 @@ class Completion:
 def complete(
     analysis: Analysis, path: str, line: int, column: int, scenes: Sequence[str] = (), warnings: Sequence[str] = ()
 ) -> Completion:
-    """Return what fits at a place. `scenes` are the names of scenes, `warnings` of problems that can be allowed."""
+    """Return the completion at a place.
+
+    `scenes` are the names of the available scenes, `warnings` those of the diagnostics that can be allowed."""
     cursor = locate_cursor(analysis.texts.get(path, ""), path, line, column)
     found = tuple(_offers(analysis, path, cursor, scenes, warnings))
     ranked = sorted(dict.fromkeys(found), key=lambda offer: (offer.rank, offer.text))
@@ -78,7 +80,7 @@ def _in_code(analysis: Analysis, around: CursorContext, cursor: InCode) -> Itera
 
 
 def offer_keywords(cursor: InCode) -> Iterator[Offer]:
-    """Offer the keywords that fit, without those that could only be names here; members begin on lines of their own."""
+    """Offer the keywords that the grammar accepts, except as names; members only at the beginning of a line."""
     as_name = shift(cursor.states, "NAME")
     after_name = list_fitting_terminals(as_name) if as_name else frozenset()
     here = list_fitting_terminals(cursor.states)
@@ -93,7 +95,7 @@ def offer_keywords(cursor: InCode) -> Iterator[Offer]:
 
 
 def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
-    """Offer the names that fit: first by the kind of declaration, then by the last token, then by what may follow."""
+    """Offer names, selected by the kind of declaration and by the last token before the cursor."""
     types = cursor.types
     head, last = types[0] if types else "", types[-1] if types else ""
     if head == "USE":
@@ -169,7 +171,7 @@ def _types(around: CursorContext) -> Iterator[Offer]:
 
 
 def _narrower(around: CursorContext, name: str) -> Iterator[Offer]:
-    """Offer the types that narrow a parameter."""
+    """Offer the types that may refine a parameter."""
     parameter = around.skill.parameter(name) if around.skill else None
     if parameter is None:
         yield from _types(around)
@@ -187,7 +189,7 @@ def _refinable(analysis: Analysis, around: CursorContext, before: Sequence[Token
 
 
 def _applies(types: Sequence[str]) -> bool:
-    """Whether a label of `apply LABEL, ..` comes next."""
+    """Whether the cursor is where `apply LABEL, ..` expects a label."""
     rest = list(types)
     while len(rest) > 1 and rest[-1] == "COMMA":
         del rest[-2:]

@@ -1,4 +1,4 @@
-"""Where the cursor is: in a comment, in a text, or after which tokens of which declaration, in broken files too."""
+"""The position of the cursor: in a comment, in a string, or after tokens of a declaration. Works in files with errors."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _BARE = re.compile(r"[^\W\d]\w*$")
 
 @dataclass(frozen=True, slots=True)
 class InComment:
-    """In a comment; `text` is what stands before the cursor from the `#` on."""
+    """In a comment; `text` is the comment from the `#` to the cursor."""
 
     text: str
     word: Span
@@ -29,7 +29,7 @@ class InComment:
 
 @dataclass(frozen=True, slots=True)
 class InText:
-    """In a text between quotes; `opener` is the word before it (`import`, `scene`, `python`)."""
+    """In a string; `opener` is the word before the string (`import`, `scene`, `python`)."""
 
     opener: str
     word: Span
@@ -37,10 +37,11 @@ class InText:
 
 @dataclass(frozen=True, slots=True)
 class InCode:
-    """Among tokens: `before` are those of the declaration up to the word at the cursor, `states` the parser's.
+    """In code, at the word `word`.
 
-    `number` tells that the word follows a number, `begins_line` that nothing stands before it on its line. The first
-    of `before` says what is declared, if anything is.
+    `before` are the tokens of the declaration before the word; the first one is the keyword of the declaration, if
+    the cursor is in one. `states` is the stack of parser states after them. `number` is true if the word follows a
+    number, `begins_line` if it is the first on its line.
     """
 
     before: tuple[Token, ...]
@@ -51,11 +52,11 @@ class InCode:
 
     @property
     def types(self) -> tuple[str, ...]:
-        """The types of the tokens before."""
+        """The types of the tokens in `before`."""
         return tuple(token.type for token in self.before)
 
     def fits(self, *terminals: str) -> bool:
-        """Whether these terminals could follow, one after the other."""
+        """Whether the grammar accepts these terminals, in this order, at the cursor."""
         return can_continue(self.states, *terminals)
 
 
@@ -63,7 +64,7 @@ Cursor: TypeAlias = InComment | InText | InCode
 
 
 def locate_cursor(text: str, path: str, line: int, column: int) -> Cursor:
-    """Return where a place in a text is; line and column count from 1."""
+    """Return the kind of position at `line` and `column`, both counted from 1."""
     lines = text.split("\n")
     left = (lines[line - 1] if line <= len(lines) else "")[: column - 1]
     opened = _opened(left)
@@ -88,7 +89,9 @@ def locate_cursor(text: str, path: str, line: int, column: int) -> Cursor:
 
 
 def parser_states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
-    """Return the parser's states after tokens; what does not fit is passed over, or ends what it stands in."""
+    """Return the stack of parser states after `tokens`.
+
+    A name that does not fit is skipped; any other token that does not fit closes the constructs that it may end."""
     states: list[int] = list(load_parser().parse_interactive("").parser_state.state_stack)
     for token in tokens:
         after = shift(states, token.type)
@@ -100,7 +103,7 @@ def parser_states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
 
 
 def _resumed(states: list[int], terminal: str) -> list[int]:
-    """Return the states after dropping the least that lets `terminal` follow, unchanged where nothing does."""
+    """Drop as few states as needed for `terminal` to fit, then shift it; without a fit, return the states unchanged."""
     for kept in range(len(states) - 1, 0, -1):
         after = shift(states[:kept], terminal)
         if after is not None:
@@ -109,7 +112,7 @@ def _resumed(states: list[int], terminal: str) -> list[int]:
 
 
 def _opened(left: str) -> int | None:
-    """Return where a text or comment begins that is still open at the end of a line's left part."""
+    """Return the index at which a string or comment begins that is still open at the end of `left`, else None."""
     opened: int | None = None
     for index, character in enumerate(left):
         if opened is None and character == "#":
@@ -120,7 +123,7 @@ def _opened(left: str) -> int | None:
 
 
 def _first_line(lines: Sequence[str], line: int) -> int:
-    """Return the line on which the cursor's declaration begins, or its `use` or `import`; else its own."""
+    """Return the line on which the declaration, `use` or `import` around `line` begins, or `line` itself without one."""
     return next((number for number in range(min(line, len(lines)), 0, -1) if _HEAD.match(lines[number - 1])), line)
 
 

@@ -1,4 +1,4 @@
-"""What can be read at the cursor: the declaration around it, and its local names with their types."""
+"""The scope at the cursor: the enclosing declaration, and the local names with their types."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from skillc_dsl.source import Span
 
 @dataclass(frozen=True, slots=True)
 class CursorContext:
-    """The declaration around the cursor as far as it was understood, and what its file and itself can name."""
+    """The declaration around the cursor, as far as it was resolved, and the names visible in it."""
 
     visible: VisibleNames
     skill: Skill | None
@@ -30,7 +30,7 @@ class CursorContext:
     locals: Mapping[str, Type]
 
     def type_of(self, tokens: Sequence[Token]) -> Type:
-        """Return the type of the value that `tokens` end with: `a`, `a.b`, `f(..)`, `lab:Board-1`."""
+        """Return the type of the value at the end of `tokens`: `a`, `a.b`, `f(..)`, `lab:Board-1`."""
         if not tokens:
             return UNKNOWN
         last = tokens[-1]
@@ -56,7 +56,7 @@ class CursorContext:
 
 
 def find_context(analysis: Analysis, path: str, cursor: InCode) -> CursorContext | None:
-    """Return what surrounds the cursor; None in a file that was not read."""
+    """Return the scope at the cursor, or None in a file that was not analysed."""
     visible = analysis.visible.get(path)
     if visible is None:
         return None

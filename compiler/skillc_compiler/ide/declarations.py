@@ -1,4 +1,4 @@
-"""The names in declarations, and in the lines above them."""
+"""The names in declarations and in the header of a file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from skillc_dsl import syntax as s
 
 
 class FileOccurrences(BodyOccurrences):
-    """Finds every occurrence of one file."""
+    """Finds all occurrences in one file."""
 
     __slots__ = ()
 

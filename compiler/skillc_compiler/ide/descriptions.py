@@ -1,4 +1,4 @@
-"""What a symbol is, in Markdown."""
+"""Descriptions of symbols in Markdown, for hovering."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from skillc_rdf.vocabulary.types import local_name
 
 
 def describe_symbol(analysis: Analysis, symbol: Symbol) -> str:
-    """Return what a symbol is, in Markdown; empty when nothing is known."""
+    """Return the description of a symbol in Markdown, or an empty string for an unknown one."""
     vocabulary = analysis.program.vocabulary
     match symbol:
         case TermSymbol(kind=kind, iri=iri):
@@ -57,7 +57,7 @@ def describe_symbol(analysis: Analysis, symbol: Symbol) -> str:
 
 
 def format_parameter(analysis: Analysis, parameter: Parameter) -> str:
-    """Return a parameter as it is declared."""
+    """Return a parameter in the syntax of its declaration."""
     direction = f"{parameter.direction} any" if parameter.any_ else parameter.direction
     default = f" = {analysis.text_of(parameter.default.span)}" if parameter.default else ""
     low, high = parameter.low, parameter.high
@@ -137,14 +137,14 @@ def _individual(analysis: Analysis, iri: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Hover:
-    """A text in Markdown about a place."""
+    """The Markdown shown when hovering over a place."""
 
     span: Span
     markdown: str
 
 
 def find_hover(analysis: Analysis, path: str, line: int, column: int) -> Hover | None:
-    """Return what is known of the name at a place; a shorthand argument tells of the parameter and the local name."""
+    """Return the description of the name at a place; for a shorthand argument that of the parameter and the local name."""
     there = analysis.index.at(path, line, column)
     if not there:
         return None

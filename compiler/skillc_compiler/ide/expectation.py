@@ -1,4 +1,4 @@
-"""Which value is expected at the cursor."""
+"""The type of value expected at the cursor."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SAME_AS_LEFT = ("PLUS", "MINUS")
 
 
 def find_expected_type(around: CursorContext, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
-    """Return what value is expected after `tokens`, as far as they tell."""
+    """Return the type of value expected after `tokens`, as far as they determine it."""
     last = tokens[-1].type if tokens else ""
     if last in _COMPARISONS:
         return _compared(around, tokens[:-1])
@@ -41,7 +41,7 @@ def _compared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
 
 
 def _declared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
-    """Return the type written after the last label, for a default or the bounds of a range."""
+    """Return the type declared after the last label, for a default or the bounds of a range."""
     labels = [index for index, token in enumerate(tokens) if token.type == "LABEL"]
     if not labels or labels[-1] + 1 >= len(tokens) or tokens[-2].type == "LET":
         return ANYTHING
@@ -55,7 +55,7 @@ def _declared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
 
 
 def _beside(around: CursorContext, skills: Mapping[str, Skill], tokens: Sequence[Token]) -> ExpectedType:
-    """Return the type of what is left of `+` or `-`; a sign of a number is passed over."""
+    """Return the type of the left operand of `+` or `-`; the sign of a number is skipped."""
     before = tokens[-2] if len(tokens) > 1 else None
     if before is None or before.type in (*_COMPARISONS, *_TIMES, "EQUAL", "RANGE", "DOTS", "LABEL", "LPAR", "COMMA"):
         return find_expected_type(around, skills, tokens[:-1])
@@ -77,7 +77,7 @@ def _argument(around: CursorContext, skills: Mapping[str, Skill], call: OpenCall
 
 
 def find_ranges(around: CursorContext, relation: str, subject: Type) -> tuple[str, ...]:
-    """Return the classes that a relation leads to from a subject of this type."""
+    """Return the classes that the objects of a relation can have for a subject of this type."""
     iri = around.visible.term("relation", relation)
     term = around.visible.vocabulary.relations.get(iri) if iri else None
     signatures = term.signatures if term else ()

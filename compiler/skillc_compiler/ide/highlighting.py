@@ -1,4 +1,4 @@
-"""What each word of a file is, for colouring: names by what they stand for, the rest by its kind of token."""
+"""Semantic highlighting: names are coloured by the kind of their symbol, other words by the kind of token."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _PLAIN: dict[str, WordKind] = {
 
 @dataclass(frozen=True, slots=True)
 class HighlightedWord:
-    """A coloured word; it never spans lines."""
+    """A coloured word on a single line."""
 
     span: Span
     kind: WordKind
@@ -57,7 +57,7 @@ class HighlightedWord:
 
 
 def highlight_words(analysis: Analysis, path: str) -> tuple[HighlightedWord, ...]:
-    """Return the words of a file in order of place, none over another."""
+    """Return the coloured words of a file in order of their places, without overlaps."""
     names = {(o.span.line, o.span.column): o for o in analysis.index.by_path.get(path, ())}
     return tuple(
         word

@@ -1,4 +1,4 @@
-"""Skills that a file could call if it imported the file that declares them, and the line that does."""
+"""Skills that a file can import, and the edit that adds the `import` line."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ STANDARD_LIBRARY = "std/"
 
 
 def find_importable(analysis: Analysis, path: str) -> Iterator[tuple[s.SkillDeclaration, str]]:
-    """Yield the skills that a file does not see, of its own library and of `std`, with the file to import."""
+    """Yield the skills of the library and of `std` that are not visible in a file, each with the file to import."""
     seen = set(analysis.visible[path].skills) if path in analysis.visible else set()
     for file, imported in _files(analysis, path).items():
         for declaration in imported.declarations:
@@ -24,14 +24,14 @@ def find_importable(analysis: Analysis, path: str) -> Iterator[tuple[s.SkillDecl
 
 
 def make_import(analysis: Analysis, path: str, file: str) -> Fix:
-    """Return the edit that imports a file: a line after those above the declarations."""
+    """Return the edit that adds an `import` line at the end of the header."""
     header = next((unit.file.header for unit in analysis.program.files if unit.file.path == path), ())
     line = header[-1].span.end_line + 1 if header else 1
     return Fix(Span(path, line, 1, line, 1), f'import "{file}"\n', f"import {file}")
 
 
 def _files(analysis: Analysis, path: str) -> Mapping[str, s.File]:
-    """Return the files that can be imported, by the text that does it, own ones first."""
+    """Return the importable files by the text of their `import`, those of the library first."""
     folder = posixpath.dirname(path) or "."
     own = {
         posixpath.relpath(unit.file.path, folder): unit.file

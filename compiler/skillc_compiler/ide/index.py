@@ -1,4 +1,4 @@
-"""Where each name of a program stands and what it stands for; most other features only look things up here."""
+"""The index of all occurrences of symbols in a program, on which most editor features are built."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from skillc_compiler.program.typed import Program
 
 @dataclass(frozen=True, slots=True)
 class Index:
-    """Occurrences by file in order of place, and by symbol."""
+    """Occurrences by file, in order of their places, and by symbol."""
 
     by_path: Mapping[str, tuple[Occurrence, ...]]
     by_symbol: Mapping[Symbol, tuple[Occurrence, ...]]
 
     def at(self, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
-        """Return what stands at a place, a cursor right after a name included; the narrowest first."""
+        """Return the occurrences at a place, the narrowest first; a cursor right after a name counts as on it."""
         there = [o for o in self.by_path.get(path, ()) if _covers(o, line, column)]
         return tuple(sorted(there, key=lambda o: (o.span.end_column - o.span.column, o.span.column != column)))
 
     def of(self, symbol: Symbol) -> tuple[Occurrence, ...]:
-        """Return every place of a symbol."""
+        """Return all occurrences of a symbol."""
         return self.by_symbol.get(symbol, ())
 
     def declarations(self, symbol: Symbol) -> Iterator[Occurrence]:
-        """Yield the places where a symbol is declared."""
+        """Yield the occurrences that declare a symbol."""
         return (occurrence for occurrence in self.of(symbol) if occurrence.declares)
 
 
 def build_index(program: Program, visible: Mapping[str, VisibleNames]) -> Index:
-    """Return the index of a program; `visible` tells what each of its files can name."""
+    """Return the index of a program; `visible` are the visible names by path of the file."""
     labels = {
         (name, label.text)
         for name, skill in program.skills.items()

@@ -1,4 +1,4 @@
-"""What can be offered to complete a word: each function lists what fits one kind of place, the likeliest first."""
+"""Candidates for completion: each function yields those for one kind of place, the most likely first."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ OfferKind: TypeAlias = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """A word that fits: what to show and, where that differs, what to write. Lower ranks come first.
+    """A candidate: the text to show and, if it differs, the text to insert. Lower ranks are shown first.
 
-    `imports` is the file that has to be imported for it, empty where none has.
+    `imports` is the file that must be imported for it, empty if none.
     """
 
     text: str
@@ -43,12 +43,12 @@ class Offer:
 
     @property
     def inserted(self) -> str:
-        """The text to write."""
+        """The text to insert."""
         return self.written or self.text
 
 
 def offer_classes(around: CursorContext, below: Type = UNKNOWN) -> Iterator[Offer]:
-    """Offer the classes that fit a type, bare ones before qualified ones."""
+    """Offer the classes that fit a type, bare names before qualified names."""
     vocabulary = around.visible.vocabulary
     for text, iri in _terms(around, "class"):
         if iri in vocabulary.classes and fits(vocabulary, Thing(iri), below):
@@ -58,12 +58,12 @@ def offer_classes(around: CursorContext, below: Type = UNKNOWN) -> Iterator[Offe
 
 
 def offer_built_in_types() -> Iterator[Offer]:
-    """Offer the dimensions and the other types that are no classes."""
+    """Offer the types that are not classes: the dimensions and the other built-in types."""
     return (Offer(name, "type", "built in", rank=1) for name in sorted(BUILT_IN))
 
 
 def offer_dimensions() -> Iterator[Offer]:
-    """Offer what a vector may be of."""
+    """Offer the dimensions that a vector can have."""
     return (Offer(name, "type", "dimension") for name in sorted(DIMENSIONS))
 
 
@@ -82,13 +82,13 @@ def offer_all_relations(around: CursorContext) -> Iterator[Offer]:
 
 
 def offer_properties(around: CursorContext, of: Type) -> Iterator[Offer]:
-    """Offer the properties that something of this type can have, with their dimensions."""
+    """Offer the properties that an individual of this type can have, with their dimensions."""
     for text, term in _properties_of(around, of):
         yield Offer(text, "property", format_bare_type(term.type), term.comment, rank=_generality(term))
 
 
 def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]:
-    """Offer what has a value of the wanted type: choices, local names, their properties, functions, individuals."""
+    """Offer values of the wanted type: choices, local names, their properties, functions, individuals."""
     vocabulary = around.visible.vocabulary
     yield from (Offer(text, "value", "a value of the property") for text in wanted.values)
     if wanted.type in (BOOL, UNKNOWN):
@@ -108,7 +108,7 @@ def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]
 
 
 def offer_individuals(around: CursorContext, wanted: Type) -> Iterator[Offer]:
-    """Offer the individuals of the task's scene that are of the wanted type."""
+    """Offer the individuals of the task's scene that have the wanted type."""
     for iri, cls in sorted(around.individuals.items()):
         text = around.visible.written(iri)
         if text and fits(around.visible.vocabulary, Thing(cls), wanted):
@@ -116,7 +116,7 @@ def offer_individuals(around: CursorContext, wanted: Type) -> Iterator[Offer]:
 
 
 def offer_arguments(analysis: Analysis, around: CursorContext, callee: str, passed: Iterable[str]) -> Iterator[Offer]:
-    """Offer the parameters of a skill that are not passed yet, bare where a local name of the right type does."""
+    """Offer the parameters that are not passed yet, also as shorthand for a local name of the right type."""
     skill = analysis.program.skills.get(callee)
     taken = set(passed)
     for parameter in skill.parameters if skill else ():
@@ -139,7 +139,7 @@ def offer_skills(analysis: Analysis, around: CursorContext, scoped: bool = False
 
 
 def offer_unimported_skills(analysis: Analysis, path: str, scoped: bool = False) -> Iterator[Offer]:
-    """Offer the skills that could be called here if their file were imported."""
+    """Offer the skills of files that are not imported yet."""
     for skill, file in find_importable(analysis, path):
         flags = [member.flag for member in skill.members if isinstance(member, s.Flag)]
         if not scoped or "scoped" in flags:
@@ -156,7 +156,7 @@ def _need(parameter: Parameter) -> int:
 
 
 def _terms(around: CursorContext, kind: Kind) -> Iterator[tuple[str, str]]:
-    """Yield what is visible by its bare name, qualified where that is ambiguous."""
+    """Yield the visible terms of a kind with their IRIs, qualified if the bare name is ambiguous."""
     for text, iris in sorted(around.visible.bare[kind].items()):
         if len(iris) == 1:
             yield text, iris[0]
@@ -173,7 +173,7 @@ def _properties_of(around: CursorContext, of: Type) -> Iterator[tuple[str, Prope
 
 
 def _read_properties(around: CursorContext, wanted: Type) -> Iterator[Offer]:
-    """Offer the properties of the individuals at hand whose values are of the wanted type."""
+    """Offer the properties of local individuals whose values have the wanted type."""
     for name, kind in around.locals.items():
         if not isinstance(kind, Thing):
             continue
@@ -185,7 +185,7 @@ def _read_properties(around: CursorContext, wanted: Type) -> Iterator[Offer]:
 
 
 def _generality(term: PropertyTerm) -> int:
-    """Return 0 for a property of some things, 3 for one that everything may have."""
+    """Return the rank of a property: 0 if it has a domain, 3 if every individual can have it."""
     return 3 if THING in term.domains else 0
 
 

@@ -1,4 +1,4 @@
-"""What a file declares, as a tree, and what can be folded."""
+"""The outline of a file, as a tree of declarations, and the ranges that can be folded."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ EntryKind: TypeAlias = Literal[
 
 @dataclass(frozen=True, slots=True)
 class OutlineEntry:
-    """Something declared: its name, a word about it, the whole of it, its name's place, and what it holds."""
+    """A declaration: its name, detail and kind, its place and that of its name, and nested declarations."""
 
     name: str
     detail: str
@@ -30,7 +30,7 @@ class OutlineEntry:
 
 @dataclass(frozen=True, slots=True)
 class Fold:
-    """Lines that an editor can hide all but the first of."""
+    """A range of lines that an editor can fold to the first one."""
 
     first: int
     last: int
@@ -38,12 +38,12 @@ class Fold:
 
 
 def make_outline(file: s.File) -> tuple[OutlineEntry, ...]:
-    """Return the declarations of a file."""
+    """Return the outline of a file."""
     return tuple(_entry(declaration) for declaration in file.declarations)
 
 
 def find_folds(source: Source, file: s.File) -> tuple[Fold, ...]:
-    """Return the blocks between braces, runs of comments, and the lines above the declarations."""
+    """Return the ranges that can be folded: blocks in braces, consecutive comments, and the header."""
     found = [*_braces(source), *_comments(source)]
     header = [line.span.line for line in file.header]
     if header and header[-1] > header[0]:

@@ -1,4 +1,4 @@
-"""Where a symbol is declared and where it is used."""
+"""The declarations and references of a symbol."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from skillc_dsl.source import Span
 
 
 def find_symbols(analysis: Analysis, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
-    """Return the occurrences of the name under the cursor: two where an argument is short for `name: name`."""
+    """Return the occurrences of the name under the cursor; two if it is an argument that is short for `name: name`."""
     there = analysis.index.at(path, line, column)
     return tuple(occurrence for occurrence in there if occurrence.span == there[0].span)
 
 
 def find_definitions(analysis: Analysis, path: str, line: int, column: int) -> tuple[Span, ...]:
-    """Return where the name under the cursor is declared, in a `.skill` file or in one of the ontology."""
+    """Return the declarations of the name under the cursor, in a `.skill` file or a file of the ontology."""
     found = (find_declarations(analysis, o.symbol) for o in find_symbols(analysis, path, line, column))
     return tuple(dict.fromkeys(span for spans in found for span in spans))
 
 
 def find_declarations(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
-    """Return the places where a symbol is declared; several for a relation with several signatures."""
+    """Return the declarations of a symbol; several for a relation with several signatures."""
     match symbol:
         case FileSymbol(path=path):
             return (Span(path, 1, 1, 1, 1),)
@@ -37,7 +37,7 @@ def find_declarations(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
 
 
 def _outside(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
-    """Return where the ontology declares a term; files of the library are found by their names' places."""
+    """Return the declaration of a term in the ontology; empty for other symbols, which the index holds."""
     match symbol:
         case TermSymbol(iri=iri):
             base = analysis.library.vocabulary
@@ -49,13 +49,13 @@ def _outside(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
 
 
 def find_references(analysis: Analysis, path: str, line: int, column: int, declarations: bool) -> tuple[Span, ...]:
-    """Return every place of the name under the cursor; those of its declarations only if wanted."""
+    """Return all references to the name under the cursor, with its declarations if `declarations` is true."""
     symbols = {occurrence.symbol for occurrence in find_symbols(analysis, path, line, column)}
     places = (o for symbol in symbols for o in analysis.index.of(symbol) if declarations or not o.declares)
     return tuple(sorted({occurrence.span for occurrence in places}))
 
 
 def implementations(analysis: Analysis, skill: str) -> tuple[Span, ...]:
-    """Return where the implementations of a skill are declared."""
+    """Return the declarations of the implementations of a skill."""
     ways = analysis.program.implementations_of.get(skill, ())
     return tuple(span for way in ways for span in find_declarations(analysis, ImplementationSymbol(skill, way.name)))

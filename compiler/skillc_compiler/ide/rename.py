@@ -1,4 +1,4 @@
-"""Giving something another name, everywhere at once, or saying why that cannot be."""
+"""Renames a symbol in all files, or explains why it cannot be renamed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _RENAMED = (
 
 @dataclass(frozen=True, slots=True)
 class Renaming:
-    """The edits that rename something; `span` is the name under the cursor, as it is now."""
+    """The edits that rename a symbol; `span` is the place of the old name under the cursor."""
 
     span: Span
     edits: tuple[Fix, ...]
@@ -44,7 +44,7 @@ class Renaming:
 
 @dataclass(frozen=True, slots=True)
 class NotRenamable:
-    """Why something cannot be renamed."""
+    """The reason why a symbol cannot be renamed."""
 
     reason: str
 
@@ -58,9 +58,9 @@ def find_renamable(analysis: Analysis, path: str, line: int, column: int) -> Spa
 def rename(
     analysis: Analysis, path: str, line: int, column: int, new: str, parsed_by: Parser = parse
 ) -> Renaming | NotRenamable:
-    """Return the edits in all files that give the thing under the cursor the name `new`.
+    """Return the edits in all files that rename the symbol under the cursor to `new`.
 
-    Refused is what is declared elsewhere, what is no name, and whatever would bring a new error into the library.
+    A symbol that is declared outside the library, an invalid name, and a name that would cause an error are refused.
     """
     found = _at(analysis, path, line, column)
     if isinstance(found, NotRenamable):
@@ -79,7 +79,7 @@ def _reserved() -> frozenset[str]:
 
 
 def _at(analysis: Analysis, path: str, line: int, column: int) -> Occurrence | NotRenamable:
-    """Return what would be renamed: of a shorthand argument the local name, else whatever stands there."""
+    """Return the occurrence to rename; for a shorthand argument that of the local name."""
     there = find_symbols(analysis, path, line, column)
     if not there or not isinstance(there[0].symbol, _RENAMED):
         return NotRenamable("there is nothing here that has a name of its own")
@@ -100,7 +100,7 @@ def _at(analysis: Analysis, path: str, line: int, column: int) -> Occurrence | N
 
 
 def _populating(analysis: Analysis, cls: str) -> str | None:
-    """Return a task in whose scene something is of this class."""
+    """Return the name of a task whose scene has an individual of this class, if any."""
     scenes = analysis.library.scenes.items()
     return next((task for task, found in scenes if any(cls in classes for classes in found.values())), None)
 
@@ -121,14 +121,14 @@ def _edits(analysis: Analysis, symbol: Symbol, new: str) -> Iterator[Fix]:
 
 
 def _is_parameter_of_call(analysis: Analysis, occurrence: Occurrence) -> bool:
-    """Whether this is the called skill's half of a shorthand argument, which comes first."""
+    """Whether an occurrence in a shorthand argument, listed first, is that of the called skill's parameter."""
     there = find_symbols(analysis, occurrence.span.path, occurrence.span.line, occurrence.span.column)
     halves = [other for other in there if other.span == occurrence.span]
     return halves[0].symbol == occurrence.symbol
 
 
 def _name_in(analysis: Analysis, span: Span) -> Span:
-    """Return the part of a place that is the name itself, without the prefix of a qualified one."""
+    """Return the place of a name without its prefix."""
     prefix, colon, _ = _text(analysis, span).rpartition(":")
     return replace(span, column=span.column + len(prefix) + len(colon))
 
@@ -138,7 +138,7 @@ def _text(analysis: Analysis, span: Span) -> str:
 
 
 def _broken(analysis: Analysis, edits: Iterable[Fix], parsed_by: Parser) -> Diagnostic | None:
-    """Return the first error that the edits would bring."""
+    """Return the first error that the edits would cause, if any."""
     library = analysis.library
     sources = {**library.sources, **_edited(library.sources, edits)}
     after = analyse(replace(library, sources=sources), parsed_by)

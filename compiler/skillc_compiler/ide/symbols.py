@@ -1,4 +1,4 @@
-"""What a name in a text stands for, and where it does."""
+"""Symbols, which the names in source text refer to, and their occurrences."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class TermSymbol:
 
 @dataclass(frozen=True, slots=True)
 class TypeSymbol:
-    """A type that is no class: a dimension, `Bool`, `Pose`, .."""
+    """A type that is not a class: a dimension, `Bool`, `Pose`, .."""
 
     name: str
 
@@ -63,7 +63,7 @@ class ParameterSymbol:
 
 @dataclass(frozen=True, slots=True)
 class LocalSymbol:
-    """A let, loop variable, output, quantified variable, or parameter of a function; `owner` is where that stands."""
+    """A let, loop variable, output, quantified variable or function parameter; `owner` is the place of its scope."""
 
     origin: Literal["let", "loop variable", "output", "variable", "function parameter"]
     owner: Span
@@ -94,7 +94,7 @@ class IndividualSymbol:
 
 @dataclass(frozen=True, slots=True)
 class ChoiceSymbol:
-    """One of the values that a text property can have."""
+    """One of the allowed values of a text property."""
 
     text: str
 
@@ -142,10 +142,10 @@ Symbol: TypeAlias = (
 
 @dataclass(frozen=True, slots=True)
 class Occurrence:
-    """A place where a symbol stands.
+    """A place where a symbol is named.
 
-    `shorthand` marks the two occurrences that share the place of an argument `speed`, which is short for
-    `speed: speed`: the called skill's parameter and the local name.
+    An argument `speed`, which is short for `speed: speed`, has two occurrences at the same place, both marked
+    `shorthand`: that of the called skill's parameter and that of the local name.
     """
 
     span: Span

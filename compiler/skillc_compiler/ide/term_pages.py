@@ -1,4 +1,4 @@
-"""What the terms of a vocabulary are, in Markdown."""
+"""Pages in Markdown that describe the terms of a vocabulary."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ ABOUT = {
     "Vector": ": three numbers along the axes of the world, pure ones or of a dimension: `Vector of Length`",
     "Direction": ": a vector of pure numbers along the axes of the world, of length 1",
 }
-"""What hovering over a type says that has no units."""
+"""The descriptions of the types that have no units."""
 
 
 def term_page(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
-    """Return the page of a class, relation or property; empty for an unknown one."""
+    """Return the page of a class, relation or property, or an empty string for an unknown one."""
     match kind:
         case "class" if iri == THING:
             return format_page("class Thing", "Everything there is.")
@@ -47,7 +47,7 @@ def term_page(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
 
 
 def type_page(name: str) -> str:
-    """Return what a type that is no class is, with its units."""
+    """Return the page of a type that is not a class, with its units."""
     units = [unit for unit, other in UNITS.items() if name in DIMENSIONS and other.dimension == DIMENSIONS[name]]
     known = f", in {', '.join(f'`{unit}`' for unit in units)}" if units else ABOUT.get(name, "")
     return f"the type **{name}**{known}"
@@ -59,19 +59,19 @@ def function_page(term: FunctionTerm) -> str:
 
 
 def format_function_head(term: FunctionTerm) -> str:
-    """Return a function as it is declared, without its Python name."""
+    """Return the declaration of a function without its Python name."""
     parameters = ", ".join(f"{name}: {format_bare_type(kind)}" for name, kind in term.parameters)
     return f"function {term.name}({parameters}) -> {format_bare_type(term.result)}"
 
 
 def choice_page(vocabulary: Vocabulary, text: str) -> str:
-    """Return which properties a text is a value of."""
+    """Return the page of a text value: the properties that allow it."""
     terms = [term for _, term in sorted(vocabulary.properties.items()) if text in term.values]
     return "\n\n".join(f"`{text}`: a value of {format_names([term.iri])}: {', '.join(term.values)}" for term in terms)
 
 
 def format_bare_type(kind: ValueType) -> str:
-    """Return a type as it is written."""
+    """Return a type in the syntax of the language."""
     match kind:
         case ClassType(iri=iri):
             return local_name(iri)
@@ -88,7 +88,7 @@ def format_bare_type(kind: ValueType) -> str:
 
 
 def quantity_page(value: float, unit: str) -> str:
-    """Return a quantity's dimension and its value in SI units."""
+    """Return the page of a quantity: its dimension and its value in SI units."""
     dimension = dimension_of(unit)
     si = next(name for name, other in UNITS.items() if other.dimension == dimension and other.in_si == 1.0)
     written = f"{value:g} {unit}"
@@ -98,7 +98,7 @@ def quantity_page(value: float, unit: str) -> str:
 
 
 def format_page(code: str, *paragraphs: str) -> str:
-    """Return code and what there is to say about it."""
+    """Return a block of code followed by paragraphs."""
     return "\n\n".join((f"```skill\n{code}\n```", *(text for text in paragraphs if text)))
 
 

@@ -1,4 +1,4 @@
-"""The names in values and conditions."""
+"""The names in types, values and conditions."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ Locals: TypeAlias = Mapping[str, Symbol]
 
 @dataclass(frozen=True, slots=True)
 class ValueOccurrences:
-    """Finds the occurrences in values and conditions of one file."""
+    """Finds the occurrences in types, values and conditions of one file."""
 
     visible: VisibleNames
     skills: Mapping[str, Skill]
     labels: frozenset[tuple[str, str]]
 
     def term(self, kind: Kind, name: s.Name, declares: bool = False) -> Iterator[Occurrence]:
-        """Yield the occurrence of a term, nothing for an unknown one."""
+        """Yield the occurrence of a term; an unknown term has none."""
         iri = self.visible.term(kind, name.text)
         if iri is not None:
             yield Occurrence(name.span, TermSymbol(kind, iri), declares)
@@ -57,7 +57,7 @@ class ValueOccurrences:
                 assert_never(written)
 
     def value(self, known: Locals, written: s.Value) -> Iterator[Occurrence]:
-        """Yield the occurrences in a value; `known` are the local names."""
+        """Yield the occurrences in a value; `known` are the symbols of the local names."""
         match written:
             case s.Number() | s.Text() | s.Boolean():
                 return
@@ -80,7 +80,7 @@ class ValueOccurrences:
                 assert_never(written)
 
     def reference(self, known: Locals, name: s.Name) -> Iterator[Occurrence]:
-        """Yield the occurrence of a name that stands for a value."""
+        """Yield the occurrence of a name that is used as a value."""
         iri = self.visible.iri(name.text) if ":" in name.text else None
         if name.text in known:
             yield Occurrence(name.span, known[name.text])
@@ -124,7 +124,7 @@ class ValueOccurrences:
                 assert_never(written)
 
     def bound(self, known: Locals, name: s.Name, symbol: LocalSymbol) -> Iterator[Occurrence]:
-        """Yield the occurrence of a name that is bound here, or of the one that it already is."""
+        """Yield the occurrence of a name that is bound here; if it is already in `known`, it refers to that symbol."""
         yield Occurrence(name.span, known.get(name.text, symbol), declares=name.text not in known)
 
     def _side(self, known: Locals, written: s.Value | s.Anything) -> Iterator[Occurrence]:
@@ -132,7 +132,7 @@ class ValueOccurrences:
             yield from self.value(known, written)
 
     def _compared(self, known: Locals, written: s.Value) -> Iterator[Occurrence]:
-        """Yield what stands on a side of a comparison; a bare name may be a value of the other side's property."""
+        """Yield the occurrences on one side of a comparison; an unknown bare name is a choice of the other side's property."""
         match written:
             case s.NameReference(name=s.Name(text=text, span=Span() as span)) if text not in known and ":" not in text:
                 yield Occurrence(span, ChoiceSymbol(text))

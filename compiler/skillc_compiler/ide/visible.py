@@ -1,4 +1,4 @@
-"""The names that can be written in one file, and what they mean there."""
+"""The names visible in one file, and what they refer to."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 @dataclass(frozen=True, slots=True)
 class VisibleNames:
-    """Bare names of terms with their IRIs, prefixes with their namespaces, functions and skills."""
+    """The names visible in a file: bare names of terms with their IRIs, prefixes with namespaces, functions, skills."""
 
     bare: Bare
     prefixes: Mapping[str, str]
@@ -29,7 +29,7 @@ class VisibleNames:
     vocabulary: Vocabulary
 
     def term(self, kind: Kind, text: str) -> str | None:
-        """Return the IRI of the term of this kind that a bare or qualified name means, the first where several."""
+        """Return the IRI of the term that a bare or qualified name refers to, the first one if it is ambiguous."""
         if ":" not in text:
             return next(iter(self.bare[kind].get(text, ())), None)
         iri = self.iri(text)
@@ -41,7 +41,7 @@ class VisibleNames:
         return iri if iri in tables[kind] else None
 
     def iri(self, qualified: str) -> str | None:
-        """Return the IRI of `prefix:name`, None for an unknown prefix."""
+        """Return the IRI of `prefix:name`, or None for an unknown prefix."""
         prefix, _, local = qualified.partition(":")
         if prefix not in self.prefixes:
             return None
@@ -49,13 +49,13 @@ class VisibleNames:
         return self.vocabulary.aliases.get(iri, iri)
 
     def written(self, iri: str) -> str | None:
-        """Return `prefix:name` for an IRI, None where no prefix fits."""
+        """Return `prefix:name` for an IRI, or None if no prefix matches."""
         fitting = [(len(base), prefix) for prefix, base in self.prefixes.items() if iri.startswith(base)]
         return f"{max(fitting)[1]}:{iri[max(fitting)[0] :]}" if fitting else None
 
 
 def find_visible(program: Program, base: Vocabulary) -> dict[str, VisibleNames]:
-    """Return by path what each file of a program can name; `base` is the vocabulary without the program's own terms."""
+    """Return the visible names of each file by path; `base` is the vocabulary without the program's own terms."""
     declared = collect_declarations(program.files, base)
     return {unit.file.path: _visible(unit, declared, program.vocabulary, base) for unit in program.files}
 

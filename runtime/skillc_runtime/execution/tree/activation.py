@@ -30,9 +30,9 @@ BuildNode: TypeAlias = Callable[[tree.Node, TreeContext, LexicalScope], Node]
 
 
 class Activation:
-    """An implementation that runs for a call, which holds its locks. `body` is its node, not started yet.
+    """An implementation that runs for a call; the call owns the locks. `body` is the node, initially not started.
 
-    `holds_checked_in` is the snapshot in which the holds held last: they need not be evaluated in it again.
+    `holds_checked_in` is the last snapshot in which all holds were true; they are not evaluated in it again.
     """
 
     __slots__ = (
@@ -62,7 +62,7 @@ class Activation:
         self._holder = holder
 
     def check_holds(self) -> Failure | None:
-        """Return the failure of the first hold that does not hold in this tick's state, None if all hold."""
+        """Return the failure of the first hold that is false in this tick's state, or None if all are true."""
         state = self._context.state
         for hold in self.implementation.hold:
             if not evaluate(hold.condition, state, self.frame):
@@ -82,7 +82,7 @@ class Activation:
         return find_violation(self.implementation, context.cell, context.library.vocabulary, context.state, self.frame)
 
     def apply_results(self) -> Failure | None:
-        """After the body succeeded: read a primitive's outputs, write its posts, check both; return what is wrong."""
+        """Read a primitive's outputs, write its posts and check both, after the body succeeded; return the failure, if any."""
         self._context.refresh_state()
         if isinstance(self.body, PrimitiveNode):
             problem = self._read_outputs(self.body.outputs)
@@ -96,7 +96,7 @@ class Activation:
         self._context.locks.release(self._holder)
 
     def posts_hold(self) -> bool:
-        """Whether all posts hold in this tick's state."""
+        """Whether all posts are true in this tick's state."""
         return all(evaluate(post.condition, self._context.state, self.frame) for post in self.implementation.post)
 
     @property
@@ -105,7 +105,7 @@ class Activation:
         return tuple(parameter.name for parameter in self.implementation.parameters if parameter.direction == "out")
 
     def _read_outputs(self, outputs: Mapping[str, object]) -> Failure | None:
-        """Copy the primitive's outputs to the frame; return the failure of one that does not fit its parameter."""
+        """Copy the primitive's outputs to the frame; return the failure of the first one with a wrong type, if any."""
         for parameter in self.implementation.parameters:
             if parameter.direction == "out" and parameter.name in outputs:
                 value = cast("Value", outputs[parameter.name])
@@ -157,9 +157,9 @@ def activate(
     scope: LexicalScope,
     build: BuildNode,
 ) -> Activation | Rejection:
-    """Check the holds, acquire the locks, compute the lets, build the body; after a rejection nothing is locked.
+    """Check the holds, acquire the locks, compute the lets and build the body; a rejection leaves nothing locked.
 
-    EvaluationError from a hold or a let.
+    Raises EvaluationError if a hold or a let cannot be evaluated.
     """
     implementation, frame = bound.implementation, bound.bindings
     rejected = check_requirements(implementation, implementation.hold, "hold", frame, context.state)

@@ -1,4 +1,4 @@
-"""The path of running nodes below a node: its leaf is ticked directly, the nodes above it are called when it ends."""
+"""The path of running nodes below a node: only its leaf is ticked; the nodes above are called when the leaf ends."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_runtime.primitives.primitive import Status
 class ActivePath:
     """The path from a child, `top`, to the leaf that is ticked.
 
-    Its parent calls `tick`, or, where speed counts, `tick_leaf` and then `propagate` unless the result is RUNNING.
+    The parent calls `tick`, or, for speed, `tick_leaf` followed by `propagate` unless the result is RUNNING.
     Nodes that only pass ticks on to one child cost nothing while that child runs.
     """
 
@@ -35,7 +35,7 @@ class ActivePath:
         return RUNNING if status is RUNNING else self.propagate(status)
 
     def propagate(self, status: Status) -> Status:
-        """Tell the nodes above the leaf that it ended, up to one that continues; return the status of the child."""
+        """Notify the nodes above the leaf that it ended, up to the first that continues; return the status of the child."""
         node = self._leaf
         while status is not RUNNING and node is not self.top:
             assert node.parent is not None, "a node below `top` has a parent"

@@ -1,4 +1,4 @@
-"""Builds the nodes that run from the nodes of the compiled library, with the values of the enclosing scope."""
+"""Builds runtime nodes from the nodes of the compiled library, with the values of the enclosing scope."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _PARALLEL: dict[str, type[ParallelNode]] = {
 
 
 def build_node(node: tree.Node, context: TreeContext, scope: LexicalScope) -> Node:
-    """Return the node that runs `node`; the bodies of calls are built when they start."""
+    """Return the runtime node for `node`; the body of a call is built when the call starts."""
     match node:
         case tree.Sequence() | tree.Selector() | tree.Parallel():
             return _build_composite(node, context, scope)

@@ -36,7 +36,7 @@ _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
 class CallNode(Node):
     """Tries the implementations in rank order; each start evaluates the arguments and infers parameters again.
 
-    `rejected` are the implementations that were not chosen at the last start, with reasons; `activation` is the chosen.
+    `rejected` are the implementations rejected at the last start, with reasons; `activation` is the chosen one.
     """
 
     kind: ClassVar[str] = "call"
@@ -87,7 +87,7 @@ class CallNode(Node):
         return RUNNING if status is RUNNING else self.on_child_ended(self._path.propagate(status))
 
     def active_leaf(self) -> Node:
-        """Pass ticks on to the body unless holds or `verify` lines must be checked."""
+        """Return the active leaf of the body, or this node if holds or `verify` lines must be checked in each tick."""
         activation = self.activation
         return self if activation is None or activation.needs_monitoring else activation.body.active_leaf()
 
@@ -118,7 +118,7 @@ class CallNode(Node):
         return self.status is SUCCESS and (self.activation is None or self.activation.posts_hold())
 
     def _evaluate_arguments(self) -> Frame:
-        """Evaluate the arguments; an optional parameter of the enclosing skill that was not passed is left out."""
+        """Evaluate the arguments; an argument that is an unset optional parameter of the enclosing skill is omitted."""
         frame, state = self._scope.frame, self.context.state
         unset = {
             name
@@ -158,7 +158,7 @@ class CallNode(Node):
             )
 
     def _start(self, activation: Activation) -> Status | None:
-        """Start the body; None if it refused to start, so that the next implementation is tried."""
+        """Start the body; return None if it refused to start and the next implementation is to be tried."""
         self.activation, self.children = activation, (activation.body,)
         activation.body.parent = self
         self._path = ActivePath(activation.body)
@@ -198,12 +198,12 @@ class CallNode(Node):
         return Rejection(implementation=name, stage="run", reason=reason, source=implementation.source)
 
     def _remember_failure(self, implementation: str, reason: str) -> None:
-        """Remember a failure for later attempts."""
+        """Record a failure for later attempts."""
         if self._scope.failures is not None:
             self._scope.failures.add(self.skill.name, self._arguments, implementation, self._state_at_start, reason)
 
     def _check_running(self, activation: Activation) -> Failure | None:
-        """Check the holds if the state is new, and the `verify` lines in every tick."""
+        """Check the holds if the state is new, and the `verify` lines in each tick; return the failure, if any."""
         try:
             failure = activation.check_holds() if self.context.state is not activation.holds_checked_in else None
             return failure or (activation.check_properties() if activation.implementation.verify else None)
@@ -233,7 +233,7 @@ class CallNode(Node):
         )
 
     def _with_skill(self, failure: Failure | None) -> Failure:
-        """Add this skill's name to a failure of its body that names no skill."""
+        """Return a failure of the body, with the name of this skill added if the failure has none."""
         if failure is None:
             return Failure(kind="body", message=f"{self.name} failed", source=self.source, skill=self.skill.name)
         if failure.skill:

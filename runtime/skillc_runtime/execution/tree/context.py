@@ -1,4 +1,4 @@
-"""What all nodes of a tree share: the time and world state of this tick, the cell, the library, the listener."""
+"""The state shared by all nodes of a tree: time and world state of this tick, the cell, the library, the listener."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class TreeContext:
     """The mutable state that the nodes of a tree share.
 
     `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
-    `time` is the cell's clock in s. `emit` is None if there are no listeners; no event is built then.
+    `time` is the cell's clock in s. `emit` is None without listeners; then no events are created.
     """
 
     __slots__ = ("_snapshot", "cell", "emit", "last_id", "library", "locks", "now", "paused_s", "state", "time")
@@ -52,7 +52,7 @@ class TreeContext:
         self.state = self._snapshot()
 
     def write_assumed(self, changes: Sequence[Change], origin: str) -> None:
-        """Write changes that were not measured in one transaction and refresh; WorldError if it is refused."""
+        """Write changes as assumptions in one transaction and refresh `state`. Raises WorldError if it is refused."""
         self.cell.world.commit(changes, origin, "assumed")
         self.refresh_state()
 

@@ -53,7 +53,7 @@ class TimeoutNode(Node):
 
 
 class TryNode(Node):
-    """Turns the child's failure into success, except a broken hold."""
+    """Turns a failure of the child into success, except a violated hold."""
 
     kind: ClassVar[str] = "try"
     __slots__ = ("child",)
@@ -81,7 +81,7 @@ class TryNode(Node):
 
 
 class InvertNode(Node):
-    """Exchanges success and failure, except a broken hold."""
+    """Exchanges success and failure, except a violated hold."""
 
     kind: ClassVar[str] = "invert"
     __slots__ = ("child",)
@@ -110,7 +110,7 @@ class InvertNode(Node):
 
 
 class OnceNode(Node):
-    """Runs the child to its end at most once in the life of the enclosing skill; afterwards returns its result.
+    """Runs the child to its end at most once per activation of the enclosing skill, then keeps returning its result.
 
     A child that was halted has no result and runs again.
     """

@@ -1,4 +1,4 @@
-"""Exceptions of skill code as messages for users."""
+"""Messages for exceptions raised by skill code."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_runtime.world.state.transactions import StoreError
 
 
 def describe_exception(error: BaseException) -> str:
-    """Return the message of an exception; with type and line if it was not written for users."""
+    """Return the message of an exception, with type and line unless the message is meant for users."""
     if isinstance(error, SkillFailure | WatchdogTimeout | EvaluationError | WorldError | StoreError):
         return str(error)
     frames = traceback.extract_tb(error.__traceback__)

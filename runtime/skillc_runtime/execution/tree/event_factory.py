@@ -1,4 +1,4 @@
-"""Makes the events of calls and of the world model: selections with their reasons, failures, changes."""
+"""Creates the events of calls and of the world model: selections with reasons, failures, changes."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def make_choice_event(
     rejected: Sequence[Rejection],
     context: TreeContext,
 ) -> ImplementationChosen:
-    """Return the event that a call starts an implementation."""
+    """Return the event for a call that starts an implementation."""
     implementation = activation.implementation
     ranked = ranked_implementations(context.library, call.skill, call.implementation)
     after = ranked[ranked.index(implementation) + 1 :]
@@ -90,7 +90,7 @@ def make_failure_context(
 def collect_facts_at_failure(
     tried: Sequence[Implementation], running: Activation | None, arguments: Mapping[str, Value], state: WorldState
 ) -> tuple[LabelledFact, ...]:
-    """Return the facts that the conditions of a call read: of the running implementation, else of all tried."""
+    """Return the facts that the conditions of a call read: those of the running implementation, else of all tried ones."""
     implementations = tried if running is None else (running.implementation,)
     conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
     conditions += [post.condition for post in (running.implementation.post if running is not None else ())]
@@ -98,6 +98,6 @@ def collect_facts_at_failure(
 
 
 def make_change_event(event: ChangeEvent, time: float) -> WorldChanged:
-    """Return the event of a change of the world model; `time` in seconds of the cell's clock."""
+    """Return the event for a change of the world model; `time` is that of the cell's clock in s."""
     changes = tuple(label_change(change, event.after.vocabulary) for change in event.changes)
     return WorldChanged(time=time, origin=event.origin, changes=changes, known=event.evidence)

@@ -1,4 +1,4 @@
-"""The changes that undo what the posts of a scoped skill wrote."""
+"""The inverse of the changes that the posts of a scoped skill wrote."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def inverse_changes(
 ) -> tuple[Change, ...]:
     """Return the changes to `now` that undo `changes`, which led from `before` to `after`.
 
-    A fact that was changed again since then is left as it is.
+    A fact that has changed since `after` is left unchanged.
     """
     return tuple(inverse for change in reversed(changes) for inverse in _invert(change, before, after, now))
 

@@ -22,7 +22,7 @@ _EPSILON_S = 1e-9
 
 
 def evaluate_seconds(expression: Expression, context: TreeContext, frame: Frame) -> float:
-    """Evaluate a time in seconds; ValueError if it is not a finite number."""
+    """Evaluate a duration in s. Raises ValueError if it is not finite."""
     seconds = value_of(expression, context.state, frame)
     if not isinstance(seconds, int | float) or not math.isfinite(seconds):
         raise ValueError(f"a time must be a finite number of seconds, not {seconds!r}")
@@ -49,7 +49,7 @@ class WaitNode(Node):
 
 
 class WaitUntilNode(Node):
-    """Succeeds when the condition holds, which is evaluated only when the state of the world is new."""
+    """Succeeds once the condition is true; it is evaluated only when the state of the world is new."""
 
     kind: ClassVar[str] = "wait until"
     __slots__ = ("_seen", "frame", "node")
@@ -78,7 +78,7 @@ class WaitUntilNode(Node):
 
 
 class CheckNode(Node):
-    """Succeeds if the condition holds, else fails with what holds instead."""
+    """Succeeds if the condition is true, else fails with the facts that make it false."""
 
     kind: ClassVar[str] = "check"
     __slots__ = ("frame", "node")
@@ -104,7 +104,7 @@ class CheckNode(Node):
 
 
 class ApplyNode(Node):
-    """Writes posts of the enclosing skill to the world model, except for what was sensed since that skill started."""
+    """Writes posts of the enclosing skill to the world model, except for facts sensed since that skill started."""
 
     kind: ClassVar[str] = "apply"
     __slots__ = ("posts", "scope")

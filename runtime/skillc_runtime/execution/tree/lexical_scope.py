@@ -1,4 +1,4 @@
-"""The scope in which the nodes of one body run: values, implementation, enclosing calls."""
+"""The lexical scope of a body: its values, its implementation and the enclosing calls."""
 
 from __future__ import annotations
 
@@ -12,34 +12,34 @@ from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 Frame: TypeAlias = dict[str, Value]
-"""Values by the name under which a body knows them."""
+"""The values in a body by name."""
 
 
 class CallFailures(Protocol):
-    """Remembers which calls failed, so that none is repeated that can only fail again."""
+    """Remembers which calls failed, so that a call that would only fail again is skipped."""
 
     def add(
         self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, reason: str
     ) -> None:
-        """Remember that an implementation failed for a call that started in `state`."""
+        """Record that an implementation failed for a call that started in `state`."""
         ...
 
     def reason_to_skip(
         self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState
     ) -> str | None:
-        """Return why an implementation would fail again for these arguments, None if it may be tried."""
+        """Return why an implementation would fail again for these arguments, or None if it may be tried."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class LexicalScope:
-    """The surroundings of a body, fixed while it runs; values reach its nodes in no other way.
+    """The scope of a body, fixed while it runs; nodes get values only from it.
 
     `frame` holds the values in scope: parameters, lets, loop variables, outputs; an optional parameter that was not
-    passed is absent. `implementation` is the one whose body this is, None in a task. `calls` are the enclosing calls,
-    outermost first, which may hold locks; `writes_at_start` counts the writes to the world before the innermost of
-    them started. `undo` belongs to the innermost `with`: what scoped skills set up is undone when it ends. `failures`
-    are those of earlier attempts at the goal, None if the calls are not steps of a plan.
+    passed is absent. `implementation` is the one that the body belongs to, None in a task. `calls` are the enclosing
+    calls, outermost first, which may hold locks; `writes_at_start` is the number of writes to the world before the
+    innermost call started. `undo` is the stack of the innermost `with`, which is unwound when the `with` ends.
+    `failures` are those of earlier attempts at the goal, None if the calls are not steps of a plan.
     """
 
     undo: UndoStack
@@ -51,10 +51,10 @@ class LexicalScope:
 
     @property
     def skill(self) -> str:
-        """The skill whose body this is; empty in a task."""
+        """The name of the skill that the body belongs to; empty in a task."""
         return self.implementation.skill if self.implementation is not None else ""
 
     def is_optional(self, name: str) -> bool:
-        """Whether the name is an optional parameter of the enclosing implementation."""
+        """Whether `name` is an optional parameter of the enclosing implementation."""
         parameters = self.implementation.parameters if self.implementation is not None else ()
         return any(parameter.name == name and parameter.direction == "opt" for parameter in parameters)

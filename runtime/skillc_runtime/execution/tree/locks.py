@@ -8,14 +8,14 @@ from collections.abc import Iterable
 class DeviceLocks:
     """The holders of each device; runs that share devices share one object.
 
-    A holder is the node of a call. It may acquire what is free and what an enclosing call holds, so that skills nest.
+    A holder is the node of a call. It may lock devices that are free or held by an enclosing call, so that skills nest.
     """
 
     def __init__(self) -> None:
         self._holders: dict[str, list[object]] = {}
 
     def acquire(self, devices: Iterable[str], holder: object, enclosing: tuple[object, ...]) -> str | None:
-        """Lock all devices or none; return a device that is held outside `enclosing`, None on success."""
+        """Lock all devices or none; return a device that another call than `enclosing` holds, or None on success."""
         wanted = tuple(dict.fromkeys(devices))
         for device in wanted:
             holders = self._holders.get(device)
@@ -26,7 +26,7 @@ class DeviceLocks:
         return None
 
     def release(self, holder: object) -> None:
-        """Release everything that the holder has locked, if anything."""
+        """Release all devices that the holder has locked."""
         for device in [device for device, holders in self._holders.items() if holder in holders]:
             self._holders[device].remove(holder)
             if not self._holders[device]:

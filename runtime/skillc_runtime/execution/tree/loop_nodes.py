@@ -1,4 +1,4 @@
-"""Loops: at most one round starts in a tick, so that the work of a tick is bounded."""
+"""Loops: at most one round starts per tick, so that the work per tick is bounded."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ class RepeatNode(LoopNode):
 
 
 class WhileNode(LoopNode):
-    """Repeats the child while the condition holds; fails if it still holds after `limit` rounds."""
+    """Repeats the child while the condition is true; fails if it is still true after `limit` rounds."""
 
     kind: ClassVar[str] = "while"
     __slots__ = ("frame", "node")
@@ -120,7 +120,7 @@ class WhileNode(LoopNode):
 
 
 class ForEachNode(LoopNode):
-    """Runs the child once for each item, in its own frame; what the last round assigned is kept after the loop."""
+    """Runs the child once for each item in a new frame; the assignments of the last round are kept after the loop."""
 
     kind: ClassVar[str] = "for"
     __slots__ = ("_items", "inner", "node", "outer")

@@ -16,12 +16,12 @@ RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILU
 
 
 class Node:
-    """A node of a running tree: started by its `parent`, ticked while it runs, until it ends or is halted.
+    """A node of a running tree: its `parent` starts it and it is ticked until it ends or is halted.
 
-    A subclass implements `on_start` and one of two: a node with work in each tick, such as ticking several children or
-    evaluating a condition, implements `tick`. A node that only passes ticks on to one child at a time implements
-    `active_leaf` and `on_child_ended`, and is skipped while the child runs. All return RUNNING or the result of
-    `succeed` or `fail`. Children start in the order of `children`.
+    A subclass implements `on_start`. A node with work in each tick, such as ticking several children or evaluating a
+    condition, also implements `tick`. A node that only passes ticks on to one child at a time implements `active_leaf`
+    and `on_child_ended` instead, and is skipped while the child runs. `on_start`, `tick` and `on_child_ended` return
+    RUNNING or the result of `succeed` or `fail`. Children start in the order of `children`.
     """
 
     kind: ClassVar[str]
@@ -42,7 +42,7 @@ class Node:
             child.parent = self
 
     def start(self) -> Status:
-        """Start from the beginning, do the work of the first tick and return the status; a node that raises fails."""
+        """Start the node, do the work of the first tick and return the status; an exception becomes a failure."""
         context = self.context
         self.status = RUNNING
         self.failure = None
@@ -59,7 +59,7 @@ class Node:
             return self.fail_with_error(error)
 
     def on_start(self) -> Status:
-        """Do the node's own work of `start`."""
+        """Do the work of the first tick; called by `start`."""
         raise NotImplementedError
 
     def tick(self) -> Status:
@@ -67,42 +67,42 @@ class Node:
         raise NotImplementedError
 
     def active_leaf(self) -> Node:
-        """Return the node that is ticked for this one: itself, or the active leaf of its running child."""
+        """Return the node to tick in place of this one: itself, or the active leaf of its running child."""
         return self
 
     def on_child_ended(self, status: Status) -> Status:
-        """Continue after the running child ended with this status."""
+        """Continue after the running child ended with `status`."""
         raise NotImplementedError
 
     def halt(self, reason: str) -> None:
-        """Halt the node if it runs, and everything that runs below it, the last started first."""
+        """Halt the node if it runs, and all running descendants, the last started first."""
         if self.status is RUNNING:
             self.stop(reason)
             self._finish(HALTED, Failure(kind="halted", message=reason, source=self.source))
 
     def stop(self, reason: str) -> None:
-        """Halt what runs below; a subclass adds its own cleanup. Never raises."""
+        """Halt all running descendants; a subclass adds its own cleanup. Never raises."""
         for child in reversed(self.children):
             child.halt(reason)
 
     def pause(self) -> None:
-        """Pause everything that runs below."""
+        """Pause all running descendants."""
         for child in self.children:
             if child.status is RUNNING:
                 child.pause()
 
     def resume(self) -> None:
-        """Resume everything that runs below."""
+        """Resume all running descendants."""
         for child in self.children:
             if child.status is RUNNING:
                 child.resume()
 
     def remains_satisfied(self) -> bool:
-        """Whether the node has succeeded and its result still holds in the current world."""
+        """Whether the node has succeeded and its result is still valid in the current world."""
         return self.status is SUCCESS
 
     def would_fail_again(self) -> bool:
-        """Whether the node, which failed, would fail again in the current world; used by `invert` only."""
+        """Whether a failed node would fail again in the current world; used by `invert` only."""
         return self.status is FAILURE
 
     def succeed(self) -> Status:
@@ -110,17 +110,17 @@ class Node:
         return self._finish(SUCCESS, None)
 
     def fail(self, failure: Failure | None) -> Status:
-        """Record a failure; None stands for a child that failed without one."""
+        """Record a failure; None if a child failed without details."""
         return self._finish(FAILURE, failure or Failure(kind="body", message=f"{self.name} failed", source=self.source))
 
     def fail_with_error(self, error: Exception) -> Status:
-        """Halt what runs below and fail because of an exception."""
+        """Halt all running descendants and fail because of an exception."""
         message = describe_exception(error)
         self.stop(message)
         return self.fail(Failure(kind="error", message=message, source=self.source))
 
     def describe_call(self) -> FailedCallContext | None:
-        """Return the details of a call that failed, None for other nodes; called if there are listeners."""
+        """Return the details of a failed call, or None for other nodes; only called if there are listeners."""
         return None
 
     def _finish(self, status: Status, failure: Failure | None) -> Status:

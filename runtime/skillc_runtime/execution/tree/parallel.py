@@ -12,7 +12,7 @@ from skillc_runtime.recording.failure import Failure
 
 
 class ParallelNode(Node):
-    """Starts the children in order and ticks the running ones in the same order; one that ended keeps its result."""
+    """Starts the children in order and ticks the running ones in the same order; a child that ended is not run again."""
 
     kind: ClassVar[str] = "par"
     __slots__ = ("_running", "_started")
@@ -44,7 +44,7 @@ class ParallelNode(Node):
         raise NotImplementedError
 
     def joint_result(self) -> Status | None:
-        """The result after all running children were ticked; None to continue."""
+        """Return the result after all running children were ticked, or None to continue."""
         return None if self._running else SUCCESS
 
     def remains_satisfied(self) -> bool:
@@ -65,7 +65,7 @@ class ParallelNode(Node):
         return self.succeed() if self.joint_result() is SUCCESS else self.fail(self.joint_failure())
 
     def joint_failure(self) -> Failure:
-        """The failure if no child decided at once."""
+        """Return the failure of the node if no single child decided the result."""
         return combine_failures(self)
 
 
@@ -103,7 +103,7 @@ class ParallelLead(ParallelNode):
 
 
 class ParallelRace(ParallelNode):
-    """After all were ticked, those that ended decide; a failure wins over a success."""
+    """The children that end first decide, after all were ticked; a failure takes precedence over a success."""
 
     kind: ClassVar[str] = "par race"
     __slots__ = ()

@@ -1,4 +1,4 @@
-"""The leaf that runs a primitive and guarantees its life cycle."""
+"""The leaf that runs a primitive and enforces its life cycle."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ NO_VALUES: Mapping[str, LabelledValue] = MappingProxyType({})
 
 
 class PrimitiveNode(Node):
-    """Makes one primitive, starts and ticks it; used for one run.
+    """Creates one primitive, starts it and ticks it; used for one run.
 
-    After `start` was called, the primitive is halted exactly once, when its parent is halted or when it raises; not if
-    `start` refused (`refused_to_start`) or `tick` succeeded. A scoped skill passes `undo`: its primitive is released
-    exactly once unless `start` refused, at once if it does not succeed, else by `undo`. After the release
-    `undo_posts` undoes what the posts wrote.
+    After `start` was called, the primitive is halted exactly once, when the parent is halted or the primitive raises,
+    except if `start` refused (`refused_to_start`) or `tick` succeeded. A scoped skill passes `undo`: its primitive is
+    released exactly once unless `start` refused, immediately if it does not succeed, else by `undo`. After the release
+    `undo_posts` undoes the changes written by the posts.
     """
 
     kind: ClassVar[str] = "primitive"
@@ -79,13 +79,13 @@ class PrimitiveNode(Node):
         self.undo_now()
 
     def undo_now(self) -> None:
-        """Release what the primitive set up, if that was not done yet."""
+        """Release the primitive if it was not released yet."""
         problem = self._undo.undo_one(self.release) if self._undo is not None else None
         if problem is not None:
             self.context.note(f"{self.name} could not be undone: {problem}", self.id, self.source)
 
     def release(self) -> None:
-        """Undo what the primitive set up, then what its posts wrote; called by the undo stack."""
+        """Release the primitive, then undo the changes written by its posts; called by the undo stack."""
         assert self._primitive is not None, "release before start"
         self._primitive.release()
         if self.undo_posts is not None:

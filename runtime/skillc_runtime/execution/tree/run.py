@@ -1,4 +1,4 @@
-"""The run of one behaviour tree in a cell, from its first tick to its end."""
+"""The run of one behaviour tree in a cell."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ _ALIVE = (RUNNING, Status.IDLE)
 
 
 class TreeRun:
-    """Runs a body: that of a task, that of a plan, or a single call.
+    """Runs the body of a task, the body of a plan, or a single call.
 
-    `status` is IDLE before the first tick, then RUNNING, and at the end SUCCESS, FAILURE or HALTED; `failure` says why.
-    What scoped skills set up outside any `with` is undone when the run ends.
+    `status` is IDLE before the first tick, then RUNNING, and at the end SUCCESS, FAILURE or HALTED; `failure` is the
+    reason. Scoped skills that run outside any `with` are undone when the run ends.
     """
 
     def __init__(
@@ -49,7 +49,8 @@ class TreeRun:
         """Build the tree; nothing starts.
 
         Runs on the same devices share `locks`. The nodes are numbered from `nodes_before` + 1, so that the events of
-        several runs can share a recording. Calls skip what can only fail again according to `failures`, and add to it.
+        several runs can share a recording. Calls skip implementations that would fail again according to `failures`,
+        and add their own failures.
         """
         self._listeners = Listeners(listeners)
         self._context = TreeContext(
@@ -76,7 +77,7 @@ class TreeRun:
 
     @property
     def outcome(self) -> NodeOutcome:
-        """The tree with the status of each node so far."""
+        """The tree with the current status of each node."""
         return _collect_outcome(self._root)
 
     @property
@@ -86,13 +87,13 @@ class TreeRun:
 
     @property
     def listener_problems(self) -> tuple[str, ...]:
-        """The errors of listeners."""
+        """The errors raised by listeners."""
         return tuple(self._listeners.problems)
 
     def tick(self) -> Status:
         """Read the clock, take a snapshot of the world and tick the tree once; return the status.
 
-        While paused only the heartbeat of the watchdog is sent.
+        While paused, only the heartbeat of the watchdog is sent.
         """
         if self.status not in _ALIVE:
             return self.status
@@ -114,21 +115,21 @@ class TreeRun:
         return self._finish(self._root.status, self._root.failure)
 
     def halt(self, reason: str) -> None:
-        """Halt everything that runs, undo what must be undone, and end; no effect after the end."""
+        """Halt all running nodes, undo scoped skills, and end the run; no effect after the end."""
         if self.status in _ALIVE:
             self._context.begin_tick()
             self._root.halt(reason)
             self._finish(Status.HALTED, Failure(kind="halted", message=reason, source=self._root.source))
 
     def abort(self, error: Exception) -> None:
-        """Fail because of an error, for example of the cell: halt everything, undo what must be undone, and end."""
+        """Fail because of an error, for example of the cell: halt all running nodes, undo scoped skills, and end the run."""
         if self.status in (Status.IDLE, RUNNING):
             message = describe_exception(error)
             self._root.halt(message)
             self._finish(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
 
     def check_devices(self) -> None:
-        """After the end: turn a success into a failure if a device contradicts the world model."""
+        """Turn a success into a failure if a device contradicts the world model; called after the end."""
         if self.status is not Status.SUCCESS:
             return
         stop_listening = self._context.cell.world.subscribe(self._emit_world_change)
@@ -140,7 +141,7 @@ class TreeRun:
             self.status, self.failure = Status.FAILURE, self._contradiction_failure(contradiction)
 
     def pause(self) -> None:
-        """Pause everything that runs and the run's own time."""
+        """Pause all running nodes and the run's own time."""
         if self.status is not RUNNING or self.paused:
             return
         self._paused_at = self._context.cell.now
@@ -168,14 +169,14 @@ class TreeRun:
             raise WatchdogTimeout("the tree was not ticked for too long, so everything was stopped")
 
     def _find_contradiction(self) -> str | None:
-        """Retract the facts that a device contradicts; return a description of them."""
+        """Retract the facts that a device contradicts; return a description of them, or None."""
         found = self._devices.withdraw_contradicted()
         if found is not None:
             self._context.refresh_state()
         return found
 
     def _fail_contradicted(self, contradiction: str) -> Status:
-        """Halt everything that runs and fail because a device contradicts the world model."""
+        """Halt all running nodes and fail because a device contradicts the world model."""
         self._root.halt(contradiction)
         return self._finish(Status.FAILURE, self._contradiction_failure(contradiction))
 
@@ -213,7 +214,7 @@ class TreeRun:
 
 
 def _collect_outcome(node: Node) -> NodeOutcome:
-    """Return the status of a node and of all nodes below it, during or after the run."""
+    """Return the status of a node and of all its descendants, during or after the run."""
     return NodeOutcome(
         id=node.id,
         name=node.name,

@@ -1,4 +1,4 @@
-"""Children in order until one succeeds, with memory or reactive."""
+"""Selectors: run the children in order until one succeeds, with memory or reactively."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def combine_failures(node: Node) -> Failure:
 
 
 class SelectorNode(Node):
-    """With memory: a child that failed is not tried again."""
+    """A selector with memory: a child that failed is not tried again."""
 
     kind: ClassVar[str] = "sel"
     __slots__ = ("_current", "_index")
@@ -44,7 +44,7 @@ class SelectorNode(Node):
 
 
 class ReactiveSelectorNode(Node):
-    """Tries the children in order in each tick, also those that failed; a later one that was running is halted."""
+    """Tries all children in order in each tick, even failed ones; if an earlier child runs, a later running one is halted."""
 
     kind: ClassVar[str] = "reactive sel"
     __slots__ = ("_active", "_paths")

@@ -1,4 +1,4 @@
-"""Which facts were sensed since a skill started: only those count as measurements."""
+"""Facts that were sensed since a skill started; only these count as measurements."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from skillc_runtime.world.state.values import are_equal
 def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_before: int) -> tuple[Change, ...]:
     """Return the changes without those that devices have reported since write number `writes_before`.
 
-    What was sensed keeps this evidence; it is not written again as an assumption.
+    A sensed fact keeps its evidence: it must not be written again as an assumption.
     """
     return tuple(change for change in changes if not _is_sensed(change, world, writes_before))
 
 
 def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
-    """Explain why a `sensed` post that holds was not measured since write number `writes_before`; None if it was."""
+    """Explain why a true `sensed` post was not measured since write number `writes_before`; return None if it was."""
     for literal in conjuncts(post.condition):
         found = find_grounds(literal, world, frame)
         assumed = next((ground for ground in found if ground.is_assumed), None)

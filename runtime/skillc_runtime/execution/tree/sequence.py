@@ -1,4 +1,4 @@
-"""Children in order until one fails, with memory or reactive."""
+"""Sequences: run the children in order until one fails, with memory or reactively."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from skillc_runtime.primitives.primitive import Status
 
 
 class SequenceNode(Node):
-    """With memory: a child that succeeded is not ticked again."""
+    """A sequence with memory: a child that succeeded is not ticked again."""
 
     kind: ClassVar[str] = "seq"
     __slots__ = ("_current", "_index")
@@ -36,7 +36,7 @@ class SequenceNode(Node):
 
 
 class ReactiveSequenceNode(Node):
-    """Visits the children in order in each tick; one that succeeded starts again if its result no longer holds."""
+    """Visits the children in order in each tick; a succeeded child starts again if its result is no longer valid."""
 
     kind: ClassVar[str] = "reactive seq"
     __slots__ = ("_active", "_done", "_paths")

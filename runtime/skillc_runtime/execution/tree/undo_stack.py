@@ -1,4 +1,4 @@
-"""What scoped skills have set up and must undo, however the scope ends."""
+"""The stack of undo functions of scoped skills, called when the scope ends for any reason."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from skillc_runtime.execution.tree.errors import describe_exception
 
 
 class UndoStack:
-    """A stack of functions that undo something; each is called exactly once, the last first, even if others raise."""
+    """A stack of undo functions; each is called exactly once, the last first, even if others raise."""
 
     def __init__(self) -> None:
         self._entries: list[Callable[[], None]] = []
@@ -18,7 +18,7 @@ class UndoStack:
         self._entries.append(undo)
 
     def undo_one(self, undo: Callable[[], None]) -> str | None:
-        """Call one entry now, if it is still on the stack, and remove it; return its error message."""
+        """Call one entry now, if it is still on the stack, and remove it; return its error message, if any."""
         if undo not in self._entries:
             return None
         self._entries.remove(undo)
@@ -30,7 +30,7 @@ class UndoStack:
             self._entries.remove(undo)
 
     def unwind(self) -> tuple[str, ...]:
-        """Call all entries, the last first; return the error messages in that order."""
+        """Call and remove all entries, the last first; return the error messages in that order."""
         problems: list[str] = []
         while self._entries:
             problem = _try_undo(self._entries.pop())

@@ -19,7 +19,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def monitored_properties(implementation: Implementation) -> tuple[Property, ...]:
-    """Return the lines that are checked while an implementation runs; the compiler decides the others."""
+    """Return the `verify` lines that are checked while an implementation runs; the compiler checks the others."""
     return tuple(
         line for line in implementation.verify if line.pattern == "never" and isinstance(line.first, Is | Measures)
     )
@@ -28,7 +28,9 @@ def monitored_properties(implementation: Implementation) -> tuple[Property, ...]
 def find_violation(
     implementation: Implementation, cell: Cell, vocabulary: Vocabulary, state: WorldState, frame: Frame
 ) -> Failure | None:
-    """Return the failure of the first line that is violated now; EvaluationError from its condition."""
+    """Return the failure of the first `verify` line that is violated now, if any.
+
+    Raises EvaluationError if a condition cannot be evaluated."""
     for line in monitored_properties(implementation):
         violation = _describe_violation(line, implementation, cell, vocabulary, state, frame)
         if violation is not None:

@@ -1,4 +1,4 @@
-"""`with`: what the scoped skill set up is undone when the body ends, however it ends."""
+"""`with`: the scoped skill is undone when the body ends for any reason."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_runtime.recording.failure import Failure
 
 
 class WithNode(Node):
-    """Runs the scoped call, then the body, then undoes what scoped skills set up in either, the last first."""
+    """Runs the scoped call, then the body, then undoes the scoped skills of both, the last first."""
 
     kind: ClassVar[str] = "with"
     __slots__ = ("_current", "body", "call", "undo")
