@@ -31,7 +31,7 @@ class OpenCall:
 
 @dataclass(frozen=True, slots=True)
 class CallSignature:
-    """The signature of a call: its head, its documentation, and the text in the head and documentation of each parameter."""
+    """The signature of a call: its head and documentation, and each parameter with its documentation."""
 
     head: str
     documentation: str

@@ -1,4 +1,4 @@
-"""The position of the cursor: in a comment, in a string, or after tokens of a declaration. Works in files with errors."""
+"""The position of the cursor: in a comment, in a string, or after tokens of a declaration; also in broken files."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def _resumed(states: list[int], terminal: str) -> list[int]:
 
 
 def _opened(left: str) -> int | None:
-    """Return the index at which a string or comment begins that is still open at the end of `left`, else None."""
+    """Return the index where a string or comment begins that is still open at the end of `left`, else None."""
     opened: int | None = None
     for index, character in enumerate(left):
         if opened is None and character == "#":
@@ -123,7 +123,7 @@ def _opened(left: str) -> int | None:
 
 
 def _first_line(lines: Sequence[str], line: int) -> int:
-    """Return the line on which the declaration, `use` or `import` around `line` begins, or `line` itself without one."""
+    """Return the line on which the declaration, `use` or `import` around `line` begins, or else `line`."""
     return next((number for number in range(min(line, len(lines)), 0, -1) if _HEAD.match(lines[number - 1])), line)
 
 

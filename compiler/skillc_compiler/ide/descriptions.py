@@ -144,7 +144,7 @@ class Hover:
 
 
 def find_hover(analysis: Analysis, path: str, line: int, column: int) -> Hover | None:
-    """Return the description of the name at a place; for a shorthand argument that of the parameter and the local name."""
+    """Return the description of the name at a place; for a shorthand argument of both parameter and local name."""
     there = analysis.index.at(path, line, column)
     if not there:
         return None

@@ -132,7 +132,7 @@ class ValueOccurrences:
             yield from self.value(known, written)
 
     def _compared(self, known: Locals, written: s.Value) -> Iterator[Occurrence]:
-        """Yield the occurrences on one side of a comparison; an unknown bare name is a choice of the other side's property."""
+        """Yield the occurrences on one side of a comparison; a bare name that is not a local name is a choice."""
         match written:
             case s.NameReference(name=s.Name(text=text, span=Span() as span)) if text not in known and ":" not in text:
                 yield Occurrence(span, ChoiceSymbol(text))

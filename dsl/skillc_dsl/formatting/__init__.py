@@ -1,4 +1,4 @@
-"""The one layout of a `.skill` file: the parser's tree becomes a document, the document becomes lines.
+"""The formatter of `.skill` files: the parse tree is converted to a document, which is laid out in lines.
 
 Start at `formatter.format_source`.
 """

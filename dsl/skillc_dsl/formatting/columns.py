@@ -1,4 +1,4 @@
-"""Aligned columns in the lines of a block: each cell is as wide as the widest of its column."""
+"""Alignment of the lines of a block: each cell is padded to the width of its column."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ KEYWORD = "keyword"
 
 @dataclass(frozen=True, slots=True)
 class ColumnCell:
-    """A piece of a line in the column of that name, `gap` columns from what follows.
+    """A piece of a line in the column of the given name, followed by `gap` spaces.
 
-    One that is `loose` widens no column.
+    A `loose` cell does not widen its column.
     """
 
     column: str
@@ -26,7 +26,7 @@ class ColumnCell:
 
 @dataclass(frozen=True, slots=True)
 class MemberLine:
-    """A line, or several: comments above it, cells, and the rest, which has no column."""
+    """A member: the comments above it, its cells, and the rest, which is not aligned."""
 
     above: d.Document
     cells: tuple[ColumnCell, ...]
@@ -34,9 +34,9 @@ class MemberLine:
 
 
 def align_columns(members: Sequence[MemberLine], least: int = 0) -> Iterator[d.Document]:
-    """Yield each member with its cells padded; the keywords' column is `least` wide at least.
+    """Yield each member with its cells padded; the column of keywords is at least `least` wide.
 
-    A member with a comment among its cells stays out of the columns.
+    A member with a comment among its cells is not aligned.
     """
     texts = [_texts(member) for member in members]
     widths = {KEYWORD: least}
@@ -55,6 +55,6 @@ def align_columns(members: Sequence[MemberLine], least: int = 0) -> Iterator[d.D
 
 
 def _texts(member: MemberLine) -> tuple[str, ...]:
-    """Return the texts of all cells, or none if one of them has a comment."""
+    """Return the texts of all cells, or an empty tuple if a cell does not fit one line or has a comment."""
     texts = [one_line(cell.content) for cell in member.cells]
     return () if None in texts else tuple(text or "" for text in texts)

@@ -1,4 +1,4 @@
-"""Documents for layout: text with the places where lines may or must break."""
+"""Documents: text with the places where lines may or must break."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 @dataclass(frozen=True, slots=True)
 class Fragment:
-    """Characters that stay together."""
+    """Text that is never broken."""
 
     text: str
 
@@ -21,19 +21,19 @@ class Gap:
 
 @dataclass(frozen=True, slots=True)
 class SoftBreak:
-    """A place where a group breaks that does not fit its line; otherwise `flat`."""
+    """A line break if the enclosing group does not fit its line; otherwise the text `flat`."""
 
     flat: str = " "
 
 
 @dataclass(frozen=True, slots=True)
 class HardBreak:
-    """A place where the line ends."""
+    """A line break."""
 
 
 @dataclass(frozen=True, slots=True)
 class BlankLine:
-    """A wish for one blank line before what follows."""
+    """One blank line before the next text, where a blank line is allowed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,35 +52,35 @@ class CommentLine:
 
 @dataclass(frozen=True, slots=True)
 class Punctuation:
-    """A comma or an opening brace: it stays on the line of what it follows, before any comment there."""
+    """A comma or an opening brace: it stays on the line of the preceding text, before any comment."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class WhenBroken:
-    """A mark only in a group that breaks."""
+    """Text that is only written if the enclosing group breaks."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Indent:
-    """What is indented by one step, from its next line on."""
+    """A document whose lines after the first are indented by one step."""
 
     body: Document
 
 
 @dataclass(frozen=True, slots=True)
 class DocumentGroup:
-    """What stands on one line if it fits; otherwise every `SoftBreak` of it breaks, those of inner groups aside."""
+    """A document on one line if it fits; otherwise each `SoftBreak` that is not in an inner group breaks."""
 
     body: Document
 
 
 @dataclass(frozen=True, slots=True)
 class Concatenation:
-    """Parts one after the other."""
+    """A sequence of documents."""
 
     parts: tuple[Document, ...]
 
@@ -93,12 +93,12 @@ NOTHING = Concatenation(())
 
 
 def concatenate(*parts: Document) -> Concatenation:
-    """Put parts one after the other."""
+    """Return the sequence of `parts`."""
     return Concatenation(parts)
 
 
 def leaves(document: Document) -> Iterator[Leaf]:
-    """Yield what a document is made of, in order."""
+    """Yield the leaves of a document in order."""
     match document:
         case Indent(body=body) | DocumentGroup(body=body):
             yield from leaves(body)
@@ -110,7 +110,7 @@ def leaves(document: Document) -> Iterator[Leaf]:
 
 
 def has_comment(document: Document) -> bool:
-    """Whether a comment among the texts of a document makes its lines break; one after all of them does not."""
+    """Whether a comment forces a line break in a document; a trailing comment after its last text does not."""
     remarked = False
     for leaf in leaves(document):
         if isinstance(leaf, CommentLine) or (remarked and isinstance(leaf, Fragment)):

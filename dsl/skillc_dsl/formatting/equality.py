@@ -1,4 +1,4 @@
-"""Whether two texts are equal modulo layout: the same tree and the same comments."""
+"""Equality modulo layout: two sources have the same syntax tree and the same comments."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 
 _WRITTEN = ("text", "goal_text")
-"""Fields that hold a condition as written."""
+"""Fields that hold the source text of a condition."""
 _TEXT_OR_BLANK = re.compile(r'("[^"\n]*")|\s+')
 
 
@@ -24,7 +24,7 @@ def equal_modulo_layout(left: Source, right: Source) -> bool:
 
 
 def _flat(tree: object) -> list[object]:
-    """Return the content of a tree in order, without places; marks delimit its pieces."""
+    """Return the content of a tree in order, without places; brackets mark its nested parts."""
     result: list[object] = []
     pending: list[object] = [tree]
     while pending:

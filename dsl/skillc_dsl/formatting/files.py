@@ -1,4 +1,4 @@
-"""Declarations and the file that holds them as documents."""
+"""Documents for declarations and whole files."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from skillc_dsl.formatting.members import MemberFormatter
 _HEADER = ("use", "prefix", "import_")
 _BLOCKS = ("skill", "impl", "task")
 _WORD = 4
-"""The keywords of a skill, such as `pre` and `hold`, take as much in every skill."""
+"""The minimum width of the column of keywords in a skill, such as `pre` and `hold`."""
 
 
 class FileFormatter(MemberFormatter):
-    """Makes the document of a file."""
+    """Creates the document of a file."""
 
     def file(self, tree: Tree[Token]) -> d.Document:
-        """Return a whole file: blank lines are kept, and added around declarations with braces and below the header."""
+        """Return the document of a file, with blank lines added below the header and around declarations in braces."""
         parts: list[d.Document] = []
         before = ""
         for trees in self._paragraphs([child for child in tree.children if isinstance(child, Tree)]):
@@ -34,7 +34,7 @@ class FileFormatter(MemberFormatter):
         return d.concatenate(*parts, self.notes.last)
 
     def _paragraphs(self, trees: Sequence[Tree[Token]]) -> Iterator[list[Tree[Token]]]:
-        """Yield each part of the header and each declaration, those of the vocabulary together up to a blank line."""
+        """Yield the header lines and declarations in groups; only consecutive terms of the vocabulary share a group."""
         paragraph: list[Tree[Token]] = []
         for tree in trees:
             alone = tree.data in _HEADER + _BLOCKS or (paragraph and paragraph[0].data in _HEADER + _BLOCKS)
@@ -69,14 +69,14 @@ class FileFormatter(MemberFormatter):
         return MemberLine(above, (first, ColumnCell(str(tree.data), content, gap=2)), d.concatenate(*last[1:]))
 
     def _class(self, rest: Sequence[Branch]) -> tuple[d.Document, list[d.Document]]:
-        """Return the name with the parents, and the disjoint classes."""
+        """Return the name of a class with its parents, and the disjoint classes."""
         *content, last = rest
         if isinstance(last, Tree) and last.data == "disjoint":
             return self.spaced(content), [d.Gap(), self.of(last)]
         return self.spaced(rest), []
 
     def _signature(self, rest: Sequence[Branch]) -> tuple[d.Document, list[d.Document]]:
-        """Return the name with the brackets, and what follows; the `:` of a property touches its bracket."""
+        """Return the name with its brackets, and the rest; no space precedes the `:` of a property."""
         start, end = index_of(rest, "LPAR"), index_of(rest, "RPAR")
         content = d.concatenate(self.of(rest[0]), self.bracketed(rest[start : end + 1]))
         tail = rest[end + 1 :]
@@ -87,7 +87,7 @@ class FileFormatter(MemberFormatter):
 
 
 def _keyword(tree: Tree[Token]) -> Token:
-    """Return the word that a declaration begins with."""
+    """Return the first keyword of a declaration."""
     first = tree.children[0]
     if not isinstance(first, Token):
         raise TypeError(f"a keyword was expected, not {first!r}")

@@ -17,9 +17,9 @@ from skillc_dsl.source import Source, Span
 
 
 def format_source(source: Source) -> Outcome[str]:
-    """Return the text of a file in its one layout: same meaning, same comments.
+    """Return the formatted text of a file, with the same meaning and the same comments.
 
-    A file with errors stays as it is, and the errors are reported. So does one whose meaning would change.
+    A file with errors is returned unchanged, with the errors as diagnostics, as is a file whose meaning would change.
     """
     errors = tuple(problem for problem in parse(source).diagnostics if problem.severity == "error")
     if errors:
@@ -31,9 +31,9 @@ def format_source(source: Source) -> Outcome[str]:
 
 
 def check_layout(source: Source) -> Diagnostic | None:
-    """Return the warning that a file is not in its one layout, at the first line that differs, with the layout as fix.
+    """Return the warning that a file is not formatted, at the first line that differs, with the formatted text as fix.
 
-    None for a file that is, and for one with errors, which have to be fixed first.
+    Return None for a formatted file, and for a file with errors, which must be fixed first.
     """
     outcome = format_source(source)
     if not outcome.ok or outcome.value == source.text:
@@ -55,7 +55,7 @@ def _layout(source: Source) -> str:
 
 
 def _statements(tree: Tree[Token]) -> Iterator[int]:
-    """Yield where each declaration, member and step starts, above which a blank line may stand."""
+    """Yield the positions of declarations, members and steps; blank lines above them are kept."""
     for holder in tree.iter_subtrees():
         names = [child.type for child in holder.children if isinstance(child, Token)]
         if holder.data == "start" or "LBRACE" in names:

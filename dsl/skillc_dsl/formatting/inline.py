@@ -1,4 +1,4 @@
-"""Expressions, conditions, calls and lists as documents: on one line if they fit, otherwise with breaks."""
+"""Documents for expressions, conditions, calls and lists: on one line if they fit, otherwise broken."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ _CALLS = ("call", "apply", "check")
 
 
 def is_token(branch: Branch, kind: str) -> bool:
-    """Whether a branch is a token of that kind."""
+    """Whether a branch is a token of the given kind."""
     return isinstance(branch, Token) and branch.type == kind
 
 
 def index_of(children: Sequence[Branch], kind: str) -> int:
-    """Return where the first token of that kind stands among `children`, -1 if there is none."""
+    """Return the index of the first token of the given kind in `children`, or -1."""
     return next((index for index, child in enumerate(children) if is_token(child, kind)), -1)
 
 
 class InlineFormatter:
-    """Makes documents of everything without braces."""
+    """Creates the documents of all constructs without braces."""
 
     def __init__(self, notes: Notes) -> None:
         self.notes = notes
@@ -52,17 +52,17 @@ class InlineFormatter:
         return self.spaced(children)
 
     def bare(self, token: Token) -> d.Document:
-        """Return a token without the comments above it; a quantity has one space before its unit."""
+        """Return a token without the comments above it; a quantity is written with one space before its unit."""
         number = re.match(NUMBER, token) if token.type == "QUANTITY" else None
         text = f"{number.group()} {token[number.end() :].strip()}" if number else token.value
         return d.concatenate(d.Fragment(text), self.notes.behind(token))
 
     def tight(self, children: Sequence[Branch]) -> d.Document:
-        """Put nothing between the parts."""
+        """Return the parts without spaces between them."""
         return d.Concatenation(tuple(self.of(child) for child in children))
 
     def spaced(self, children: Sequence[Branch]) -> d.Document:
-        """Put spaces between the parts; a list that is too long for its line breaks after every comma."""
+        """Return the parts with spaces between them; a list that does not fit its line breaks after each comma."""
         first, *others = children
         gap: d.Document = d.Gap()
         parts: list[d.Document] = [self.bare(first) if isinstance(first, Token) else self.of(first)]
@@ -79,9 +79,9 @@ class InlineFormatter:
         return d.concatenate(above, d.DocumentGroup(d.Indent(line)) if listed else line)
 
     def bracketed(self, children: Sequence[Branch], end: str = "") -> d.Document:
-        """Return brackets with their content, which gets its own lines if it is too long for one.
+        """Return brackets with their content, which is put on separate lines if it does not fit one.
 
-        `end` is a mark that the last part has where it breaks.
+        `end` is the text after the last part if the brackets break, such as a trailing comma.
         """
         opening, *inner, closing = children
         parts: list[d.Document] = [d.SoftBreak("")]
@@ -100,7 +100,7 @@ class InlineFormatter:
         return d.DocumentGroup(d.concatenate(self.of(opening), body, d.SoftBreak(""), self.bare(closing)))
 
     def above_closing(self, token: Token) -> d.Document:
-        """Return the comments above a closing bracket or brace, each on its line."""
+        """Return the comments above a closing bracket or brace, each on its own line."""
         notes = self.notes.above(token)
         return notes if notes == d.NOTHING else d.concatenate(d.HardBreak(), notes)
 
@@ -108,7 +108,7 @@ class InlineFormatter:
         return d.concatenate(mark or d.Punctuation(","), self.notes.behind(token))
 
     def _chain(self, tree: Tree[Token]) -> d.Document:
-        """Return operands and operators; every operator begins a line where they are too long for one."""
+        """Return a chain of operands and operators; if it does not fit one line, each operator begins a new line."""
         first, *rest = self._links(tree)
         parts: list[d.Document] = []
         for operator, operand in zip(rest[::2], rest[1::2], strict=True):
@@ -116,14 +116,14 @@ class InlineFormatter:
         return d.DocumentGroup(d.concatenate(self.of(first), d.Indent(d.Concatenation(tuple(parts)))))
 
     def _links(self, tree: Tree[Token]) -> list[Branch]:
-        """Return operands and operators in their order; a chain on the left is part of this one."""
+        """Return operands and operators in order, with a chain on the left flattened into this one."""
         links: list[Branch] = list(tree.children)
         while isinstance(links[0], Tree) and links[0].data == tree.data and tree.data in ("sum", "product"):
             links[:1] = links[0].children
         return links
 
     def _call(self, children: Sequence[Branch]) -> d.Document:
-        """Return `Name[implementation](argument, ..) -> out`; of what is called in a value no comma may trail."""
+        """Return `Name[implementation](argument, ..) -> out`; a function call in a value has no trailing comma."""
         start, end = index_of(children, "LPAR"), index_of(children, "RPAR")
         is_step = isinstance(children[0], Tree) and children[0].data == "callee"
         head = self.tight(children[:start])

@@ -15,7 +15,7 @@ GAP = 2
 
 @dataclass(slots=True)
 class Row:
-    """A line: its indentation, what stands there, the comment at its end, and whether a blank line precedes it."""
+    """A line: its indentation, its code, the comment at its end, and whether a blank line precedes it."""
 
     indent: int
     code: str
@@ -24,16 +24,16 @@ class Row:
 
     @property
     def width(self) -> int:
-        """Columns without the comment."""
+        """The width in columns, without the comment."""
         return self.indent + len(self.code)
 
 
 Pending: TypeAlias = tuple[int, bool, d.Document]
-"""A document to lay out: its indentation, whether its lines break, and the document."""
+"""A document to lay out: its indentation, whether its soft breaks break, and the document."""
 
 
 def lay_out(document: d.Document) -> list[Row]:
-    """Return the lines of a document. The rows are new, and the caller's."""
+    """Return the lines of a document as new rows, which the caller may change."""
     page = _Page()
     pending: list[Pending] = [(0, True, document)]
     while pending:
@@ -52,13 +52,13 @@ def lay_out(document: d.Document) -> list[Row]:
 
 
 def one_line(document: d.Document) -> str | None:
-    """Return the text of a document without comments that fits one line, None for any other."""
+    """Return the text of a document on one line, or None if it does not fit or has a comment."""
     rows = lay_out(d.DocumentGroup(document))
     return rows[0].code if len(rows) == 1 and not rows[0].remark else None
 
 
 def _fits(body: d.Document, pending: Sequence[Pending], room: int) -> bool:
-    """Whether `body`, flat, and what follows it up to the next break stay within `room` columns."""
+    """Whether `body` without breaks, and the text after it up to the next break, fit in `room` columns."""
     for width, ends in _widths([*pending, (0, False, body)]):
         room -= width
         if room < 0 or ends:
@@ -67,7 +67,7 @@ def _fits(body: d.Document, pending: Sequence[Pending], room: int) -> bool:
 
 
 def _widths(pending: list[Pending]) -> Iterator[tuple[int, bool]]:
-    """Yield the widths of texts in their order, and whether the line ends there."""
+    """Yield the width of each text in order, and whether the line ends there."""
     while pending:
         indent, breaks, part = pending.pop()
         match part:
@@ -90,7 +90,7 @@ def _widths(pending: list[Pending]) -> Iterator[tuple[int, bool]]:
 
 
 class _Page:
-    """Lines as they grow. A line begins with its first text, so that no line is empty."""
+    """The lines written so far. A line begins with its first text, so that no line is empty."""
 
     def __init__(self) -> None:
         self.rows: list[Row] = []
@@ -101,11 +101,11 @@ class _Page:
 
     @property
     def column(self) -> int:
-        """How many columns of the line are taken."""
+        """The number of columns used in the current line."""
         return self.rows[-1].width + self._space if self._open else self._start
 
     def take(self, part: d.Leaf, indent: int, breaks: bool) -> None:
-        """Write one part that has no parts of its own."""
+        """Write one leaf of a document."""
         match part:
             case d.Fragment(text=text):
                 self._write(text, indent)
@@ -147,12 +147,12 @@ class _Page:
         self._space = False
 
     def _may_be_blank(self) -> bool:
-        """Whether a blank line may follow: neither at the start of the file nor at that of a block."""
+        """Whether a blank line is allowed here: not at the start of the file or of a block."""
         last = self.rows[-1].code if self.rows else "{"
         return last.startswith("#") or not last.endswith("{")
 
     def _note(self, text: str, indent: int) -> None:
-        """Write a comment on its own line; what follows it goes on as far indented."""
+        """Write a comment on its own line; the next line keeps the indentation of the interrupted one."""
         start = indent + STEP if self._open else self._start
         self._end(start)
         self._write(text, indent)
@@ -165,7 +165,7 @@ def render_rows(rows: Sequence[Row]) -> str:
 
 
 def _runs(rows: Sequence[Row]) -> Iterator[list[Row]]:
-    """Yield the rows up to a blank line or another indentation."""
+    """Yield runs of rows with the same indentation and without blank lines between them."""
     run: list[Row] = []
     for row in rows:
         if run and (row.blank_before or row.indent != run[-1].indent):
@@ -176,7 +176,7 @@ def _runs(rows: Sequence[Row]) -> Iterator[list[Row]]:
 
 
 def _lines(run: Sequence[Row]) -> Iterator[str]:
-    """Yield the lines of a run; where a comment would then be too long, each stands `GAP` columns from its line."""
+    """Yield the lines of a run with aligned comments, or `GAP` columns after each line if one would be too long."""
     column = GAP + max((row.width for row in run if row.remark), default=0)
     aligned = all(column + len(row.remark) <= WIDTH for row in run)
     for row in run:

@@ -1,4 +1,4 @@
-"""Members of skills, implementations and tasks: the cells of their lines."""
+"""Documents for the members of skills, implementations and tasks, in aligned columns."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from skillc_dsl.formatting.inline import Branch, index_of, is_token
 from skillc_dsl.formatting.steps import StepFormatter, has_braces
 
 _LOOSE = ("duration", "shares")
-"""Keywords that are longer than most: they widen no column."""
+"""Long keywords, which do not widen their column."""
 
 
 class MemberFormatter(StepFormatter):
-    """Makes documents of members, aligned in each block."""
+    """Creates the documents of members, aligned in each block."""
 
     def members(self, children: Sequence[Branch], least: int) -> d.Document:
-        """Return a block of members from its `{` to its `}`; the keywords' column is `least` wide at least."""
+        """Return a block of members from its `{` to its `}`; the column of keywords is at least `least` wide."""
         opening, *inner, closing = children
         if not isinstance(opening, Token) or not isinstance(closing, Token):
             raise TypeError(f"braces were expected, not {children!r}")
@@ -51,7 +51,7 @@ class MemberFormatter(StepFormatter):
         return MemberLine(above, (first,), self.spaced(rest))
 
     def _parameter(self, keyword: Token, rest: Sequence[Branch], above: d.Document) -> MemberLine:
-        """Return `in name: Type = default  range a .. b`; a type or default is a cell where something follows it."""
+        """Return `in name: Type = default  range a .. b`; a type or default is only a cell if more follows it."""
         at = index_of(rest, "LABEL")
         cells = [ColumnCell(KEYWORD, self.bare(keyword)), ColumnCell("name", self.spaced(rest[: at + 1]))]
         type_, *extras = rest[at + 1 :]

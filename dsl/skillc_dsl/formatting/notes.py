@@ -17,23 +17,23 @@ _MARKS = ("COMMA", "LBRACE")
 
 @dataclass(frozen=True, slots=True)
 class Notes:
-    """What stands before and after each token, by the position where the token starts; `last` ends the file."""
+    """The comments and blank lines around each token, by the start position of the token; `last` ends the file."""
 
     before: Mapping[int, Document]
     after: Mapping[int, Document]
     last: Document
 
     def above(self, token: Token) -> Document:
-        """Return the comments above a token, with the blank lines among and after them."""
+        """Return the comments above a token, with the blank lines between and below them."""
         return self.before.get(token.start_pos or 0, NOTHING)
 
     def behind(self, token: Token) -> Document:
-        """Return the comment after a token on its line."""
+        """Return the comment after a token on the same line."""
         return self.after.get(token.start_pos or 0, NOTHING)
 
 
 def attach_comments(source: Source, tokens: Sequence[Token], statements: Collection[int]) -> Notes:
-    """Attach every comment to the token before it on its line, else to the next.
+    """Attach each comment to the token before it on the same line, else to the next token.
 
     `statements` are the positions of tokens above which a blank line may stand.
     """
@@ -51,9 +51,9 @@ def attach_comments(source: Source, tokens: Sequence[Token], statements: Collect
 def _attached(
     source: Source, tokens: Sequence[Token], lines: Sequence[str]
 ) -> tuple[dict[int, list[Document]], dict[int, Document]]:
-    """Return the comments before each token, by its index, and behind one, by its position.
+    """Return the comments above tokens, by index of the token, and those behind tokens, by its start position.
 
-    A mark stays on the line of what it follows, so that a comment before it comes after it.
+    Punctuation stays on the line of the preceding token, so that a comment before it is moved behind it.
     """
     starts = [(token.line or 1, token.column or 1) for token in tokens]
     before: dict[int, list[Document]] = {}
@@ -73,7 +73,9 @@ def _attached(
 
 
 def _note(comment: Comment, lines: Sequence[str], *, documents: bool) -> Iterator[Document]:
-    """Yield a comment with the blank line above it; and one below it where it `documents` what it did not before."""
+    """Yield a comment with the blank line above it.
+
+    `documents` is true if a `##` comment was moved and would document the next line; a blank line prevents that."""
     if _blank_above(lines, comment.span.line) and comment.alone:
         yield BlankLine()
     yield CommentLine(comment.written)

@@ -1,4 +1,4 @@
-"""Steps of a body as documents: what braces hold."""
+"""Documents for the steps of a body and their blocks in braces."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _SHORT = ("call", "wait", "wait_until", "check", "apply_posts")
 
 
 class StepFormatter(InlineFormatter):
-    """Makes documents of steps, each on its line."""
+    """Creates the documents of steps, each on its own line."""
 
     def step(self, tree: Branch) -> d.Document:
         """Return a step with the steps in its braces."""
@@ -28,7 +28,7 @@ class StepFormatter(InlineFormatter):
         return d.concatenate(self.spaced(tree.children[:start]), self._braces(block, self._is_short(block)))
 
     def _if(self, children: Sequence[Branch], short: bool) -> d.Document:
-        """Return `if C { }` with `else { }` on the line of the `}` before it; all blocks are `short`, or none is."""
+        """Return `if C { } else { }`, with `else` on the line of the preceding `}`; `short` applies to all blocks."""
         then = _inside(children[2])
         parts: list[d.Document] = [self.spaced(children[:2]), self._braces(then, short)]
         for child in children[3:]:
@@ -39,17 +39,17 @@ class StepFormatter(InlineFormatter):
         return d.Concatenation(tuple(parts))
 
     def opening(self, brace: Token) -> d.Document:
-        """Return an opening brace, which stays on the line of what it follows."""
+        """Return an opening brace, which stays on the line of the preceding text."""
         return d.concatenate(d.Punctuation(" {"), self.notes.behind(brace))
 
     def _is_free(self, closing: Branch, word: Branch) -> bool:
-        """Whether no comment stands between a `}` and the `else` after it."""
+        """Whether there is no comment between a `}` and the `else` after it."""
         behind = self.notes.behind(closing) if isinstance(closing, Token) else d.NOTHING
         above = self.notes.above(word) if isinstance(word, Token) else d.NOTHING
         return behind == above == d.NOTHING
 
     def _is_short(self, block: Sequence[Branch]) -> bool:
-        """Whether a block is empty, or one short step that is written on the line of its braces."""
+        """Whether a block is empty, or has one short step that is written on the line of the braces."""
         opening, *steps, closing = block
         if not isinstance(opening, Token) or not isinstance(closing, Token):
             raise TypeError(f"braces were expected, not {block!r}")
@@ -62,7 +62,7 @@ class StepFormatter(InlineFormatter):
         return not any(isinstance(leaf, d.CommentLine | d.TrailingComment) for leaf in d.leaves(self.of(step)))
 
     def _braces(self, block: Sequence[Branch], short: bool) -> d.Document:
-        """Return a block: on the line of its braces if it is `short` and fits, otherwise a line for each step."""
+        """Return a block on one line if it is `short` and fits, otherwise with a line for each step."""
         opening, *steps, closing = block
         if not isinstance(opening, Token) or not isinstance(closing, Token):
             raise TypeError(f"braces were expected, not {block!r}")

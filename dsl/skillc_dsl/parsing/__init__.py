@@ -1,4 +1,4 @@
-"""From text to syntax tree: tokens, repairs, the parser's loop with its recovery, and what builds the tree.
+"""The parser: tokens, repairs, the parser loop with error recovery, and the builders of the syntax tree.
 
 Start at `parser.parse`, which shows the passes in order.
 """

@@ -1,4 +1,4 @@
-"""Missing and superfluous braces: found by the indentation, reported and repaired."""
+"""Finds missing and superfluous braces by indentation, reports and repairs them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_dsl.source import Span
 
 
 def close_braces(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens with missing `}` added and superfluous ones removed, in each declaration."""
+    """Return the tokens with missing `}` added and superfluous `}` removed in each declaration."""
     closed: list[Token] = []
     problems: list[Diagnostic] = []
     for start, end in _regions(tokens):
@@ -30,7 +30,7 @@ def close_braces(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, .
 
 
 def _regions(tokens: tuple[Token, ...]) -> Iterator[tuple[int, int]]:
-    """Yield the stretch of each declaration; a declaration's keyword begins a line."""
+    """Yield the range of tokens of each declaration, which begins with a keyword at the beginning of a line."""
     start = 0
     for index, token in enumerate(tokens):
         if token.type == END or (token.type in DECLARATIONS and index > start and begins_line(tokens, index)):
@@ -41,7 +41,7 @@ def _regions(tokens: tuple[Token, ...]) -> Iterator[tuple[int, int]]:
 def _close(
     region: Sequence[Token], following: Token, missing: int, path: str
 ) -> tuple[tuple[Token, ...], list[Diagnostic]]:
-    """Close the braces that a less indented `}` or the end of the region shows to be open."""
+    """Add a `}` for each brace that is still open at a less indented `}` or at the end of the region."""
     result: list[Token] = []
     problems: list[Diagnostic] = []
     opened: list[tuple[Token, int]] = []
@@ -64,7 +64,7 @@ def _close(
 
 
 def _without_surplus(region: Sequence[Token], surplus: int, path: str) -> tuple[tuple[Token, ...], list[Diagnostic]]:
-    """Leave out each `}` that is indented deeper than the line of the brace it would close."""
+    """Remove up to `surplus` `}` that are indented deeper than the line of the brace that they would close."""
     result: list[Token] = []
     problems: list[Diagnostic] = []
     opened: list[int] = []

@@ -1,4 +1,4 @@
-"""Descriptions of what fits at a place, in the author's words."""
+"""Descriptions of expected tokens for messages."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from skillc_dsl.parsing.grammar import END, fixed_texts, list_following_terminal
 
 @dataclass(frozen=True, slots=True)
 class Phrase:
-    """Words for the terminals in `covers`, used where every one of `signs` fits."""
+    """A description of the terminals in `covers`, used if all terminals in `signs` fit."""
 
     text: str
     signs: frozenset[str]
@@ -23,7 +23,7 @@ class Phrase:
 
 @functools.cache
 def _phrases() -> tuple[Phrase, ...]:
-    """Return the phrases, those that cover most first; what they cover is read off the grammar."""
+    """Return the phrases in order of precedence; the terminals that they cover are derived from the grammar."""
     impl = "IMPL NAME OF NAME LBRACE"
     values = list_following_terminals(f"{impl} LET NAME EQUAL")
     conditions = list_following_terminals(f"{impl} DO IF")
@@ -62,12 +62,12 @@ def _phrases() -> tuple[Phrase, ...]:
 
 @functools.cache
 def name_terminals() -> frozenset[str]:
-    """Return every terminal that may be a name."""
+    """Return all terminals that may be a name."""
     return list_following_terminals("USE")
 
 
 def explain_where_it_belongs(token: Token) -> str:
-    """Return help that says where a member belongs, empty for other constructs."""
+    """Return help that names the declarations a member belongs to, or an empty string for other constructs."""
     homes = (
         ("a `skill`", "SKILL NAME LBRACE"),
         ("an `impl`", "IMPL NAME OF NAME LBRACE"),
@@ -92,11 +92,11 @@ _FOREIGN = MappingProxyType(
         "/": "a comment begins with `#`",
     }
 )
-"""What authors used to other languages write, and what to write instead."""
+"""Words and marks of other languages, with advice on what to write instead."""
 
 
 def advise_on_foreign_word(token: Token, before: Token | None) -> str:
-    """Return help for a word or mark of another language, at the fault or right before it; empty for any other."""
+    """Return help for a word or mark of another language at the fault or right before it, or an empty string."""
     if token == "=" and before is not None and before.isidentifier():
         return "an argument is written `name: value`, a value is named by `let` before the steps"
     return _FOREIGN.get(str(token)) or (_FOREIGN.get(str(before), "") if before is not None else "")
@@ -107,10 +107,10 @@ def _set(terminals: str) -> frozenset[str]:
 
 
 def describe_terminals(terminals: Iterable[str]) -> str:
-    """Return what `terminals` are to an author: `a value, a relation or `}``."""
+    """Return a description of `terminals` for a message, such as `a value, a relation or `}``."""
     left = set(terminals)
     if len(left) > 1:
-        left.discard("OF")  # after every type, but of use after `Vector` only
+        left.discard("OF")  # the grammar accepts it after every type, but it is only meaningful after `Vector`
     phrases: list[str] = []
     for phrase in _phrases():
         if phrase.signs <= left:
@@ -122,7 +122,7 @@ def describe_terminals(terminals: Iterable[str]) -> str:
 
 
 def describe_token(token: Token) -> str:
-    """Return what an author sees at `token`."""
+    """Return a description of `token` for a message."""
     if token.type == END:
         return "the end of the file"
     return f"`{token}`" if token else "a `}`"

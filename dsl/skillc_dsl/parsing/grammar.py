@@ -1,4 +1,4 @@
-"""The parser tables of the grammar; they are computed once and then cached."""
+"""The parser of the grammar and queries on its tables, which are computed once and then cached."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DECLARATIONS = frozenset({"CLASS", "RELATION", "PROPERTY", "FUNCTION", "SKILL", 
 
 
 def grammar_text() -> str:
-    """Return the grammar with the terminal UNIT made of the table of units, longest first."""
+    """Return the grammar with the terminal UNIT generated from the table of units, longest first."""
     units = "|".join(re.escape(unit).replace("/", r"\/") for unit in sorted(UNITS, key=lambda u: (-len(u), u)))
     return resources.files("skillc_dsl").joinpath("grammar.lark").read_text("utf-8") + f"UNIT: /({units})(?!\\w)/\n"
 
@@ -37,7 +37,7 @@ def load_parser() -> Lark:
 
 @functools.cache
 def fixed_texts() -> Mapping[str, str]:
-    """Return the text of each terminal that is always written in the same way."""
+    """Return the text of each terminal with a fixed text."""
     return {t.name: t.pattern.value for t in load_parser().terminals if t.pattern.type == "str"}
 
 
@@ -48,7 +48,7 @@ def _tables() -> ParseConf[int]:
 
 
 def shift(stack: Sequence[int], terminal: str) -> list[int] | None:
-    """Return the stack of parser states after `terminal`, or None if it does not fit."""
+    """Return the stack of parser states after shifting `terminal`, or None if it does not fit."""
     tables, result = _tables(), list(stack)
     while True:
         action, target = tables.states[result[-1]].get(terminal, (None, None))
@@ -64,7 +64,7 @@ def shift(stack: Sequence[int], terminal: str) -> list[int] | None:
 
 
 def can_continue(stack: Sequence[int], *terminals: str) -> bool:
-    """Whether all of `terminals`, one after the other, continue what led to `stack`."""
+    """Whether the parser accepts `terminals`, in this order, after the input that led to `stack`."""
     states: Sequence[int] | None = stack
     for terminal in terminals:
         states = None if states is None else shift(states, terminal)
@@ -72,12 +72,12 @@ def can_continue(stack: Sequence[int], *terminals: str) -> bool:
 
 
 def list_fitting_terminals(stack: Sequence[int]) -> frozenset[str]:
-    """Return every terminal that fits after what led to `stack`."""
+    """Return all terminals that the parser accepts after the input that led to `stack`."""
     return frozenset(t for t in _tables().states[stack[-1]] if (t.isupper() or t == END) and shift(stack, t))
 
 
 def list_following_terminals(terminals: str) -> frozenset[str]:
-    """Return every terminal that fits after `terminals`, given with spaces between, at the start of a file."""
+    """Return all terminals that fit after `terminals`, separated by spaces, at the start of a file."""
     stack = [_tables().start_state]
     for terminal in terminals.split():
         stack = shift(stack, terminal) or stack
@@ -85,12 +85,12 @@ def list_following_terminals(terminals: str) -> frozenset[str]:
 
 
 def begins_line(tokens: Sequence[Token], index: int) -> bool:
-    """Whether a line begins with the token at `index`; the end of the file does."""
+    """Whether the token at `index` is the first on its line; true for the end of the file."""
     return index == 0 or tokens[index].type == END or tokens[index].line != tokens[index - 1].end_line
 
 
 def make_parser(grammar: str, folder: Path | None) -> Lark:
-    """Return the parser of `grammar`: from the cache in `folder` if it is intact there, else made and cached."""
+    """Return the parser of `grammar`, from the cache in `folder` if it is valid, else newly built and cached."""
     if folder is None:
         return _make(grammar)
     key = f"{lark.__version__} {sys.version_info[:2]}\n{grammar}"

@@ -1,4 +1,4 @@
-"""From text to tokens; other characters are reported and skipped or repaired."""
+"""The lexer: splits text into tokens; invalid characters are reported and skipped or repaired."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def token_span(token: Token, path: str) -> Span:
 
 
 def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens of `source`, closed by an END token, without what could not be read."""
+    """Return the tokens of `source` followed by an END token, without invalid characters."""
     thread = load_parser().parse_interactive(source.text).lexer_thread
     tokens: list[Token] = []
     problems: list[Diagnostic] = []
@@ -58,7 +58,7 @@ def empty_token_after(last: Token | None, terminal: str) -> Token:
 
 
 def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> None:
-    """Skip characters that form no token: an unterminated text, or a run of unknown characters."""
+    """Report and skip characters that form no token: an unterminated string, or a run of unknown characters."""
     counter = state.line_ctr
     start, line, column = counter.char_pos, counter.line, counter.column
     quote = {'"': r'"[^\n]*', "'": r"'[^'\n]*'|'+"}.get(source.text[start])

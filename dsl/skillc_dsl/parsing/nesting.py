@@ -1,4 +1,4 @@
-"""The maximum depth of nesting; deeper parts are reported here once, so that no later stage has to count."""
+"""The maximum depth of nesting; deeper parts are reported and dropped here, so that later stages need no check."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.source import Span
 
 DEEPEST = 64
-"""The maximum number of nested steps, conditions and values."""
+"""The maximum depth of nested steps, conditions and values."""
 _NESTED = frozenset(
     (
         *("block", "counted", "timeout", "if_", "while_", "for_", "with_"),
@@ -17,12 +17,12 @@ _NESTED = frozenset(
         *("sum", "product", "member", "apply", "list_of"),
     )
 )
-"""The rules whose trees hold others of their kind."""
+"""The grammar rules that can be nested."""
 _WITH_MEMBERS = frozenset({"skill", "impl", "task"})
 
 
 def drop_too_deep(tree: Tree[Token], path: str) -> tuple[Tree[Token], tuple[Diagnostic, ...]]:
-    """Return a file's tree without the members and declarations that are nested too deep, and a problem for each."""
+    """Return the parse tree of a file without the members and declarations nested too deep, and a problem for each."""
     problems: list[Diagnostic] = []
     declarations: list[Tree[Token] | Token] = []
     for declaration in tree.children:
@@ -35,7 +35,7 @@ def drop_too_deep(tree: Tree[Token], path: str) -> tuple[Tree[Token], tuple[Diag
 
 
 def _reported(part: Tree[Token] | Token, path: str, problems: list[Diagnostic]) -> bool:
-    """Whether a part is nested too deep, which is noted at its first token on the level that is too deep."""
+    """Whether a part is nested too deep; if so, it is reported at the first token that exceeds the maximum depth."""
     found = _first_too_deep(part)
     if found is not None:
         problems.append(report_too_deep(token_span(found, path)))
@@ -56,7 +56,7 @@ def _first_too_deep(part: Tree[Token] | Token) -> Token | None:
 
 
 def report_too_deep(span: Span) -> Diagnostic:
-    """Return the problem of a text that is nested too deep from `span` on."""
+    """Return the diagnostic for text that is nested too deep from `span` on."""
     return Diagnostic(
         "nesting-too-deep",
         span,

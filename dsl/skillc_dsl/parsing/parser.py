@@ -1,4 +1,4 @@
-"""From the text of one file to its syntax tree."""
+"""Parses the text of one file to its syntax tree."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ MOST_PROBLEMS = 200
 
 
 def parse(source: Source) -> Outcome[s.File]:
-    """Return the syntax tree of what can be parsed of `source`, with the problems in the order of the text.
+    """Return the syntax tree of all parts of `source` that can be parsed, with the problems in source order.
 
-    Where some bytes are not UTF-8, nothing else is reported; a file that is not text has no declarations.
+    If some bytes are not UTF-8, nothing else is reported; a file that is not text has no declarations.
     """
     refused = report_not_text(source) or report_too_large(source)
     if refused is not None:
@@ -43,7 +43,7 @@ def parse(source: Source) -> Outcome[s.File]:
 
 
 def _first(problems: list[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Return the problems, or only the first ones if there are many."""
+    """Return the problems, limited to the first ones if there are many."""
     if len(problems) <= MOST_PROBLEMS:
         return tuple(problems)
     shown, place = problems[:MOST_PROBLEMS], problems[MOST_PROBLEMS].span

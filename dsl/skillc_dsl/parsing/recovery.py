@@ -1,4 +1,4 @@
-"""The parser loop: it continues after every syntax error with what it has parsed so far."""
+"""The parser loop with error recovery: it continues after each syntax error and keeps what was parsed before it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from skillc_dsl.parsing.repairs import Fault, repair
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
-"""The maximum size of the parser stack, so that recovery is fast."""
+"""The maximum size of the parser stack, which bounds the time of recovery."""
 MOST_FAULTS = 200
 """The number of syntax errors after which the rest of a file is not parsed."""
 _CALM = 2
@@ -30,7 +30,7 @@ _CALM = 2
 
 
 class Recovery:
-    """One run over the tokens of a file, a copy that repairs change; lines in `reported` have a problem already."""
+    """One run over a copy of a file's tokens, which repairs change; lines in `reported` already have a problem."""
 
     def __init__(self, tokens: Sequence[Token], path: str, reported: Collection[int]) -> None:
         self.tokens = list(tokens)
@@ -42,7 +42,7 @@ class Recovery:
         self._faults = 0
 
     def run(self) -> Tree[Token]:
-        """Return the tree of everything that was parsed."""
+        """Return the parse tree of everything that was parsed."""
         index, feed = 0, self._state.feed_token
         while self.tokens[index].type != END or not can_continue(self._state.state_stack, END):
             before = self._state.state_stack.copy()
@@ -59,7 +59,7 @@ class Recovery:
         return tree
 
     def _recover(self, before: list[int], index: int) -> int:
-        """Report the fault at `index` and return the index to go on from."""
+        """Report the fault at `index` and return the index to continue at."""
         self._faults += 1
         if self._faults > MOST_FAULTS:
             return self._give_up(index)
@@ -77,7 +77,7 @@ class Recovery:
         return position
 
     def _leave_too_deep(self, index: int) -> int:
-        """Report what is nested too deep, and return the index of the next declaration, or the end."""
+        """Report text that is nested too deep; return the index of the next declaration or of the end."""
         self.problems.append(report_too_deep(token_span(self.tokens[index], self.path)))
         last = len(self.tokens) - 1
         begins = (at for at in range(index, last) if self.tokens[at].type in DECLARATIONS)
@@ -95,7 +95,7 @@ class Recovery:
             self._drop(level)
 
     def _give_up(self, index: int) -> int:
-        """Report that the rest is not read, and return the index of the end."""
+        """Report that the rest of the file is not parsed; return the index of the end."""
         span = token_span(self.tokens[index], self.path)
         help_ = "correct the errors above first; if there are none to see, this is no file of skills"
         message = f"this file has more than {MOST_FAULTS} syntax errors; the rest is not read"
@@ -104,12 +104,12 @@ class Recovery:
         return len(self.tokens) - 1
 
     def _report(self, problem: Diagnostic) -> None:
-        """Keep `problem` unless its line has one already or the last is hardly over: it would follow from that one."""
+        """Add `problem` unless it probably follows from the last one, on the same line or a few tokens before."""
         if self._since >= _CALM and all(problem.span.line != other.span.line for other in self.problems[-1:]):
             self.problems.append(problem)
 
     def _misfit(self, before: list[int], index: int) -> Diagnostic:
-        """Report what was found and what is expected; an incomplete member is reported at its end."""
+        """Return the diagnostic with the found and the expected tokens; an incomplete member is reported at its end."""
         token, expected = self.tokens[index], list_fitting_terminals(before)
         span = token_span(token, self.path)
         if token.type == "RBRACE" and END in expected:
@@ -123,7 +123,7 @@ class Recovery:
         return Diagnostic("syntax", span, f"{found}: expected {describe_terminals(expected)}", help_)
 
     def _resume(self, index: int) -> int:
-        """Skip to a token that begins or ends a member, a node or a declaration, and drop what was left incomplete."""
+        """Drop what is incomplete; return the index of the next token that begins or ends a member, node or declaration."""
         depth = 0
         for position in range(index, len(self.tokens)):
             token = self.tokens[position]
@@ -137,7 +137,7 @@ class Recovery:
         raise AssertionError("the last token is the end")
 
     def _cut(self, position: int) -> bool:
-        """Drop the incomplete member if the token at `position` can follow; a name proves it only with the next one."""
+        """Drop the incomplete member if the token at `position` can follow; after a name the next one must fit too."""
         is_name = self.tokens[position].type in ("NAME", "QNAME") and not begins_line(self.tokens, position + 1)
         count = 2 if is_name else 1
         following = [token.type for token in self.tokens[position : position + count]]
@@ -148,7 +148,7 @@ class Recovery:
         return True
 
     def _close(self, terminal: str) -> None:
-        """Close every declaration left open, so that `terminal` fits at the top of the file."""
+        """Close all open declarations, so that `terminal` fits at the top level of the file."""
         outer = self._level(terminal) or 0
         inner = self._level("RBRACE")
         while inner is not None and inner > outer:
@@ -165,9 +165,9 @@ class Recovery:
         return last
 
     def _level(self, terminal: str) -> int | None:
-        """Return how much of the stack to keep so that `terminal` fits after a whole member or at the start.
+        """Return the size of the stack at which `terminal` fits after a complete member or at the start, or None.
 
-        What is closed stays closed: nothing is cut between two braces.
+        The stack is never cut between a pair of braces.
         """
         states, values = self._state.state_stack, self._state.value_stack
         closed = 0
@@ -184,18 +184,18 @@ class Recovery:
 
 
 def _braces(values: Sequence[object]) -> int:
-    """Return how many more `}` than `{` there are among `values`."""
+    """Return the number of `}` minus the number of `{` in `values`."""
     kinds = [value.type for value in values if isinstance(value, Token)]
     return kinds.count("RBRACE") - kinds.count("LBRACE")
 
 
 def _is_inserted(token: Token) -> bool:
-    """Whether a token is a `}` that was left out."""
+    """Whether a token is a `}` that was inserted by a repair."""
     return token.type == "RBRACE" and not token
 
 
 def _is_list(value: object) -> bool:
-    """Whether `value` is a `{`, the members after it, or the `}` that closes them."""
+    """Whether `value` is a `{`, the list of members after it, or the closing `}`."""
     if isinstance(value, Token):
         return value.type in ("LBRACE", "RBRACE")
     return isinstance(value, Tree) and value.data.startswith(_LISTS)

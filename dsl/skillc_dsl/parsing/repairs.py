@@ -1,4 +1,4 @@
-"""Repairs of syntax errors by changing one token, so that the rest of the declaration can be parsed."""
+"""Repairs syntax errors by changing one token, so that the rest of the declaration can be parsed."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", "LESS", EN
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """What is wrong, and the tokens that stand for the one at fault."""
+    """The problem, and the tokens that replace the faulty one."""
 
     problem: Diagnostic
     tokens: tuple[Token, ...]
@@ -31,7 +31,7 @@ class Repair:
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A token that does not fit after what led to the parser's `states`."""
+    """A token that does not fit after the input that led to the parser's `states`."""
 
     states: Sequence[int]
     tokens: Sequence[Token]
@@ -45,21 +45,21 @@ class Fault:
 
     @property
     def span(self) -> Span:
-        """Where that token is."""
+        """The place of that token."""
         return token_span(self.token, self.path)
 
     @property
     def gap(self) -> Span:
-        """The place right after the token before."""
+        """The empty place right after the preceding token."""
         if self.index == 0:
             return Span(self.path, 1, 1, 1, 1)
         before = token_span(self.tokens[self.index - 1], self.path)
         return Span(self.path, before.end_line, before.end_column, before.end_line, before.end_column)
 
     def mended_by(self, *terminals: str, skip: int = 1) -> bool:
-        """Whether `terminals` in the place of the faulty token fit, and so do the two tokens after it.
+        """Whether `terminals` fit in place of the next `skip` tokens, followed by the two tokens after those.
 
-        What comes later on another line may have a fault of its own, so that only the first token there counts.
+        If these two are on a new line, which may have an unrelated fault, only the first of them must fit.
         """
         start = self.index + skip
         after = self.tokens[start : start + 2]
@@ -69,20 +69,20 @@ class Fault:
 
 
 def repair(fault: Fault) -> Repair | None:
-    """Return the first change of one token that lets the parser go on, None if none does."""
+    """Return the first change of one token that lets the parser continue, or None."""
     attempts: tuple[Callable[[Fault], Iterator[Repair]], ...]
     attempts = (_repeated, _label, _swapped, _keyword, _missing, _superfluous)
     return next((found for attempt in attempts for found in attempt(fault)), None)
 
 
 def _repeated(fault: Fault) -> Iterator[Repair]:
-    """A word or mark that is written twice."""
+    """A duplicated word or mark."""
     if fault.index and fault.token == fault.tokens[fault.index - 1] and fault.token.type not in ("LBRACE", "RBRACE"):
         yield from _superfluous(fault)
 
 
 def _label(fault: Fault) -> Iterator[Repair]:
-    """`arm:ArmDevice` and `arm ArmDevice` where a label belongs."""
+    """`arm:ArmDevice` and `arm ArmDevice` in place of a label."""
     token = fault.token
     if token.type == "QNAME" and fault.mended_by("LABEL", "NAME"):
         name, rest = token.split(":", 1)
@@ -97,7 +97,7 @@ def _label(fault: Fault) -> Iterator[Repair]:
 
 
 def _swapped(fault: Fault) -> Iterator[Repair]:
-    """`=` where values are compared, `==` where a value is given."""
+    """`=` in a comparison, `==` in an assignment."""
     right = _SWAPPED.get(fault.token.type)
     if right and fault.mended_by(right):
         text = fixed_texts()[right]
@@ -124,7 +124,7 @@ def _keyword(fault: Fault) -> Iterator[Repair]:
 
 
 def _missing(fault: Fault) -> Iterator[Repair]:
-    """A bracket, a comma, or a small word left out before the token at fault."""
+    """A missing bracket, comma or short keyword before the faulty token."""
     name_fits = can_continue(fault.states, "NAME")
     complete = can_continue(fault.states, "RBRACE") or can_continue(fault.states, END)
     new_line = begins_line(fault.tokens, fault.index)
@@ -145,7 +145,7 @@ def _missing(fault: Fault) -> Iterator[Repair]:
 
 
 def _has_unopened(fault: Fault) -> bool:
-    """Whether the declaration at fault has more `}` than `{`, so that one more `{` makes it whole."""
+    """Whether the faulty declaration has more `}` than `{`, so that a `{` is missing."""
     open_ = 0
     for index, token in enumerate(fault.tokens):
         if token.type in DECLARATIONS and begins_line(fault.tokens, index):
@@ -157,7 +157,7 @@ def _has_unopened(fault: Fault) -> bool:
 
 
 def _superfluous(fault: Fault) -> Iterator[Repair]:
-    """A mark or a word too many on its line; at the end of a line only if nothing is missing there."""
+    """A superfluous mark or word in a line; at the end of a line only if the line is complete without it."""
     if fault.token.type in _KEPT or begins_line(fault.tokens, fault.index):
         return
     complete = can_continue(fault.states, "RBRACE") or can_continue(fault.states, END)

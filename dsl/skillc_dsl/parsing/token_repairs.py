@@ -1,4 +1,4 @@
-"""Mistakes in adjacent tokens, which are reported and repaired before parsing."""
+"""Reports and repairs mistakes in adjacent tokens before parsing."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ MEANT: Mapping[str, tuple[str, str]] = MappingProxyType(
         "<>": ("UNEQUAL", "!="),
     }
 )
-"""What stands for which token."""
+"""Comparisons of other languages, with the terminal and text to use instead."""
 
 
 def repair_tokens(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens with units and operators that exist and labels that read as labels."""
+    """Return the tokens with unknown units, foreign operators, doubled braces and split labels repaired."""
     repaired: list[Token] = []
     problems: list[Diagnostic] = []
     index = 0
@@ -37,7 +37,7 @@ def repair_tokens(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, 
 
 
 def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, Token, Diagnostic | None]:
-    """Return how many tokens from `index` belong together, the one in their place, and what is wrong with them."""
+    """Return the number of tokens from `index` to replace, the token that replaces them, and the problem, if any."""
     if count := match_foreign_comparison(tokens, index):
         return count, *repair_comparison(tokens[index : index + count], path)
     if count := _unit_length(tokens, index):
@@ -50,7 +50,7 @@ def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, To
 
 
 def join_tokens(kind: str, first: Token, last: Token, text: str) -> Token:
-    """Return one token in the place of `first` to `last`."""
+    """Return one token that replaces the tokens from `first` to `last`."""
     end = (last.end_line, last.end_column, last.end_pos)
     return Token(kind, text, first.start_pos, first.line, first.column, *end)
 
@@ -60,9 +60,9 @@ def _touch(left: Token, right: Token) -> bool:
 
 
 def _unit_length(tokens: tuple[Token, ...], index: int) -> int:
-    """Return how many tokens from `index` make a number with an unknown unit, 0 if there is none.
+    """Return how many tokens from `index` form a number with an unknown unit, or 0.
 
-    `5 furlong`, `5 km/h`, and `5 N/mm`, which reads as the quantity `5 N` divided by `mm`.
+    Examples are `5 furlong`, `5 km/h`, and `5 N/mm`, which is tokenized as the quantity `5 N` divided by `mm`.
     """
     first, second, third, fourth = (*tokens[index : index + 4], *(4 * [tokens[-1]]))[:4]
     if first.type == "QUANTITY" and second.type == "SLASH" and _touch(first, second) and _touch(second, third):
@@ -77,7 +77,7 @@ def _unit_length(tokens: tuple[Token, ...], index: int) -> int:
 
 
 def _unit(tokens: tuple[Token, ...], path: str) -> tuple[Token, Diagnostic]:
-    """Return the likeliest quantity, or the bare number where no unit is like what was written."""
+    """Return the quantity with the most similar unit, or the bare number if no unit is similar; and the problem."""
     first, last = tokens[0], tokens[-1]
     digits = first.rstrip("/ \t" + "".join(c for c in first if c.isalpha())) if first.type == "QUANTITY" else first
     wrong = (first[len(digits) :] + "".join(tokens[1:])).strip()
@@ -93,7 +93,7 @@ def _unit(tokens: tuple[Token, ...], path: str) -> tuple[Token, Diagnostic]:
 
 
 def _is_doubled_brace(tokens: tuple[Token, ...], index: int) -> bool:
-    """Whether two `{` stand on one line, one right after the other: nothing may stand between two but a word."""
+    """Whether two adjacent `{` are on one line; the grammar never allows that."""
     first, second = tokens[index], tokens[min(index + 1, len(tokens) - 1)]
     return first.type == second.type == "LBRACE" and first.line == second.line
 
@@ -104,7 +104,7 @@ def _doubled(brace: Token, path: str) -> Diagnostic:
 
 
 def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
-    """Whether a word and a `:` that do not form a label are here, as in `speed:0.5 m/s` or `arm : ArmDevice`."""
+    """Whether a word and a `:` at `index` do not form a label, as in `speed:0.5 m/s` or `arm : ArmDevice`."""
     if index + 2 >= len(tokens) or tokens[index + 1].type != "COLON":
         return False
     return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line
@@ -129,7 +129,7 @@ def report_missing_space(label: Span, value: str) -> Diagnostic:
 
 
 def match_foreign_comparison(tokens: Sequence[Token], index: int) -> int:
-    """Return how many tokens from `index` make a comparison of another language, 0 if there is none."""
+    """Return how many tokens from `index` form a comparison of another language, or 0."""
     first, second = tokens[index], tokens[min(index + 1, len(tokens) - 1)]
     if first in MEANT:
         return 1
@@ -137,7 +137,7 @@ def match_foreign_comparison(tokens: Sequence[Token], index: int) -> int:
 
 
 def repair_comparison(tokens: Sequence[Token], path: str) -> tuple[Token, Diagnostic]:
-    """Return the comparison that is meant, and the problem."""
+    """Return the intended comparison operator and the problem."""
     first, last = tokens[0], tokens[-1]
     written = "".join(tokens)
     kind, text = MEANT[written]

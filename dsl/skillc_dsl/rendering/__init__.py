@@ -1,1 +1,1 @@
-"""Diagnostics as text, each form on its page: `full` for people, `concise` for terminals, `json` for machines."""
+"""Diagnostics in various output formats, one module each: `full`, `concise`, `json`, `github`, `sarif`."""

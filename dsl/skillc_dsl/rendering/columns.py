@@ -12,28 +12,28 @@ from skillc_dsl.rendering.printable import printable
 TAB = 4
 CUT = "…"
 _REMEMBERED_LINES = 16
-"""One long line may hold thousands of problems."""
+"""The size of the cache: a long line may have thousands of problems and is laid out once."""
 
 
 @dataclass(frozen=True, slots=True)
 class DisplayLine:
-    """A line as a terminal shows it: `pieces` has the text for each character, `edges` the cell where each begins.
+    """A line as shown in a terminal: `pieces` has the text for each character, `edges` the cell where each begins.
 
-    The last of the edges is where the line ends.
+    The last edge is the end of the line.
     """
 
     pieces: tuple[str, ...]
     edges: tuple[int, ...]
 
     def edge(self, column: int) -> int:
-        """Return the cell where a column (from 1) begins; columns beyond the end are one cell each."""
+        """Return the cell where a column (from 1) begins; columns after the end of the line are one cell each."""
         index = max(column - 1, 0)
         return self.edges[index] if index < len(self.edges) else self.edges[-1] + index - len(self.pieces)
 
 
 @dataclass(frozen=True, slots=True)
 class Window:
-    """What of a line is shown: its text, the cells cut off on the left, and where the text that is shown ends."""
+    """The visible part of a line: its text, the number of cells cut off on the left, and the cell where it ends."""
 
     text: str
     shift: int
@@ -42,7 +42,7 @@ class Window:
 
 @lru_cache(_REMEMBERED_LINES)
 def lay_out(text: str) -> DisplayLine:
-    """Return a line with its tabs as spaces up to the next stop and nothing in it that steers a terminal."""
+    """Return a line with tabs expanded to spaces and control characters replaced."""
     pieces: list[str] = []
     edges = [0]
     for character in printable(text):
@@ -53,12 +53,12 @@ def lay_out(text: str) -> DisplayLine:
 
 
 def count_cells(text: str) -> int:
-    """Return how many cells a text takes in a terminal."""
+    """Return the number of cells that a text takes in a terminal."""
     return sum(_cells(character) for character in text)
 
 
 def clip_line(line: DisplayLine, start: int, end: int, width: int) -> Window:
-    """Return up to `width` cells of a line around those from `start` to `end`, of which the start is shown at least."""
+    """Return up to `width` cells of a line around the cells from `start` to `end`; `start` is always visible."""
     last = line.edges[-1]
     if last <= width:
         return Window("".join(line.pieces), 0, last)
@@ -73,7 +73,7 @@ def clip_line(line: DisplayLine, start: int, end: int, width: int) -> Window:
 
 
 def _part(piece: str, at: int, to: int, low: int, high: int) -> str:
-    """Return a piece that lies between `low` and `high`, spaces for the cells of one that is cut there."""
+    """Return a piece if it lies between `low` and `high`; a piece cut at an edge is replaced by spaces."""
     if to > at and (at < low or to > high):
         return " " * max(0, min(to, high) - max(at, low))
     return piece if low <= at <= high else ""

@@ -1,4 +1,4 @@
-"""Lines of source with the places of a problem marked under them."""
+"""Excerpts of source with the places of a problem underlined."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from skillc_dsl.rendering.printable import printable
 from skillc_dsl.source import Source, Span
 
 _WIDTH = 160
-"""Cells of a page without a width."""
+"""The width in cells if none is given."""
 _NARROWEST = 24
-"""Cells that a message beside its carets needs at least; with fewer it goes below them."""
+"""The minimum room in cells for a message beside its carets; with less room it is put below them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Underline:
-    """A place to be underlined, with what is said about it."""
+    """A place to underline, with its message."""
 
     span: Span
     message: str
@@ -30,24 +30,24 @@ class Underline:
 
 @dataclass(frozen=True, slots=True)
 class ExcerptLayout:
-    """What excerpts are written on: colours, cells from edge to edge (None without end), digits of line numbers."""
+    """The layout of excerpts: colours, width in cells (None if unlimited), digits of line numbers."""
 
     paint: Paint
     width: int | None
     digits: int
 
     def gutter(self, text: object = "") -> str:
-        """Return the left margin of a line, with its number or what stands for it."""
+        """Return the left margin of a line, with its number or the text in place of it."""
         return f"{text:>{self.digits}} {self.paint('place', '|')}"
 
     @property
     def room(self) -> int:
-        """Cells right of the margin."""
+        """The number of cells to the right of the margin."""
         return max((self.width or _WIDTH) - self.digits - 3, _NARROWEST)
 
 
 def render_excerpt(source: Source | None, marks: Sequence[Underline], arrow: str, page: ExcerptLayout) -> Iterator[str]:
-    """Yield the marked lines of one file below the place of the first mark, which alone is given without a source."""
+    """Yield the place of the first mark, and below it the marked lines of the file unless `source` is None."""
     first = marks[0].span
     place = f"{' ' * page.digits}{page.paint('place', arrow)} {printable(first.path)}:{first.line}:{first.column}"
     text = _split(source.text) if source else ()
@@ -62,12 +62,12 @@ def render_excerpt(source: Source | None, marks: Sequence[Underline], arrow: str
 
 @lru_cache(4)
 def _split(text: str) -> tuple[str, ...]:
-    """Return the lines of a text, of which many excerpts may be taken."""
+    """Return the lines of a text; cached, since one text may have many excerpts."""
     return tuple(text.split("\n"))
 
 
 def _lines(text: Sequence[str], marks: Iterable[Underline], page: ExcerptLayout) -> Iterator[str]:
-    """Yield lines in their order; a single line left out between two is shown, more are dots."""
+    """Yield the marked lines in order; a gap of one line is shown, a longer one is replaced by dots."""
     previous = 0
     by_line = sorted(marks, key=lambda mark: mark.span.line)
     for number, group in groupby(by_line, key=lambda mark: mark.span.line):
@@ -80,7 +80,7 @@ def _lines(text: Sequence[str], marks: Iterable[Underline], page: ExcerptLayout)
 
 
 def _line(text: Sequence[str], number: int, marks: Sequence[Underline], page: ExcerptLayout) -> Iterator[str]:
-    """Yield one line, cut around its first mark if it is too long, with a row below it for each mark."""
+    """Yield one line, clipped around its first mark if it is too long, and a row below it for each mark."""
     written = text[number - 1].rstrip("\r")
     line = lay_out(written)
     edges = [_edges(line, mark.span, len(written)) for mark in marks]
@@ -98,7 +98,7 @@ def _edges(line: DisplayLine, span: Span, length: int) -> tuple[int, int]:
 
 
 def _row(mark: Underline, start: int, end: int, shown: Window, page: ExcerptLayout) -> Iterator[str]:
-    """Yield the carets of a mark, with its message beside them or, if there is no room, below."""
+    """Yield the carets of a mark, with its message beside them or, without enough room, below them."""
     indent = min(max(0, start - shown.shift), page.room - 1)
     sign = "-" if mark.kind == "label" else "^"
     carets = sign * max(1, min(end, shown.end) - shown.shift - indent)

@@ -1,4 +1,4 @@
-"""Diagnostics with the text they refer to: line numbers, carets, causes and fixes."""
+"""Diagnostics with excerpts of their sources: line numbers, carets, causes and fixes."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from skillc_dsl.source import Source
 def render(
     diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], *, colour: bool = False, width: int | None = None
 ) -> str:
-    """Return each diagnostic with the lines it refers to; places whose source is not among `sources` are only named.
+    """Return each diagnostic with the lines that it refers to; a place without a source in `sources` has no excerpt.
 
-    `width` is that of the page in cells: messages are wrapped there and long lines of source cut around their marks.
-    Without, nothing is wrapped.
+    `width` is the width of the output in cells: messages are wrapped and long lines of source clipped around their
+    marks. If it is None, nothing is wrapped.
     """
     paint = Paint(colour)
     return "\n".join("\n".join(_lines(each, sources, paint, width)) + "\n" for each in diagnostics)
@@ -47,7 +47,7 @@ def _lines(diagnostic: Diagnostic, sources: Mapping[str, Source], paint: Paint, 
 
 
 def _note(title: str, text: str, page: ExcerptLayout) -> Iterator[str]:
-    """Yield a line below an excerpt, wrapped under its own beginning."""
+    """Yield a note below an excerpt, wrapped with a hanging indent."""
     margin = " " * (page.digits + 1)
     first, *rest = _wrapped(f"{margin}= {title}: {printable(text)}", page.width, f"{margin}{' ' * (len(title) + 4)}")
     begin = len(f"{margin}= ")
@@ -56,7 +56,7 @@ def _note(title: str, text: str, page: ExcerptLayout) -> Iterator[str]:
 
 
 def _fix(diagnostic: Diagnostic, fix: Fix, sources: Mapping[str, Source], page: ExcerptLayout) -> Iterator[str]:
-    """Yield what a fix does and, unless it is just another word at the place of the problem, the lines it writes."""
+    """Yield the title of a fix and the lines that it writes; no lines if it only replaces the marked word."""
     yield from _note("fix", f"{fix.message}{' (--fix does it)' if fix.safe else ''}", page)
     source = sources.get(fix.span.path)
     old = source.text.split("\n") if source else []
@@ -70,7 +70,7 @@ def _fix(diagnostic: Diagnostic, fix: Fix, sources: Mapping[str, Source], page: 
 
 
 def _wrapped(text: str, width: int | None, indent: str) -> list[str]:
-    """Return text as lines of at most `width` cells, the later ones indented; words are never broken."""
+    """Return text wrapped at `width` cells, with all lines after the first indented; words are never broken."""
     lines = text.split("\n")
     if width is None:
         return [lines[0], *(f"{indent}{line}" for line in lines[1:])]

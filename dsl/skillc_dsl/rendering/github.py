@@ -1,4 +1,4 @@
-"""Diagnostics as workflow commands, which GitHub Actions shows beside the lines of a pull request."""
+"""Diagnostics as workflow commands, which GitHub Actions shows as annotations in a pull request."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from skillc_dsl.source import Source
 
 
 def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> str:
-    """Return one `::error file=..,line=..::message` line for each; columns only where the place is within one line."""
+    """Return one `::error file=..,line=..::message` line per diagnostic, with columns if it is on a single line."""
     return "".join(f"{_command(diagnostic)}\n" for diagnostic in diagnostics)
 
 
@@ -26,10 +26,10 @@ def _command(diagnostic: Diagnostic) -> str:
 
 
 def _escaped(text: str) -> str:
-    """Return text in which `%` and ends of lines are written as GitHub's runner reads them."""
+    """Return text with `%` and line breaks escaped for a workflow command."""
     return printable(text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A"))
 
 
 def _escaped_property(text: str) -> str:
-    """Return text for a property, where `:` and `,` have a meaning too."""
+    """Return text escaped for a property, which includes `:` and `,`."""
     return _escaped(text).replace(":", "%3A").replace(",", "%2C")

@@ -24,7 +24,7 @@ def read(text: str) -> tuple[Diagnostic, ...]:
 
 
 def _as_data(diagnostic: Diagnostic) -> dict[str, object]:
-    """Return the fields of one diagnostic that machines read; `fix` is null if there is none."""
+    """Return the JSON object of one diagnostic; `fix` is null if there is none."""
     fix = diagnostic.fix
     return {
         "name": diagnostic.name,

@@ -1,4 +1,4 @@
-"""Colours of a terminal, or none."""
+"""Colours for terminals."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _COLOURS: dict[Kind, str] = {"error": "31", "warning": "33", "place": "36", "lab
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """Puts text in a colour of the terminal, or leaves it plain."""
+    """Colours text for a terminal, or leaves it plain."""
 
     on: bool
 

@@ -1,4 +1,4 @@
-"""Text of others made safe to show: what steers a terminal or turns text round is shown, not obeyed."""
+"""Makes untrusted text safe to print: control and bidirectional characters are replaced."""
 
 from __future__ import annotations
 
@@ -15,5 +15,5 @@ def printable(text: str) -> str:
 
 
 def escaped(text: str) -> str:
-    """Return JSON text with such characters as escapes, which mean the same in its strings."""
+    """Return JSON text with these characters as escapes, which are equivalent in its strings."""
     return _UNSAFE.sub(lambda found: f"\\u{ord(found.group()):04x}", text)

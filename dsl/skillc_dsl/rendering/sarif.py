@@ -18,7 +18,7 @@ Object = dict[str, object]
 
 @dataclass(frozen=True, slots=True)
 class SarifRule:
-    """What the manual says about the diagnostics of one name: a line of summary and a page in Markdown."""
+    """The documentation of the diagnostics of one name: a summary and a page in Markdown."""
 
     name: str
     summary: str
@@ -28,7 +28,7 @@ class SarifRule:
 def render(
     diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], rules: Mapping[str, SarifRule], version: str
 ) -> str:
-    """Return a log of one run of skillc `version`; `rules` are described as far as they are among the results."""
+    """Return the log of one run of skillc `version`; only those of `rules` that have results are included."""
     found = tuple(diagnostics)
     names = sorted({diagnostic.name for diagnostic in found})
     driver: Object = {
@@ -87,13 +87,13 @@ def _physical(span: Span) -> Object:
 
 
 def _artifact(path: str) -> Object:
-    """Return where a file is: below the folder in which skillc was started, or at an address of its own."""
+    """Return the location of a file: a relative path is based on the working directory, an absolute one is a file URI."""
     uri = quote(path.replace("\\", "/"))
     return {"uri": f"file://{uri}"} if uri.startswith("/") else {"uri": uri, "uriBaseId": _ROOT}
 
 
 def _region(span: Span) -> Object:
-    """Return a region, whose lines and columns count from 1 and whose end column is exclusive, as ours are."""
+    """Return the region of a span; as in `Span`, lines and columns count from 1 and the end column is exclusive."""
     return {
         "startLine": span.line,
         "startColumn": span.column,

@@ -1,1 +1,1 @@
-"""From the parser's trees to the syntax tree, a page for each page of `skillc_dsl.syntax`."""
+"""Builders that convert parse trees to the syntax tree, one module for each module of `skillc_dsl.syntax`."""

@@ -12,7 +12,7 @@ from skillc_dsl.parsing.building.values import ValueBuilder
 
 
 class ConditionBuilder(ValueBuilder):
-    """Conditions; a lone value among them becomes `Bare`."""
+    """Builds conditions; a value in place of a condition becomes `Bare`."""
 
     def implies(self, children: list[Child]) -> s.Implies:
         """`if_ implies then`"""

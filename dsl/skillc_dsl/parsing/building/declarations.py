@@ -1,4 +1,4 @@
-"""Builds declarations, and the file that holds them."""
+"""Builds declarations and files."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ TraitKind = Literal["functional", "symmetric", "transitive", "inverse", "sub"]
 
 
 class FileBuilder(MemberBuilder):
-    """Declarations; `start` is the whole file."""
+    """Builds declarations; `start` is the whole file."""
 
     def file(self, tree: Tree[Token]) -> s.File:
-        """Return the syntax of a whole file's tree."""
+        """Return the syntax tree of a file for its parse tree."""
         file = self.transform(tree)
         if not isinstance(file, s.File):
             raise TypeError(f"a file was expected, not {file!r}")
@@ -135,7 +135,7 @@ class FileBuilder(MemberBuilder):
         return self.part("goal", children)
 
     def _only(self, found: Iterable[P]) -> P | None:
-        """Return the first member of its kind; any further one is reported."""
+        """Return the first member of a kind and report all others."""
         members = tuple(found)
         for other in members[1:]:
             word = self.written(other.span).split()[0]

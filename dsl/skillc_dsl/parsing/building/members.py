@@ -12,7 +12,7 @@ from skillc_dsl.parsing.building.places import Child, Part, find_part, first_of_
 
 
 class MemberBuilder(NodeBuilder):
-    """Members; `= value` and `range a .. b` are parts of the member they follow."""
+    """Builds members; `= value` and `range a .. b` are parts of the preceding member."""
 
     def parameter(self, children: list[Child]) -> s.Parameter:
         """`in name: Type = default range a .. b`"""
@@ -75,7 +75,7 @@ class MemberBuilder(NodeBuilder):
         return s.Let(self.as_name(children[1]), self.value(children[3]), self.over(children))
 
     def prefer(self, children: list[Child]) -> s.Prefer:
-        """`prefer N`; a quantity is reported, its number kept."""
+        """`prefer N`; a quantity is reported and its number used."""
         value, span = children[1], self.over(children)
         if isinstance(value, s.Quantity):
             self.complain(value.span, "`prefer` takes a number without a unit", "such as `prefer 2`")

@@ -16,7 +16,7 @@ BlockKind = Literal[
 
 
 class NodeBuilder(ConditionBuilder):
-    """Nodes; the braces of a node with children stay among its rule's children, as tokens."""
+    """Builds nodes; the braces of a node are tokens among the children of its rule."""
 
     def block(self, children: list[Child]) -> s.Block:
         """`seq { }`, `par lead { }`, `try { }` and their like"""
@@ -119,7 +119,7 @@ class NodeBuilder(ConditionBuilder):
         return tuple(child for child in children if isinstance(child, s.Node))
 
     def as_number(self, child: Child) -> s.Number:
-        """Return a child that is a number by the grammar."""
+        """Return a child that the grammar guarantees to be a number."""
         if not isinstance(child, s.Number):
             raise TypeError(f"a number was expected, not {child!r}")
         return child

@@ -1,4 +1,4 @@
-"""What every builder shares: places, text as written, documentation."""
+"""The base of all builders: places, source text, documentation."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Spanned(Protocol):
 
     @property
     def span(self) -> Span:
-        """Where it stands."""
+        """The place of the piece."""
         ...
 
 
@@ -40,7 +40,7 @@ class Part:
 
 
 class TreeBuilder(Transformer_NonRecursive[Token, Spanned]):
-    """Turns trees into syntax from the leaves up; every method is named after the rule whose children it gets."""
+    """Builds syntax from the leaves up; each method has the name of the grammar rule whose children it gets."""
 
     def __init__(self, source: Source) -> None:
         super().__init__(visit_tokens=False)
@@ -52,7 +52,7 @@ class TreeBuilder(Transformer_NonRecursive[Token, Spanned]):
         self.problems: list[Diagnostic] = []
 
     def place(self, child: Child) -> Span:
-        """Return where a token or a piece of syntax stands."""
+        """Return the place of a token or a piece of syntax."""
         return token_span(child, self.source.path) if isinstance(child, Token) else child.span
 
     def over(self, children: Sequence[Child]) -> Span:
@@ -61,7 +61,7 @@ class TreeBuilder(Transformer_NonRecursive[Token, Spanned]):
         return first if len(children) == 1 else first.to(self.place(children[-1]))
 
     def part(self, rule: str, children: Sequence[Child]) -> Part:
-        """Keep `children` together under the name of their rule."""
+        """Return `children` as a part with the name of their rule."""
         return Part(rule, tuple(children), self.over(children))
 
     def written(self, span: Span) -> str:
@@ -71,7 +71,7 @@ class TreeBuilder(Transformer_NonRecursive[Token, Spanned]):
         return " ".join(_STRING_OR_COMMENT.sub(r"\1", self.source.text[start:end]).split())
 
     def doc(self, span: Span) -> str:
-        """Return the `##` lines right above `span`, without their marks; only what begins its line has some."""
+        """Return the `##` lines right above `span`, without the `##`; empty if `span` does not begin its line."""
         first = span.line - 1
         if self.lines[first][: span.column - 1].strip():
             return ""
@@ -82,21 +82,21 @@ class TreeBuilder(Transformer_NonRecursive[Token, Spanned]):
 
 
 def children_of_type(children: Iterable[Child], kind: type[T]) -> tuple[T, ...]:
-    """Return the children of one kind, in their order."""
+    """Return the children of one type in order."""
     return tuple(child for child in children if isinstance(child, kind))
 
 
 def first_of_type(children: Iterable[Child], kind: type[T]) -> T | None:
-    """Return the first child of one kind, None if there is none."""
+    """Return the first child of one type, or None."""
     return next((child for child in children if isinstance(child, kind)), None)
 
 
 def find_part(children: Iterable[Child], rule: str) -> Part | None:
-    """Return the part made by `rule`, None if it was not written."""
+    """Return the part of a rule, or None if it is not present."""
     return next((child for child in children if isinstance(child, Part) and child.rule == rule), None)
 
 
 def keyword_at(children: Sequence[Child], index: int) -> str:
-    """Return the word at `index`, empty if there is none."""
+    """Return the token at `index` as text, or an empty string if the child is not a token."""
     child = children[index] if index < len(children) else None
     return child.value if isinstance(child, Token) else ""

@@ -16,7 +16,7 @@ _QUANTITY = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)")
 
 
 class ValueBuilder(TreeBuilder):
-    """Names, types and values; a condition in parentheses is passed on where a condition may follow."""
+    """Builds names, types and values; a condition in parentheses is returned as is."""
 
     def name(self, children: list[Token]) -> s.Name:
         """`contain`, `skiros:contain`"""
@@ -39,7 +39,7 @@ class ValueBuilder(TreeBuilder):
         return s.OfDimension(self.as_name(children[0]), self.as_name(children[2]), self.over(children))
 
     def type_at(self, children: list[Child], index: int) -> s.TypeName:
-        """Return the type at `index`; the grammar puts nothing else there."""
+        """Return the child at `index`, which the grammar guarantees to be a type."""
         found = children[index]
         if not isinstance(found, s.TypeName):
             raise TypeError(f"a type was expected, not {found!r}")
@@ -76,7 +76,7 @@ class ValueBuilder(TreeBuilder):
         return self.string(children[0])
 
     def string(self, token: Child) -> s.Text:
-        """Return a text without its quotes."""
+        """Return a string without its quotes."""
         return s.Text(token.value[1:-1] if isinstance(token, Token) else "", self.place(token))
 
     def boolean(self, children: list[Token]) -> s.Boolean:
@@ -84,7 +84,7 @@ class ValueBuilder(TreeBuilder):
         return s.Boolean(children[0].value == "true", self.place(children[0]))
 
     def reference(self, children: list[s.Name]) -> s.NameReference:
-        """A name as a value."""
+        """A name used as a value."""
         return s.NameReference(children[0], children[0].span)
 
     def member(self, children: list[Child]) -> s.Member:
@@ -108,18 +108,18 @@ class ValueBuilder(TreeBuilder):
     product = sum
 
     def parentheses(self, children: list[Child]) -> Child:
-        """Widen what stands in parentheses, so that its span holds them."""
+        """Return the content of parentheses with its span extended to include them."""
         inner = children[1]
         return dataclasses.replace(inner, span=self.over(children))  # type: ignore[type-var]
 
     def as_name(self, child: Child) -> s.Name:
-        """Return a child that is a name by the grammar."""
+        """Return a child that the grammar guarantees to be a name."""
         if not isinstance(child, s.Name):
             raise TypeError(f"a name was expected, not {child!r}")
         return child
 
     def value(self, child: Child) -> s.Value:
-        """Return a value; a condition in its place is reported and stands for `true`."""
+        """Return a value; a condition in its place is reported and replaced by `true`."""
         if isinstance(child, s.Value):
             return child
         span = self.place(child)
@@ -127,5 +127,5 @@ class ValueBuilder(TreeBuilder):
         return s.Boolean(True, span)
 
     def complain(self, span: Span, message: str, help_: str) -> None:
-        """Report what the grammar let through."""
+        """Report an error that the grammar does not exclude."""
         self.problems.append(Diagnostic("syntax", span, message, help_))

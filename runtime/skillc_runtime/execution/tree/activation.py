@@ -77,12 +77,12 @@ class Activation:
         return bool(self.implementation.hold) or bool(monitored_properties(self.implementation))
 
     def check_properties(self) -> Failure | None:
-        """Return the failure of the first `verify` line that is violated now."""
+        """Return the failure of the first `verify` line that is violated now, if any."""
         context = self._context
         return find_violation(self.implementation, context.cell, context.library.vocabulary, context.state, self.frame)
 
     def apply_results(self) -> Failure | None:
-        """Read a primitive's outputs, write its posts and check both, after the body succeeded; return the failure, if any."""
+        """Read a primitive's outputs, write its posts and check the results of the body; return the failure."""
         self._context.refresh_state()
         if isinstance(self.body, PrimitiveNode):
             problem = self._read_outputs(self.body.outputs)
@@ -105,7 +105,7 @@ class Activation:
         return tuple(parameter.name for parameter in self.implementation.parameters if parameter.direction == "out")
 
     def _read_outputs(self, outputs: Mapping[str, object]) -> Failure | None:
-        """Copy the primitive's outputs to the frame; return the failure of the first one with a wrong type, if any."""
+        """Copy the primitive's outputs to the frame; return the failure of the first invalid one, if any."""
         for parameter in self.implementation.parameters:
             if parameter.direction == "out" and parameter.name in outputs:
                 value = cast("Value", outputs[parameter.name])

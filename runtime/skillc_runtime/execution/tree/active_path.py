@@ -35,7 +35,7 @@ class ActivePath:
         return RUNNING if status is RUNNING else self.propagate(status)
 
     def propagate(self, status: Status) -> Status:
-        """Notify the nodes above the leaf that it ended, up to the first that continues; return the status of the child."""
+        """Notify the nodes above the leaf that it ended, until one continues; return the status of the child."""
         node = self._leaf
         while status is not RUNNING and node is not self.top:
             assert node.parent is not None, "a node below `top` has a parent"

@@ -90,7 +90,7 @@ def make_failure_context(
 def collect_facts_at_failure(
     tried: Sequence[Implementation], running: Activation | None, arguments: Mapping[str, Value], state: WorldState
 ) -> tuple[LabelledFact, ...]:
-    """Return the facts that the conditions of a call read: those of the running implementation, else of all tried ones."""
+    """Return the facts read by the conditions of a call: of the running implementation, else of all tried ones."""
     implementations = tried if running is None else (running.implementation,)
     conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
     conditions += [post.condition for post in (running.implementation.post if running is not None else ())]

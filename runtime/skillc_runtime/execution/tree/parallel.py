@@ -12,7 +12,7 @@ from skillc_runtime.recording.failure import Failure
 
 
 class ParallelNode(Node):
-    """Starts the children in order and ticks the running ones in the same order; a child that ended is not run again."""
+    """Starts the children in order and ticks those that run in the same order; each child runs once."""
 
     kind: ClassVar[str] = "par"
     __slots__ = ("_running", "_started")

@@ -122,7 +122,7 @@ class TreeRun:
             self._finish(Status.HALTED, Failure(kind="halted", message=reason, source=self._root.source))
 
     def abort(self, error: Exception) -> None:
-        """Fail because of an error, for example of the cell: halt all running nodes, undo scoped skills, and end the run."""
+        """Fail because of an error, for example of the cell: halt all running nodes, undo scoped skills and end."""
         if self.status in (Status.IDLE, RUNNING):
             message = describe_exception(error)
             self._root.halt(message)

@@ -44,7 +44,7 @@ class SelectorNode(Node):
 
 
 class ReactiveSelectorNode(Node):
-    """Tries all children in order in each tick, even failed ones; if an earlier child runs, a later running one is halted."""
+    """Tries the children in order in each tick, even failed ones; an earlier one that can run halts a later one."""
 
     kind: ClassVar[str] = "reactive sel"
     __slots__ = ("_active", "_paths")
