@@ -150,5 +150,5 @@ def find_hover(analysis: Analysis, path: str, line: int, column: int) -> Hover |
         return None
     span = there[0].span
     texts = [describe_symbol(analysis, occurrence.symbol) for occurrence in there if occurrence.span == span]
-    told = list(dict.fromkeys(text for text in texts if text))
-    return Hover(span, "\n\n---\n\n".join(told)) if told else None
+    distinct = list(dict.fromkeys(text for text in texts if text))
+    return Hover(span, "\n\n---\n\n".join(distinct)) if distinct else None

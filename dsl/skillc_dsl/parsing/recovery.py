@@ -123,7 +123,7 @@ class Recovery:
         return Diagnostic("syntax", span, f"{found}: expected {describe_terminals(expected)}", help_)
 
     def _resume(self, index: int) -> int:
-        """Drop what is incomplete; return the index of the next token that begins or ends a member, node or declaration."""
+        """Drop the incomplete part; return the index of the next start or end of a member, node or declaration."""
         depth = 0
         for position in range(index, len(self.tokens)):
             token = self.tokens[position]

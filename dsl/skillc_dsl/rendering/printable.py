@@ -10,7 +10,7 @@ _UNSAFE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud8
 
 
 def printable(text: str) -> str:
-    """Return the text with a replacement for each control character but tab and line feed, of the same width."""
+    """Return the text with each unsafe character replaced by one character; tabs and line feeds are kept."""
     return _UNSAFE.sub(REPLACEMENT, text)
 
 

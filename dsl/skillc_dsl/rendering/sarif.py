@@ -28,7 +28,7 @@ class SarifRule:
 def render(
     diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source], rules: Mapping[str, SarifRule], version: str
 ) -> str:
-    """Return the log of one run of skillc `version`; only those of `rules` that have results are included."""
+    """Return the log of one run of skillc `version`; `rules` documents the diagnostics by name."""
     found = tuple(diagnostics)
     names = sorted({diagnostic.name for diagnostic in found})
     driver: Object = {
@@ -87,7 +87,7 @@ def _physical(span: Span) -> Object:
 
 
 def _artifact(path: str) -> Object:
-    """Return the location of a file: a relative path is based on the working directory, an absolute one is a file URI."""
+    """Return the location of a file: a relative path is relative to the working directory, others are file URIs."""
     uri = quote(path.replace("\\", "/"))
     return {"uri": f"file://{uri}"} if uri.startswith("/") else {"uri": uri, "uriBaseId": _ROOT}
 
