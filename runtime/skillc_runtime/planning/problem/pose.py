@@ -111,9 +111,7 @@ def pose_problem(
     types = selection.kept
     if _has_wildcard(goal):
         wanted = _ground_goal(goal, library, domain, named | types.keys(), state)
-    others = types.keys() - set(constants.values())
-    taken = domain.names.keys() | {each.name for each in domain.predicates}
-    names = {**constants, **assign_object_names(others, state.vocabulary, taken)}
+    names = _name_objects(constants, types, domain, state.vocabulary)
     by_iri = {iri: name for name, iri in names.items()}
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     domain = exclude_steps(without, useful.domain, by_iri, types)
@@ -137,6 +135,15 @@ def pose_problem(
     return PosedProblem(
         problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _has_wildcard(goal)
     )
+
+
+def _name_objects(
+    constants: Mapping[str, str], types: Mapping[str, str], domain: PlanningDomain, vocabulary: Vocabulary
+) -> dict[str, str]:
+    """Return the individuals (IRIs) of the problem by name; those that the domain names are its constants."""
+    others = types.keys() - set(constants.values())
+    taken = domain.names.keys() | {each.name for each in domain.predicates}
+    return {**constants, **assign_object_names(others, vocabulary, taken)}
 
 
 def _describe_unknown_durations(initial: InitialState, problem: Problem) -> Iterator[str]:
