@@ -1,4 +1,4 @@
-"""A library as JSON and back."""
+"""Reads and writes a compiled library as JSON."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ COMPILE_AGAIN = "make it anew with `skillc compile`"
 
 
 class LibraryError(ValueError):
-    """A text that is not a library this version can load; the message says where and what to do."""
+    """The text is not a library that this version can load; the message says where and what to do."""
 
 
 class _Header(msgspec.Struct):
-    """What every format of a library has."""
+    """The field that every version of the format has."""
 
     format: int
 
@@ -25,7 +25,7 @@ def dumps(library: SkillLibrary) -> bytes:
 
 
 def loads(text: bytes, name: str) -> SkillLibrary:
-    """Read a library. `name` is what an error calls the text; LibraryError for anything but a whole library."""
+    """Return the library in a JSON text, called `name` in errors; LibraryError if it is not a complete library."""
     try:
         found = msgspec.json.decode(text, type=_Header).format
         if found != FORMAT:

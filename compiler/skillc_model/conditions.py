@@ -52,7 +52,7 @@ Expression: TypeAlias = Literal | Variable | Individual | PropertyOf | Arithmeti
 
 
 class Anything(msgspec.Struct, frozen=True, tag="anything"):
-    """`_`: some individual, whichever."""
+    """`_`: any individual."""
 
 
 Term: TypeAlias = Variable | Individual | Anything
@@ -158,7 +158,7 @@ class Retract(msgspec.Struct, frozen=True, tag="retract"):
 
 
 class Assign(msgspec.Struct, frozen=True, tag="assign"):
-    """The property has the value afterwards, and no other."""
+    """The property has this value afterwards and no other."""
 
     subject: Variable | Individual
     property: str

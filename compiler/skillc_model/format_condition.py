@@ -1,4 +1,4 @@
-"""Conditions, expressions and facts in the words of the language; quantities in SI units, which it reads too."""
+"""Conditions, expressions and facts as text in the syntax of the language; quantities are numbers in SI units."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 
 def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
-    """Return the condition as it could be written in a skill; one that joins nothing as `true` or `false`."""
+    """Return the condition in the syntax of the language; an empty `and` is `true`, an empty `or` is `false`."""
     match condition:
         case Holds(subject=subject, relation=relation, object=object_):
             return format_relation(_term(subject, vocabulary), relation, _term(object_, vocabulary))
@@ -61,33 +61,33 @@ def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
 
 
 def format_relation(subject: str, relation: str, object_: str, holds: bool = True) -> str:
-    """Return a relation, by IRI, between two names, or that it is not there."""
+    """Return `subject relation object`, the relation by its local name; negated unless it holds."""
     return f"{'' if holds else 'not '}{subject} {local_name(relation)} {object_}"
 
 
 def format_property(owner: str, property_: str, value: str | None) -> str:
-    """Return what value a property, by IRI, of a named individual has; None for no value."""
+    """Return `owner.property == value`, the property by its local name; `not owner has property` if value is None."""
     name = local_name(property_)
     return f"not {owner} has {name}" if value is None else f"{owner}.{name} == {value}"
 
 
 def format_class(name: str, cls: str, holds: bool = True) -> str:
-    """Return that a named individual is of a named class, or is not."""
+    """Return `name is cls`, negated unless it holds."""
     return f"{'' if holds else 'not '}{name} is {cls}"
 
 
 def format_all(parts: Iterable[str]) -> str:
-    """Return that all of these hold."""
+    """Return the conjunction of the parts; `true` if there are no parts."""
     return " and ".join(parts) or "true"
 
 
 def format_any(parts: Iterable[str]) -> str:
-    """Return that some of these hold."""
+    """Return the disjunction of the parts; `false` if there are no parts."""
     return " or ".join(parts) or "false"
 
 
 def format_quantified(word: str, variable: str, cls: str, body: str) -> str:
-    """Return that a condition holds for some or for all of a class, as `word` says."""
+    """Return the quantified condition; `word` is `exists` or `forall`."""
     return f"{word} {variable}: {cls} ({body})"
 
 
@@ -105,7 +105,7 @@ def format_literal(value: bool | int | float | str) -> str:
 
 
 def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
-    """Return the expression as it could be written in a skill, with as many parentheses as it needs."""
+    """Return the expression in the syntax of the language, with only the parentheses that it needs."""
     match expression:
         case Literal(value=str() as text):
             return f'"{text}"'

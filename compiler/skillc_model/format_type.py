@@ -1,4 +1,4 @@
-"""Types and quantities in the words of the language."""
+"""Types and quantities as text in the syntax of the language."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ SI_UNITS = {
 
 
 def format_type(type_: ValueType, vocabulary: Vocabulary) -> str:
-    """Return the type as it is written in a skill."""
+    """Return the type in the syntax of the language."""
     match type_:
         case ClassType(iri=iri):
             return vocabulary.short(iri)
@@ -53,6 +53,6 @@ def format_type(type_: ValueType, vocabulary: Vocabulary) -> str:
 
 
 def format_quantity(value: float, type_: ValueType) -> str:
-    """Return a number in SI units with the unit of its type."""
+    """Return a number in SI units as text with the unit of its type, if it has one."""
     unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, NumberType) else ""
     return f"{value:g} {unit}".strip()

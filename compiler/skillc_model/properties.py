@@ -1,4 +1,4 @@
-"""What `verify` lines say of every execution of an implementation."""
+"""Properties that `verify` lines require of every execution of an implementation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_rdf.vocabulary.types import Position
 
 
 class Runs(msgspec.Struct, frozen=True, tag="runs"):
-    """A skill runs. What must not be counts from its start, what must have been once it has succeeded."""
+    """A skill runs: forbidden runs count from the start of the skill, required runs once it has succeeded."""
 
     skill: str
 
@@ -24,7 +24,7 @@ class Is(msgspec.Struct, frozen=True, tag="is"):
 
 
 class Measures(msgspec.Struct, frozen=True, tag="measures"):
-    """The contact force on an arm of the implementation, N, compares so with a limit, N."""
+    """The contact force on an arm of the implementation, in N, compared with a limit in N."""
 
     quantity: OneOf["force"]
     operator: Operator

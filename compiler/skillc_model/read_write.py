@@ -1,4 +1,4 @@
-"""What conditions read, and what the effects of skills write: as terms by IRI, and as patterns of facts."""
+"""What conditions read and effects write: the IRIs of terms, and patterns of facts."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 @dataclass(frozen=True, slots=True)
 class FactPattern:
-    """Facts of a relation or property, by IRI, about these individuals; None stands for any."""
+    """A pattern that matches facts by the IRIs of term, subject and object; None matches any."""
 
     term: str | None
     subject: str | None = None
     object: str | None = None
 
     def meets(self, other: FactPattern) -> bool:
-        """Whether some fact may be one of both."""
+        """Whether some fact matches both patterns."""
         return all(
             one is None or two is None or one == two
             for one, two in ((self.term, other.term), (self.subject, other.subject), (self.object, other.object))
@@ -49,9 +49,9 @@ EVERYTHING = FactPattern(None)
 
 @dataclass(frozen=True, slots=True)
 class ReadWriteSet:
-    """What a step reads, the facts it writes, the facts it settles, and the devices it has for itself.
+    """The facts that a step reads, writes and settles, and the devices that it locks.
 
-    What is settled includes what a functional relation would lose: whoever else settles it comes before or after.
+    Settled facts include those that a functional relation loses. Two steps that settle the same fact must be ordered.
     """
 
     reads: frozenset[FactPattern]
@@ -60,7 +60,7 @@ class ReadWriteSet:
     devices: frozenset[str]
 
     def conflicts(self, other: ReadWriteSet) -> bool:
-        """Whether the order of the two matters."""
+        """Whether the two steps must be ordered."""
         return (
             bool(self.devices & other.devices)
             or _meet(self.settles, other.settles)
@@ -69,11 +69,11 @@ class ReadWriteSet:
         )
 
     def is_disturbed_by(self, other: ReadWriteSet) -> bool:
-        """Whether the other writes what this one reads."""
+        """Whether the other step writes facts that this one reads."""
         return _meet(other.writes, self.reads)
 
     def shares_with(self, other: ReadWriteSet) -> str | None:
-        """Return what the two cannot have both at the same time, in words: a device, or facts that both settle."""
+        """Return why the two steps cannot run at the same time (a device or settled facts), None if they can."""
         common = self.devices & other.devices
         if common:
             return f"both lock {', '.join(sorted(common))}"
@@ -82,9 +82,9 @@ class ReadWriteSet:
 
 @dataclass(frozen=True, slots=True)
 class UniqueSide:
-    """A relation that follows from an asserted one and lets one thing stand on the other side of `side` only.
+    """A relation implied by an asserted one that allows one partner only for the individual on `side`.
 
-    `side` is 0 for its subject and 1 for its object; `flipped` says that it follows from object to subject.
+    `side` is 0 for the subject and 1 for the object; `flipped` if the implied relation has the two exchanged.
     """
 
     relation: str
@@ -93,14 +93,14 @@ class UniqueSide:
 
     @property
     def fixed(self) -> int:
-        """The side of the asserted relation, 0 or 1, of which the thing keeps no other partner."""
+        """The side of the asserted relation, 0 or 1, whose individual loses its other partners."""
         return int(self.side != self.flipped)
 
 
 def facts_read(
     condition: Condition | Expression, individuals: Mapping[str, str], vocabulary: Vocabulary
 ) -> Iterator[FactPattern]:
-    """Yield what decides whether a condition holds; names that stand for no known individual may stand for any."""
+    """Yield patterns of the facts that a condition depends on; `individuals` are IRIs by variable, others match any."""
     for each in walk(condition):
         match each:
             case Holds(relation=relation) if vocabulary.is_computed(relation):
@@ -116,7 +116,7 @@ def facts_read(
 
 
 def terms_read(condition: Condition | Expression) -> frozenset[str]:
-    """Return the IRIs of the relations and properties that decide whether a condition holds or what a value is."""
+    """Return the IRIs of the relations and properties that a condition or an expression reads."""
     read: set[str] = set()
     for each in walk(condition):
         match each:
@@ -126,7 +126,7 @@ def terms_read(condition: Condition | Expression) -> frozenset[str]:
 
 
 def terms_read_by(skill: Skill, library: SkillLibrary) -> frozenset[str]:
-    """Return what decides whether a skill can start, how long it takes, and whether its effects are allowed."""
+    """Return the terms that decide whether a skill can start, its duration, and whether its effects are allowed."""
     read: set[str] = set()
     described: tuple[Skill | Implementation, ...] = (skill, *library.implementations_of(skill.name))
     for one in described:
@@ -144,9 +144,9 @@ def terms_read_by(skill: Skill, library: SkillLibrary) -> frozenset[str]:
 
 
 def terms_written(posts: Iterable[Post], vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the canonical relations and the properties that posts change, by themselves or through axioms.
+    """Return the canonical relations and the properties that posts change, directly or through axioms.
 
-    A measured number counts too: no effect tells its value, yet nothing may take the old one for granted.
+    A measured number is included: no effect gives its value, but its old value no longer holds.
     """
     written: set[str] = set()
     for post in posts:
@@ -158,9 +158,9 @@ def terms_written(posts: Iterable[Post], vocabulary: Vocabulary) -> frozenset[st
 
 
 def terms_written_by(effect: Effect, vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the canonical relations, or the property, that an effect changes: of a relation, those it takes away too.
+    """Return the canonical relations, including those it retracts, or the property that an effect changes.
 
-    Whatever these imply changes with them, which `may_change` knows.
+    Terms that these imply are not included; `may_change` takes them into account.
     """
     closure = vocabulary.closure
     match effect:
@@ -177,7 +177,7 @@ def terms_written_by(effect: Effect, vocabulary: Vocabulary) -> frozenset[str]:
 
 
 def unique_sides(relation: str, vocabulary: Vocabulary) -> tuple[UniqueSide, ...]:
-    """Return what asserting the relation may retract."""
+    """Return the implied relations of which asserting `relation` may retract other facts."""
     found: list[UniqueSide] = []
     for iri, flipped in vocabulary.closure.implied.get(relation, ()):
         term = vocabulary.relations[iri]
@@ -187,7 +187,7 @@ def unique_sides(relation: str, vocabulary: Vocabulary) -> tuple[UniqueSide, ...
 
 
 def changing_terms(library: SkillLibrary) -> frozenset[str]:
-    """Return the relations and properties that some skill changes, with all that changes with them by axioms."""
+    """Return the relations and properties that some skill changes, directly or through axioms."""
     vocabulary = library.vocabulary
     posts = (post for implementation in library.implementations.values() for post in implementation.post)
     written = terms_written(posts, vocabulary)
@@ -196,16 +196,16 @@ def changing_terms(library: SkillLibrary) -> frozenset[str]:
 
 
 def may_change(term: str, written: frozenset[str], vocabulary: Vocabulary) -> bool:
-    """Whether what is stated of a relation or property may change where these are written, as of `terms_written`."""
+    """Whether the facts of a relation or property may change when the terms `written` (from `terms_written`) change."""
     if term in vocabulary.relations:
         return any(each.relation in written for each in vocabulary.closure.canonical_sources[term])
     return term in written
 
 
 def is_fixed(item: Condition | Expression, changing: frozenset[str], vocabulary: Vocabulary) -> bool:
-    """Whether a condition or expression, once its names are bound, is the same now as at any later time.
+    """Whether the value of a condition or expression, once its names are bound, never changes.
 
-    `changing` are the terms that skills change, as of `changing_terms`. What is computed may follow from anything.
+    `changing` are the terms that skills change, from `changing_terms`. Computed terms may depend on any fact.
     """
     if any(isinstance(each, Invoke) for each in walk(item)):
         return False

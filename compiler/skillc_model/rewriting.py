@@ -1,4 +1,4 @@
-"""Rewriting conditions and expressions: values for variables, answers for `given`, constants."""
+"""Rewriting of conditions and expressions: substitution, deciding `given`, constant folding."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ ALWAYS, NEVER = And(()), Or(())
 
 
 def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
-    """Return a struct with each condition, expression or term directly inside it changed; itself if none changes."""
+    """Return the struct with `change` applied to each struct directly inside it; the same object if nothing changes."""
     changes: dict[str, object] = {}
     for name in item.__struct_fields__:
         value = getattr(item, name)
@@ -59,15 +59,15 @@ def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
 
 
 def contains_kind(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
-    """Whether anything of these kinds occurs in the condition."""
+    """Whether a struct of one of these types occurs in the condition."""
     return any(isinstance(each, kinds) for each in walk(item))
 
 
 def substitute(item: T, values: Mapping[str, Expression]) -> T:
-    """Return the condition, effect, expression or term with expressions in the place of these variables.
+    """Return the condition, effect, expression or term with the variables replaced by expressions; capture is avoided.
 
-    Where only an individual can stand, the place of a value that is none is taken by an unknown individual: the author
-    mixed them up, which is reported where it was written.
+    A value in a place that takes only individuals is replaced by an unknown individual; the author's type error is
+    reported elsewhere.
     """
     if isinstance(item, Variable):
         return values.get(item.name, item)  # type: ignore[return-value]
@@ -96,7 +96,7 @@ def _places_of_individuals(item: Condition | Effect | Expression | Term) -> tupl
 
 
 def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
-    """Return a quantifier whose variable is none of those that come into it from outside."""
+    """Return the quantifier, its variable renamed if it would capture a free variable of the expressions."""
     assert isinstance(item, Exists | Forall)
     coming = {name for key in free_variables(item) if key in values for name in free_variables(values[key])}
     if item.variable not in coming:
@@ -108,7 +108,7 @@ def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
 
 
 def decide_given(condition: Condition, given: Mapping[str, bool]) -> Condition:
-    """Return the condition with every `given` answered and what is then certain taken out."""
+    """Return the condition with every `given` replaced by its value, simplified."""
     match condition:
         case Given(parameter=name):
             return ALWAYS if given[name] else NEVER
@@ -130,14 +130,14 @@ def decide_given(condition: Condition, given: Mapping[str, bool]) -> Condition:
 
 
 def fold(item: T) -> T:
-    """Return a condition or expression with the arithmetic on constants in it carried out; no division by zero is."""
+    """Return a condition or expression with constant arithmetic evaluated, except divisions by zero."""
     folded = map_children(item, fold)
     value = constant_number(folded) if isinstance(folded, Arithmetic) else None
     return folded if value is None else Literal(value)  # type: ignore[return-value]
 
 
 def constant_number(expression: Expression | None) -> float | None:
-    """Return the value of a number made of constants alone, None when it depends on anything."""
+    """Return the value of a constant numeric expression; None if it is not constant or divides by zero."""
     match expression:
         case Literal(value=bool() | str()):
             return None
@@ -159,5 +159,5 @@ def _applied(operator: str, a: float, b: float) -> float | None:
 
 
 def is_plain_fact(condition: Condition) -> bool:
-    """Whether a fact about variables alone, which a predicate can say: a relation, identity or class."""
+    """Whether the condition is a relation, identity or class test on variables only, expressible as one atom."""
     return isinstance(condition, Holds | Same | IsA) and not contains_kind(condition, Individual, Anything)

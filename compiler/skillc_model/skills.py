@@ -1,4 +1,4 @@
-"""Skills, their implementations and the tasks of a library, flattened: nothing is left to look up or to merge."""
+"""Skills, their implementations and the tasks of a compiled library, with all names resolved and refinements merged."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FORMAT = 2
 
 
 class Parameter(msgspec.Struct, frozen=True, kw_only=True):
-    """A parameter; `low` and `high` bound a number in SI units; `any_` lets several inferred answers pass."""
+    """A parameter; `low` and `high` bound a number in SI units; `any_` allows several inferred values."""
 
     name: str
     direction: OneOf["in", "opt", "infer", "out"]
@@ -39,7 +39,7 @@ class Requirement(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Post(msgspec.Struct, frozen=True, kw_only=True):
-    """A postcondition with the effects it stands for; a sensed one is only checked, never written."""
+    """A postcondition with its effects; a sensed one is only checked, never written."""
 
     label: str
     condition: Condition
@@ -50,7 +50,7 @@ class Post(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Skill(msgspec.Struct, frozen=True, kw_only=True):
-    """A description. `implementations` are in rank order: the first that fits is taken."""
+    """A skill description. `implementations` are names in rank order; the first that is applicable is run."""
 
     name: str
     doc: str = ""
@@ -84,14 +84,14 @@ ImplementationBody: TypeAlias = Compound | Primitive
 
 
 class Let(msgspec.Struct, frozen=True):
-    """A name for a value, computed when the implementation starts."""
+    """A named value, computed when the implementation starts."""
 
     name: str
     value: Expression
 
 
 class Implementation(msgspec.Struct, frozen=True, kw_only=True):
-    """A way to do a skill, complete: the description's parameters and conditions, refined, with its own added."""
+    """An implementation of a skill, with the parameters and conditions of the description refined and its own added."""
 
     name: str
     skill: str
@@ -111,7 +111,7 @@ class Implementation(msgspec.Struct, frozen=True, kw_only=True):
 class Task(msgspec.Struct, frozen=True, kw_only=True):
     """A scene with either a goal to plan for or a body to run.
 
-    `scene` is as written: relative to the task's file, or the name of a shipped scene.
+    `scene` is a path relative to the task's file, or the name of a shipped scene.
     """
 
     name: str
@@ -124,10 +124,10 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
-    """A compiled library: what library.json holds and the only thing the runtime loads.
+    """A compiled library: the content of library.json, which is all that the runtime loads.
 
-    `format` is raised with every change of what the JSON means; `implementations` is keyed `Skill.name`; `hash` is of
-    the sources; `names` maps each PDDL name back to the IRI or the skill it stands for.
+    `format` increases with every change to the meaning of the JSON; `implementations` is keyed by `Skill.name`; `hash`
+    is the hash of the sources; `names` maps each PDDL name to its IRI or skill.
     """
 
     format: int = FORMAT

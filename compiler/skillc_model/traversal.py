@@ -1,4 +1,4 @@
-"""Looking into conditions, expressions and bodies: what they are made of, which names they leave open."""
+"""Traversal of conditions, expressions and bodies: their parts, calls and free variables."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
 
 
 def children(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    """Yield the conditions, expressions, nodes and other structs of which something is made, in order."""
+    """Yield the structs directly inside a struct (conditions, expressions, nodes, ..), in order."""
     for name in item.__struct_fields__:
         value = getattr(item, name)
         parts = value if isinstance(value, tuple) else value.values() if isinstance(value, dict) else (value,)
@@ -27,7 +27,7 @@ def children(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
 
 
 def conjuncts(condition: Condition) -> Iterator[Condition]:
-    """Yield the conditions that `and` joins, the condition itself where it is none."""
+    """Yield the parts of a conjunction, nested ones included, or the condition itself if it is not a conjunction."""
     if isinstance(condition, And):
         for part in condition.parts:
             yield from conjuncts(part)
@@ -41,7 +41,7 @@ def find_calls(item: msgspec.Struct) -> Iterator[Call]:
 
 
 def is_nested_deeper(item: msgspec.Struct, most: int) -> bool:
-    """Whether parts of a condition, an expression or a call are inside each other more than so many times."""
+    """Whether a condition, an expression or a call is nested more than `most` levels deep."""
     level = [item]
     for _ in range(most + 1):
         level = [part for each in level for part in children(each)]
@@ -50,12 +50,12 @@ def is_nested_deeper(item: msgspec.Struct, most: int) -> bool:
 
 @lru_cache(maxsize=4096)
 def free_variables(item: Condition | Expression) -> frozenset[str]:
-    """Return the variables whose values come from outside."""
+    """Return the names of the free variables."""
     return frozenset(_free(item))
 
 
 def free_variables_in_order(item: Condition | Effect | Expression) -> tuple[str, ...]:
-    """Return the same in the order in which they first occur."""
+    """Return the names of the free variables in the order in which they first occur."""
     return tuple(dict.fromkeys(_free(item)))
 
 

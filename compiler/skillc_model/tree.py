@@ -1,4 +1,4 @@
-"""The body of a compound implementation as a tree of nodes; the set is closed and the runtime knows each."""
+"""The body of a compound implementation as a behaviour tree; `Node` is the closed union of all node types."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from skillc_rdf.vocabulary.types import Position
 
 
 class Sequence(msgspec.Struct, frozen=True, tag="seq"):
-    """Children in order until one fails; with memory unless reactive."""
+    """Runs its children in order until one fails; with memory unless reactive."""
 
     children: tuple[Node, ...]
     reactive: bool
@@ -20,7 +20,7 @@ class Sequence(msgspec.Struct, frozen=True, tag="seq"):
 
 
 class Selector(msgspec.Struct, frozen=True, tag="sel"):
-    """Children in order until one succeeds; with memory unless reactive."""
+    """Runs its children in order until one succeeds; with memory unless reactive."""
 
     children: tuple[Node, ...]
     reactive: bool
@@ -28,7 +28,7 @@ class Selector(msgspec.Struct, frozen=True, tag="sel"):
 
 
 class Parallel(msgspec.Struct, frozen=True, tag="par"):
-    """Children together: `all` succeed, `any` first success, `race` first to finish, `lead` the first child decides."""
+    """Runs its children together until `all` succeed, `any` succeeds, one ends (`race`) or the first ends (`lead`)."""
 
     policy: OneOf["all", "any", "race", "lead"]
     children: tuple[Node, ...]
@@ -36,7 +36,7 @@ class Parallel(msgspec.Struct, frozen=True, tag="par"):
 
 
 class Retry(msgspec.Struct, frozen=True, tag="retry"):
-    """The child up to `count` times until it succeeds."""
+    """Runs the child up to `count` times until it succeeds."""
 
     count: int
     child: Node
@@ -44,7 +44,7 @@ class Retry(msgspec.Struct, frozen=True, tag="retry"):
 
 
 class Repeat(msgspec.Struct, frozen=True, tag="repeat"):
-    """The child `count` times, while it succeeds."""
+    """Runs the child `count` times, as long as it succeeds."""
 
     count: int
     child: Node
@@ -52,7 +52,7 @@ class Repeat(msgspec.Struct, frozen=True, tag="repeat"):
 
 
 class Timeout(msgspec.Struct, frozen=True, tag="timeout"):
-    """The child, halted and failed after `seconds`."""
+    """Runs the child; halts it and fails after `seconds`."""
 
     seconds: Expression
     child: Node
@@ -60,35 +60,35 @@ class Timeout(msgspec.Struct, frozen=True, tag="timeout"):
 
 
 class Try(msgspec.Struct, frozen=True, tag="try"):
-    """The child; its failure becomes success, except of an enclosing hold or halt."""
+    """Runs the child and succeeds even if it fails, unless an enclosing hold condition breaks or the node is halted."""
 
     child: Node
     source: Position
 
 
 class Invert(msgspec.Struct, frozen=True, tag="invert"):
-    """The child with success and failure exchanged."""
+    """Runs the child and exchanges success and failure."""
 
     child: Node
     source: Position
 
 
 class Once(msgspec.Struct, frozen=True, tag="once"):
-    """The child, run at most once in the life of the enclosing skill; afterwards its result."""
+    """Runs the child at most once per run of the enclosing skill; returns its result afterwards."""
 
     child: Node
     source: Position
 
 
 class Wait(msgspec.Struct, frozen=True, tag="wait"):
-    """Nothing for `seconds`."""
+    """Waits for `seconds`, then succeeds."""
 
     seconds: Expression
     source: Position
 
 
 class WaitUntil(msgspec.Struct, frozen=True, tag="wait-until"):
-    """Nothing until the condition holds."""
+    """Waits until the condition holds, then succeeds."""
 
     condition: Condition
     text: str
@@ -96,7 +96,7 @@ class WaitUntil(msgspec.Struct, frozen=True, tag="wait-until"):
 
 
 class If(msgspec.Struct, frozen=True, tag="if"):
-    """One of two branches, chosen at start; without `orelse` a false condition succeeds."""
+    """Runs one of two branches, chosen at the start; without `orelse` a false condition succeeds."""
 
     condition: Condition
     text: str
@@ -106,7 +106,7 @@ class If(msgspec.Struct, frozen=True, tag="if"):
 
 
 class While(msgspec.Struct, frozen=True, tag="while"):
-    """The child again while the condition holds; fails when it still holds after `limit` rounds."""
+    """Repeats the child while the condition holds; fails if it still holds after `limit` rounds."""
 
     condition: Condition
     text: str
@@ -116,7 +116,7 @@ class While(msgspec.Struct, frozen=True, tag="while"):
 
 
 class ForEach(msgspec.Struct, frozen=True, tag="for"):
-    """The child once for every item, in order."""
+    """Runs the child once for each item, in order."""
 
     variable: str
     items: Expression
@@ -125,7 +125,7 @@ class ForEach(msgspec.Struct, frozen=True, tag="for"):
 
 
 class Check(msgspec.Struct, frozen=True, tag="check"):
-    """Success when the condition holds, else failure."""
+    """Succeeds if the condition holds, fails otherwise."""
 
     condition: Condition
     text: str
@@ -133,14 +133,14 @@ class Check(msgspec.Struct, frozen=True, tag="check"):
 
 
 class Apply(msgspec.Struct, frozen=True, tag="apply"):
-    """Write the labelled posts of the enclosing skill now."""
+    """Applies the labelled postconditions of the enclosing skill to the world model."""
 
     labels: tuple[str, ...]
     source: Position
 
 
 class Call(msgspec.Struct, frozen=True, tag="call"):
-    """Run another skill; arguments by parameter name, `out` names what its output is called here."""
+    """Runs another skill; arguments are by parameter name, `out` is the local name of its output."""
 
     skill: str
     implementation: str | None
@@ -150,7 +150,7 @@ class Call(msgspec.Struct, frozen=True, tag="call"):
 
 
 class With(msgspec.Struct, frozen=True, tag="with"):
-    """Run a scoped skill, then the child; what the skill set up is undone when the child ends in any way."""
+    """Runs a scoped skill, then the child; the skill's setup is undone however the child ends."""
 
     call: Call
     child: Node

@@ -1,1 +1,1 @@
-"""Emitters: each prints the compiled library in one form, and none derives meaning of its own."""
+"""Emitters: each prints the compiled library in one format, without further analysis."""

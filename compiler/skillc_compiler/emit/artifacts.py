@@ -1,4 +1,4 @@
-"""All artifacts of a library: every module here that has a function `emit` is an emitter."""
+"""Makes all artifacts of a library; each module of this package with a function `emit` is an emitter."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from skillc_model.skills import SkillLibrary
 
 
 class Emitter(Protocol):
-    """What an emitter's module offers."""
+    """The interface of an emitter module."""
 
     def emit(self, library: SkillLibrary) -> dict[str, str]:
-        """Return the text of each artifact by its relative path, with `/` between folders, without header."""
+        """Return the text of each artifact, without header, by its relative path with `/` as separator."""
         ...
 
 
 def make_artifacts(library: SkillLibrary) -> dict[str, str]:
-    """Return every artifact by relative path, in order of path; ValueError when two emitters want the same path."""
+    """Return all artifacts by relative path, sorted by path; ValueError if two emitters produce the same path."""
     found: dict[str, str] = {}
     for emitter in find_emitters():
         for path, text in emitter.emit(library).items():
@@ -31,7 +31,7 @@ def make_artifacts(library: SkillLibrary) -> dict[str, str]:
 
 
 def find_emitters() -> tuple[Emitter, ...]:
-    """Return the emitters, in order of their names."""
+    """Return the emitters, sorted by name."""
     names = sorted(module.name for module in iter_modules(folder.__path__) if module.name != "artifacts")
     modules = [import_module(f"{folder.__name__}.{name}") for name in names]
     return tuple(cast(Emitter, module) for module in modules if hasattr(module, "emit"))

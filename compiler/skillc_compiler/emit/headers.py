@@ -1,4 +1,4 @@
-"""The first lines of an artifact: what it was made from. A file that carries them may be replaced or removed."""
+"""Header lines of artifacts, which name the sources. A file with such a header may be replaced or removed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ XML_DECLARATION = '<?xml version="1.0" encoding="UTF-8"?>\n'
 
 
 def add_header(path: str, text: str, library: SkillLibrary) -> str:
-    """Return the text under a header in the comment syntax of its kind; JSON has no comments and holds the hash."""
+    """Return the text with a header in the comment syntax of its format; JSON gets none, its data has the hash."""
     comment = COMMENTS.get(PurePosixPath(path).suffix)
     if comment is None:
         return text

@@ -1,4 +1,4 @@
-"""library.json: what the runtime loads."""
+"""Emits library.json, which the runtime loads."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""domain.pddl and domain.temporal.pddl: what planners read."""
+"""Emits domain.pddl and domain.temporal.pddl, the planning domains."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _TYPES = re.compile(r"^\s*\(:types\b([^()]*)\)", re.MULTILINE)
 
 
 class InvalidDomain(Exception):
-    """An independent parser does not take the domain that was printed: a mistake of this compiler."""
+    """An independent parser rejects the printed domain: a bug in the compiler."""
 
 
 def emit(library: SkillLibrary) -> dict[str, str]:
-    """Return the classical and the temporal domain; DomainRefused if the classical one cannot be read back."""
+    """Return the classical and the temporal domain; InvalidDomain if the classical one cannot be read back."""
     domain = prune_unread_values(make_planning_domain(library))
     classical = format_domain(domain)
     read_back(classical, {action.name for action in domain.actions})
@@ -26,11 +26,11 @@ def emit(library: SkillLibrary) -> dict[str, str]:
 
 
 def read_back(text: str, actions: set[str]) -> None:
-    """Read the domain with the `pddl` package; DomainRefused unless it is whole and has these actions.
+    """Parse the domain with the `pddl` package; InvalidDomain unless it is valid and has exactly these actions.
 
-    That package wants :numeric-fluents beside static cost functions, Fast Downward refuses them: only it is shown them.
-    Its search for cycles is cubic in the depth of the types: their hierarchy is checked here, it reads a flat one.
-    It shortens the tracebacks of the whole process and, where it fails, leaves them short.
+    The package requires :numeric-fluents for static cost functions and Fast Downward rejects it, so it is added for the
+    package only. Its cycle check is cubic in the depth of the type hierarchy, so the hierarchy is checked here and the
+    package gets a flat one. It sets `sys.tracebacklimit` and does not restore it on errors, so it is restored here.
     """
     from lark.exceptions import LarkError
     from pddl.exceptions import PDDLParsingError, PDDLValidationError
@@ -49,8 +49,10 @@ def read_back(text: str, actions: set[str]) -> None:
 
 
 def _flattened(text: str) -> str:
-    """Return the domain with all types right below `object`; DomainRefused unless each type is declared exactly once,
-    below one that is declared before it, which rules out cycles."""
+    """Return the domain with all types directly below `object`.
+
+    InvalidDomain unless each type is declared exactly once, below a type declared before it, which rules out cycles.
+    """
     found = _TYPES.search(text)
     if not found:
         return text

@@ -1,4 +1,4 @@
-"""Artifacts onto the disk: each file is either the old one or the whole new one."""
+"""Writes artifacts to disk; each file is replaced atomically."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ WITH_HEADER = frozenset({*COMMENTS, ".html"})
 
 
 class EmitError(OSError):
-    """The artifacts could not be written; the message says what, where and why."""
+    """The artifacts could not be written; the message names the file and the reason."""
 
 
 def write(
     artifacts: Mapping[str, str], directory: Path, ours: Callable[[str], bool] = is_generated
 ) -> tuple[Path, ...]:
-    """Write the artifacts below the directory and remove those made earlier; return the paths written.
+    """Write the artifacts below the directory, remove those of earlier runs, and return the paths written.
 
-    A file whose beginning is not `ours` is never removed. EmitError when the disk is full or not writable.
+    A file is only removed if `ours` accepts its beginning. EmitError if the disk is full or not writable.
     """
     written = []
     for relative, text in sorted(artifacts.items()):

@@ -1,4 +1,4 @@
-"""A skill's description as a planning action, with the choice among its implementations in the precondition."""
+"""Translates a skill into planning actions, with the choice of its implementation in the preconditions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from skillc_rdf.vocabulary.types import ClassType
 
 @dataclass(frozen=True)
 class PlannedSkill:
-    """The actions of a skill with the static predicates and functions that they alone use."""
+    """The actions of a skill with the static predicates and functions that only they use."""
 
     actions: tuple[Action, ...]
     guards: tuple[Predicate, ...]
@@ -33,14 +33,14 @@ class PlannedSkill:
 
     @property
     def names(self) -> frozenset[str]:
-        """The names that no other skill's actions, predicates and functions may have."""
+        """The names of its actions, predicates and functions, which no other skill may use."""
         named: tuple[Action | Predicate | CostFunction, ...] = (*self.actions, *self.guards, *self.costs)
         return frozenset(each.name for each in named)
 
 
 @dataclass(frozen=True)
 class _Case:
-    """Implementations that take equally long, one after the other in rank order, and when one of them is taken."""
+    """Implementations of equal duration, adjacent in rank order, and the condition under which one of them runs."""
 
     first: str
     duration: Expression | None
@@ -56,11 +56,11 @@ def make_actions(
     locks: Collection[str],
     taken: Collection[str],
 ) -> PlannedSkill:
-    """Return the actions of a skill that locks these parameters; Untranslatable says why a planner cannot reason so.
+    """Return the actions of a skill that locks the parameters `locks`; Untranslatable if a planner cannot handle it.
 
-    The first implementation that fits is taken: for each duration there is an action, which demands that one of its
-    implementations fits and none that comes before them does. `objects` are the individuals that it may name, by IRI,
-    `taken` are names that nothing else may have.
+    At run time the first applicable implementation is chosen. So there is one action per duration, whose precondition
+    requires that one of its implementations is applicable and no earlier one is. `objects` are the individuals that
+    it may name, by IRI; `taken` are names already in use.
     """
     guards = Guards(skill.name, symbols, taken)
     return _Builder(name, skill, tuple(implementations), symbols, objects, guards, taken, locks).planned()
@@ -120,7 +120,7 @@ class _Builder:
         yield self._requirements(self.skill.pre, "precondition", given, scope)
 
     def _cases(self, described: DefaultValues, scope: Scope) -> Iterator[_Case]:
-        """Yield when an implementation of each duration is the first that fits."""
+        """Yield for each duration the condition that the first applicable implementation has it."""
         earlier: list[Formula] = []
         for duration, group in groupby(self.implementations, self._duration):
             members = tuple(group)
@@ -133,13 +133,13 @@ class _Builder:
         return None if duration is None else substitute(duration, default_values(implementation.parameters).values)
 
     def _defaults(self, parameters: Iterable[Parameter], scope: Scope) -> Iterator[Formula]:
-        """Yield that the individuals which optional parameters are by default are of the parameters' classes."""
+        """Yield the conditions that the default individuals of optional parameters are of the parameters' classes."""
         for each in parameters:
             if isinstance(each.default, Individual) and isinstance(each.type, ClassType):
                 yield self._translator().is_a(each.default, each.type.iri, scope)
 
     def _alternative(self, implementation: Implementation, described: DefaultValues, scope: Scope) -> Formula:
-        """Return what an implementation demands beyond the description: narrower types and conditions of its own."""
+        """Return what an implementation requires beyond the description: narrower types and its own conditions."""
         given = default_values(implementation.parameters)
         known = {described.applied(each.condition) for each in (*self.skill.pre, *self.skill.hold)}
         both = (*implementation.pre, *implementation.hold)
@@ -178,7 +178,7 @@ class _Builder:
     def _effects(
         self, known: Formula, hold: Formula, given: DefaultValues, scope: Scope
     ) -> tuple[tuple[Change, ...], Formula]:
-        """Return what the action changes, and what must hold before for the world to be consistent after it."""
+        """Return the changes of the action, and the precondition under which the world is consistent after it."""
         if known == FALSE:
             raise Impossible("its conditions can never hold")
         effects = self._stated(given)
@@ -194,7 +194,7 @@ class _Builder:
         return changes, consistent
 
     def _stated(self, given: DefaultValues) -> tuple[Effect, ...]:
-        """Return the effects with the values of optional parameters put in, which no implementation may change."""
+        """Return the effects with the defaults of optional parameters, which implementations cannot change."""
         effects = [effect for post in self.skill.post for effect in post.effects]
         read = {name for effect in effects for name in free_variables_in_order(effect)} & given.given.keys()
         for implementation in self.implementations:

@@ -1,8 +1,8 @@
-"""A problem in which no condition denies an atom of every object of a type: what is not true has a predicate as well.
+"""Adds complement predicates to a problem, so that no condition negates an atom for every object of a type.
 
-Fast Downward takes a thing's places for the values of one variable, and multiplies out what the denial of one value
-leaves of the others: `forall c: not (in c gripper)` costs places to the power of crates. Said as `not-in`, which
-actions keep up to date, it costs nothing.
+Fast Downward encodes the possible locations of an object as the values of one variable and expands the negation of
+one value into a disjunction of the others: `forall c: not (in c gripper)` grows to locations ** crates. The
+complement `not-in`, which the actions maintain, costs nothing.
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ from skillc_model.pddl.problem import Problem
 Types: TypeAlias = Mapping[str, str]
 
 MOST_ATOMS = 50_000
-"""A predicate is left as it is where its complement would have more atoms at first."""
+"""A predicate gets no complement if this would have more atoms than this."""
 
 
 def add_complements(problem: Problem) -> Problem:
-    """Return an equivalent problem with complements of the predicates that actions deny of every object of a type."""
+    """Return an equivalent problem with complements of the predicates that actions negate for all objects of a type."""
     for name, types in _find_denied(problem.domain).items():
         problem = _with_complement(problem, name, types)
     return problem
 
 
 class _CannotFollow(Exception):
-    """An action makes the predicate true in a way that its complement cannot follow."""
+    """An action makes the predicate true by a conditional or quantified effect, which the complement cannot follow."""
 
 
 def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Problem:
@@ -71,14 +71,14 @@ def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Probl
 
 @dataclass(frozen=True)
 class _Complement:
-    """The predicate that is true of the tuples of its types of which the one called `of` is not."""
+    """The complement of the predicate called `of`: true of the tuples of its types for which `of` is false."""
 
     of: str
     predicate: Predicate
     domain: PlanningDomain
 
     def action(self, action: Action) -> Action:
-        """Return the action with the complement in its conditions and effects; _Entangled where that cannot be."""
+        """Return the action with the complement in its conditions and effects; _CannotFollow if not possible."""
         own = [
             each for change in action.effects if change.atom.predicate == self.of for each in self._own(change, action)
         ]
@@ -107,7 +107,7 @@ class _Complement:
                 assert_never(formula)
 
     def _own(self, change: Change, action: Action) -> Iterator[Change]:
-        """Yield what a change of the predicate is for its complement."""
+        """Yield the change of the complement that corresponds to a change of the predicate."""
         types = _types(self.domain, action, change)
         wanted = [each.type for each in self.predicate.parameters]
         given = [types[term] for term in change.atom.terms]
@@ -129,7 +129,7 @@ class _Complement:
             yield Change(atom, not change.positive, variables, condition)
 
     def _not_made_true(self, change: Change, action: Action) -> Iterator[Formula]:
-        """Yield that the atom which a change deletes is none that the action adds: that one is true afterwards."""
+        """Yield the conditions that a deleted atom differs from each atom that the action adds (adding wins)."""
         for other in action.effects:
             if other.positive and other.atom.predicate == self.of:
                 pairs = list(zip(change.atom.terms, other.atom.terms, strict=True))
@@ -139,9 +139,9 @@ class _Complement:
 
 
 def _find_denied(domain: PlanningDomain) -> dict[str, list[str]]:
-    """Return the predicates that need a complement with the types of its arguments.
+    """Return the predicates that need a complement, each with the types of the complement's arguments.
 
-    These are so wide that no parameter of an action that changes the predicate is of a wider type.
+    The types are wide enough to cover the parameters of every action that changes the predicate.
     """
     found: dict[str, list[str]] = {}
     for action in domain.actions:
@@ -167,7 +167,7 @@ def _find_denied(domain: PlanningDomain) -> dict[str, list[str]]:
 
 
 def _denied(formula: Formula, types: Types, inside: bool = False) -> Iterator[Atom]:
-    """Yield the atoms that a formula denies of all objects of a type, with types in the place of terms."""
+    """Yield the atoms that a formula negates for all objects of a type, with types in place of the terms."""
     match formula:
         case Negation(Atom(predicate, terms)) if inside:
             yield Atom(predicate, tuple(types[each] for each in terms))
@@ -190,12 +190,12 @@ def _types(domain: PlanningDomain, action: Action, change: Change | None = None)
 
 
 def _meet(domain: PlanningDomain, one: str, other: str) -> bool:
-    """Whether a thing may be of both types."""
+    """Whether an object may be of both types."""
     return domain.is_a(one, other) or domain.is_a(other, one)
 
 
 def _join(domain: PlanningDomain, some: Sequence[str], others: Sequence[str]) -> list[str]:
-    """Return for each pair of types the narrowest that is above both."""
+    """Return for each pair of types their narrowest common supertype."""
     above = [each.name for each in sorted(domain.types, key=lambda each: -each.depth)]
     return [
         next((each for each in above if domain.is_a(one, each) and domain.is_a(other, each)), ROOT)

@@ -1,7 +1,7 @@
-"""What must hold before an action so that the world after it breaks no axiom and has all that the skill promises.
+"""Preconditions which ensure that an action's effects break no axiom and that all its postconditions hold.
 
-The world model refuses a write that breaks an axiom, and a skill fails whose postconditions do not hold in the end. So
-no step of a plan may do either: what must not be true afterwards is said of the world before.
+The world model rejects a write that breaks an axiom, and a skill fails if its postconditions do not hold at the end.
+No step of a plan may do either, so conditions on the world after the action are regressed to the world before it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from skillc_rdf.vocabulary.types import RelationTerm
 
 @dataclass(frozen=True)
 class Consistency:
-    """Looks at the effects of an action together; `changes` are what they come to, `known` is its precondition."""
+    """Checks the effects of one action together; `changes` are these effects as PDDL, `known` is its precondition."""
 
     translator: Translator
     scope: Scope
@@ -41,7 +41,7 @@ class Consistency:
     _apart: set[Formula] = field(default_factory=set)
 
     def required(self, effects: Sequence[Effect]) -> Formula:
-        """Return the condition; FALSE where nothing helps. Untranslatable says what a planner cannot look ahead at."""
+        """Return the condition; FALSE if it can never hold, Untranslatable if a planner cannot predict it."""
         self._apart.update(each.body for each in conjuncts(self.known) if isinstance(each, Negation))
         asserted = [each for each in effects if isinstance(each, Assert)]
         irreflexive = [formula for each in asserted for formula in self._irreflexive(each)]
@@ -75,7 +75,7 @@ class Consistency:
                 yield negate(self._same(subject, object_))
 
     def _typed(self, effect: Assert) -> Iterator[Formula]:
-        """Yield that the classes are those that the relation and all it implies take."""
+        """Yield the conditions that the individuals are of the classes that the relation and all it implies take."""
         symbols, is_a = self.translator.symbols, self.translator.is_a
         if symbols.is_computed(effect.relation):
             raise Impossible(f"states `{symbols.short(effect.relation)}`, which is computed")
@@ -87,7 +87,7 @@ class Consistency:
             yield disjunction(fitting) if fitting else TRUE
 
     def _asymmetric(self, effect: Assert) -> Iterator[Formula]:
-        """Yield that the opposite does not hold afterwards."""
+        """Yield the conditions that asymmetric relations do not hold in the opposite direction afterwards."""
         symbols = self.translator.symbols
         for term, subject, object_ in self._implied(effect):
             if term.asymmetric and self._takes(term, object_, subject):
@@ -100,7 +100,7 @@ class Consistency:
                 yield disjunction((same, negate(disjunction(map(differing._after, opposite)))))
 
     def _takes(self, term: RelationTerm, subject: Term, object_: Term) -> bool:
-        """Whether a relation may hold, by the classes that it takes."""
+        """Whether the signatures of a relation allow these terms."""
         may_be = self.translator.may_be
         fitting = (
             may_be(subject, each.domain, self.scope) and may_be(object_, each.range, self.scope)
@@ -109,7 +109,7 @@ class Consistency:
         return not term.signatures or any(fitting)
 
     def _after(self, atom: Atom) -> Formula:
-        """Return the condition before the action under which an atom is true after it."""
+        """Return the regression of an atom: the condition before the action under which it is true afterwards."""
         added: list[Formula] = []
         deleted: list[Formula] = []
         for change in self.changes:
@@ -118,7 +118,7 @@ class Consistency:
         return disjunction((*added, conjunction((atom, negate(disjunction(deleted))))))
 
     def _speaks_of(self, change: Change, terms: Sequence[str | None]) -> Formula:
-        """Return that a change is one of the atom with these terms, of which None may be anything."""
+        """Return the condition under which a change affects the atom with these terms; None matches any object."""
         free = {each.name for each in change.variables}
         pairs = list(zip(terms, change.atom.terms, strict=True))
         values = {other: one for one, other in pairs if one is not None and other in free}
@@ -131,7 +131,7 @@ class Consistency:
         return negate(self._equal(left, right))
 
     def _gone(self, effect: Retract) -> Iterator[Formula]:
-        """Yield that nothing that is stated makes what is retracted hold."""
+        """Yield the conditions that no asserted fact implies the retracted one."""
         symbols = self.translator.symbols
         sides = [None if isinstance(each, Anything) else self._term(each).name for each in _sides(effect)]
         if None not in sides and effect.relation in symbols.vocabulary.closure.chained:
@@ -145,7 +145,7 @@ class Consistency:
                     yield negate(self._speaks_of(change, terms))
 
     def _together(self, one: Effect, other: Effect) -> Iterator[Formula]:
-        """Yield that what is stated does not take the place of what is stated too."""
+        """Yield the conditions that one effect does not overwrite what the other states."""
         match one, other:
             case Assert(), Assert():
                 yield from self._rivals(one, other)
@@ -165,7 +165,7 @@ class Consistency:
         return self._equal(self._term(one).name, self._term(other).name)
 
     def _equal(self, one: str, other: str) -> Formula:
-        """Return that two names are of the same object, as far as names and types do not tell."""
+        """Return the equality of two names; TRUE or FALSE if the names, their types or the precondition decide it."""
         if one == other:
             return TRUE
         first, second = sorted((one, other))

@@ -16,7 +16,7 @@ from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary
 
 @dataclass(frozen=True)
 class Mention:
-    """An individual that a skill names, where it does, and the class that is asked for there, None for any."""
+    """An individual that a skill names, with the place in the source and the class required there (None: any)."""
 
     individual: str
     source: Position
@@ -24,9 +24,9 @@ class Mention:
 
 
 def find_mentions(library: SkillLibrary) -> dict[str, tuple[Mention, ...]]:
-    """Return the individuals that each skill which is planned with names, its implementations included.
+    """Return the individuals named by each skill that is used in plans, its implementations included.
 
-    A library with mistakes may speak of terms that its vocabulary lacks: they ask for no class.
+    A library with errors may use terms that are not in its vocabulary; these require no class.
     """
     return {
         name: tuple(_Mentions(library.vocabulary).of(skill, library.implementations_of(name)))
@@ -36,7 +36,7 @@ def find_mentions(library: SkillLibrary) -> dict[str, tuple[Mention, ...]]:
 
 
 def assumed_classes(found: Iterable[Mention], vocabulary: Vocabulary) -> dict[str, frozenset[str]]:
-    """Return the classes that individuals must be of for what is said of them: all that is known without a scene."""
+    """Return the classes required of individuals where skills name them, which is all that is known without a scene."""
     asked: dict[str, set[str]] = {}
     for each in found:
         asked.setdefault(each.individual, set()).update(() if each.cls is None else (each.cls,))
@@ -44,7 +44,7 @@ def assumed_classes(found: Iterable[Mention], vocabulary: Vocabulary) -> dict[st
 
 
 def most_specific(classes: Iterable[str], vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the classes that are above none of the others."""
+    """Return the classes that are not superclasses of any other."""
     known = frozenset(classes)
     if len(known) == 1:
         return known
@@ -56,7 +56,7 @@ class _Mentions:
     vocabulary: Vocabulary
 
     def of(self, skill: Skill, implementations: Iterable[Implementation]) -> Iterator[Mention]:
-        """Yield what a skill names in its conditions, posts, defaults and duration."""
+        """Yield the individuals that a skill names in its conditions, postconditions, defaults and durations."""
         for post in skill.post:
             yield from self._inside((post.condition, *post.effects), post.source)
         described: tuple[Skill | Implementation, ...] = (skill, *implementations)

@@ -1,4 +1,4 @@
-"""What an action costs: its expected duration in seconds, as an exact number; planners get whole units of it."""
+"""Action costs: expected durations in seconds, as exact fractions, which planners get as whole units."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from skillc_rdf.vocabulary.types import ClassType
 ASSUMED_SECONDS = Fraction(1)
 
 MOST_UNITS = 10_000_000
-"""The most that a single action costs in units: planners add costs up as 32-bit integers."""
+"""The highest cost of an action, in units: planners sum costs as 32-bit integers."""
 
 _ROUNDED_UNITS = 1_000_000
 """Durations without a common unit are rounded down so that the longest takes no more units than this."""
 
 _MOST_DIGITS = 15
-"""A decimal text of so many digits at most survives being kept as a float; what has more was computed."""
+"""Decimal text of at most this many digits survives conversion to float; longer decimals were computed."""
 
 _NOISE = 4e-15
-"""Computing with floats changes numbers by about this share of them."""
+"""Relative rounding error of floating-point computations."""
 
 _MOST_DENOMINATOR = 10**6
 
 
 def exact_seconds(value: object) -> Fraction:
-    """Return a duration as the number that was written or computed; ValueError where it is no time to wait."""
+    """Return a duration, in seconds, as a fraction without rounding errors; ValueError unless it is finite and >= 0."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise ValueError("it is no number")
     seconds = float(value)
@@ -57,9 +57,9 @@ def _digits(decimal: Fraction) -> int:
 
 
 def common_scale(durations: Iterable[Fraction]) -> Fraction:
-    """Return the units per second in which durations are whole numbers that are small enough for planners.
+    """Return the units per second with which all durations are whole numbers small enough for planners.
 
-    Where there is no such unit the longest duration decides, and `PlanningDomain.units` rounds down.
+    If there is no such scale, the longest duration determines it and `PlanningDomain.units` rounds down.
     """
     different = set(durations)
     longest = max(different, default=Fraction(0))
@@ -82,14 +82,14 @@ def _rounding_scale(longest: Fraction) -> Fraction:
 
 
 def find_duration(skill: Skill, implementation: Implementation) -> Expression | None:
-    """Return how long a skill takes when it is done by an implementation, None where nobody says."""
+    """Return the duration of a skill when this implementation runs it, None if neither states one."""
     return skill.duration if implementation.duration is None else implementation.duration
 
 
 def action_cost(
     skill: str, duration: Expression | None, scope: Scope, symbols: Symbols, taken: Collection[str]
 ) -> tuple[Cost, CostFunction | None]:
-    """Return a duration as a cost, with its function when it depends on the things; unsaid, it is taken for a second.
+    """Return a duration as a cost (None: one second), with a cost function if it depends on the arguments.
 
     The function is evaluated once, in the initial world.
     """
@@ -112,7 +112,7 @@ def action_cost(
 
 
 def _moving(expression: Expression, symbols: Symbols) -> str | None:
-    """Return a term (IRI or function) whose value skills may change, None where the duration is known beforehand."""
+    """Return a term (IRI or function) that the duration depends on and skills may change, None if there is none."""
     properties, functions = symbols.vocabulary.properties, symbols.vocabulary.functions
     for each in walk(expression):
         match each:

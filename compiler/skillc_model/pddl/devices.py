@@ -11,10 +11,10 @@ from skillc_model.tree import Call
 
 
 def locked_parameters(library: SkillLibrary) -> dict[str, tuple[str, ...]]:
-    """Return for each skill the parameters that stand for devices it locks, in the order of its parameters.
+    """Return for each skill its parameters that are locked devices, in the order of its parameters.
 
-    A called skill's device counts where the caller passes a parameter of its own for it; one that is looked up anew
-    has no name at the caller.
+    A device of a called skill is included if the caller passes one of its own parameters for it; a device that the
+    called skill infers has no name in the caller.
     """
     locked = {name: frozenset(skill.uses) for name, skill in library.skills.items()}
     while True:

@@ -1,4 +1,4 @@
-"""The typed form of a planning domain: what of a library a planner can reason about, and what was left out and why."""
+"""The planning domain as typed data: what a planner can use of a library, and which skills are excluded and why."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class PlanningType:
 
 @dataclass(frozen=True)
 class RelationFact:
-    """True of (s, o) when `s relation o` follows from what is written of other relations than `narrower`.
+    """True of (s, o) if `s relation o` follows from facts of relations that are not in `narrower`.
 
-    `narrower` are other predicates' relations as (relation, swapped): those change by themselves, and a condition on
-    this relation reads them too.
+    `narrower` are the relations of other predicates as (relation, swapped). They change independently, so a condition
+    on this relation reads their predicates too.
     """
 
     relation: str
@@ -78,7 +78,7 @@ Meaning: TypeAlias = RelationFact | PropertyFact | ClassFact | GuardFact | GoalF
 
 @dataclass(frozen=True)
 class Predicate:
-    """A predicate with what it stands for, which tells how to initialise it; `changes` unless it is static."""
+    """A predicate; its `meaning` determines its initial value; `changes` unless it is static."""
 
     name: str
     parameters: tuple[Typed, ...]
@@ -88,7 +88,7 @@ class Predicate:
 
 @dataclass(frozen=True)
 class FixedCost:
-    """The same duration for all things, in seconds."""
+    """A duration, in seconds, that is the same for all arguments."""
 
     seconds: Fraction
 
@@ -106,9 +106,9 @@ Cost: TypeAlias = FixedCost | ComputedCost
 
 @dataclass(frozen=True)
 class CostFunction:
-    """A static function: the seconds are `expression` with `variables` bound to the arguments, in the initial world.
+    """A static function: `expression`, in seconds, in the initial world with `variables` bound to the arguments.
 
-    `moving` is a property or relation (IRI) that the expression reads and skills change: the value is an estimate.
+    `moving` is a property or relation (IRI) that the expression reads and skills change, so the value is an estimate.
     """
 
     name: str
@@ -121,11 +121,10 @@ class CostFunction:
 
 @dataclass(frozen=True)
 class Action:
-    """A skill as a planner sees it, by implementations that take equally long.
+    """A planning action: a skill run by one of its implementations of equal duration.
 
-    `binds` names the skill's parameter behind each action parameter.
-
-    A goal action (`skill` is None) costs nothing and is no step of a plan. `uses` are variables of locked devices.
+    `binds` gives the skill parameter of each action parameter; `uses` are the variables of locked devices. A goal
+    action (`skill` is None) costs nothing and does not become a step of a plan.
     """
 
     name: str
@@ -143,7 +142,7 @@ class Action:
 
 @dataclass(frozen=True)
 class Excluded:
-    """A skill that no plan can contain, with the reason in the author's words; `impossible` if no run can either."""
+    """A skill that no plan can contain, with the reason; `impossible` if it can never run successfully either."""
 
     skill: str
     reason: str
@@ -153,10 +152,10 @@ class Excluded:
 
 @dataclass(frozen=True)
 class PlanningDomain:
-    """A planning domain; `names` leads from PDDL names back to IRIs and skills, `scale` is cost units per second.
+    """A planning domain; `names` maps PDDL names to IRIs and skills, `scale` is in cost units per second.
 
-    Costs are exact; planners get whole units, which are exact as long as the scale is a multiple of all denominators.
-    `combined` are the sets of classes of individuals that have several.
+    Costs are exact fractions; planners get whole units, which are exact if the scale is a multiple of all
+    denominators. `combined` are the sets of classes of individuals that have several.
     """
 
     name: str
@@ -189,11 +188,11 @@ class PlanningDomain:
         return {each.name: each for each in self.actions}
 
     def units(self, seconds: Fraction) -> int:
-        """Return a duration in whole units, rounded down where the scale cannot tell it."""
+        """Return a duration, in seconds, in whole cost units, rounded down if it is not a multiple of the unit."""
         return floor(seconds * self.scale)
 
     def type_of(self, classes: Iterable[str]) -> str:
-        """Return the most specific type for an individual of these classes (IRIs); `thing` when none is known."""
+        """Return the most specific type for an individual of these classes (IRIs); `thing` if none is known."""
         known = [self._by_class[cls] for cls in classes if cls in self._by_class]
         return min(known, key=lambda each: (-each.depth, each.name)).name if known else ROOT
 
@@ -204,7 +203,7 @@ class PlanningDomain:
         return type_name == ancestor or ancestor == ROOT
 
     def of_type(self, objects: Iterable[Typed], type_name: str) -> tuple[str, ...]:
-        """Return the names of those objects that are of the type, in their order."""
+        """Return the names of the objects of the type, in the given order."""
         fitting = {each.name for each in self.types if self.is_a(each.name, type_name)}
         if type_name == ROOT:
             fitting.add(ROOT)

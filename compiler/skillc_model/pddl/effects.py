@@ -1,4 +1,4 @@
-"""Postconditions as changes of predicates, with what the axioms retract: the former value, the former holder."""
+"""Translates the effects of postconditions into changes of predicates, including retractions that axioms require."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from skillc_rdf.vocabulary.closure import Directed
 
 @dataclass(frozen=True)
 class Effects:
-    """Turns effects into changes; `known` is what the precondition guarantees, which spares searching for old facts."""
+    """Translates effects into changes; `known` is the precondition, which may name the facts to delete."""
 
     translator: Translator
     scope: Scope
     known: Formula
 
     def changes(self, effects: Iterable[Effect]) -> tuple[Change, ...]:
-        """Return the changes of all effects, additions first; Untranslatable says what a planner cannot follow."""
+        """Return the changes of all effects, additions first; Untranslatable if PDDL cannot express them."""
         found: dict[Change, None] = {}
         for effect in effects:
             found.update(dict.fromkeys(self._effect(effect)))
@@ -70,9 +70,9 @@ class Effects:
                 yield from self._of_others(change, fixed, kept, added)
 
     def _of_others(self, change: Change, fixed: Typed, kept: Typed, added: Atom) -> Iterator[Change]:
-        """Yield the deletion of what stands opposite to a term unless that is what does so afterwards.
+        """Yield the deletion of the former partners of `fixed` other than `kept`, its partner afterwards.
 
-        That an action adds what it deletes needs no saying.
+        No condition is needed where the atom of `kept` is the added one: an atom both deleted and added is true.
         """
         side = 1 if change.atom.terms[0] == fixed.name else 0
         former = change.atom.terms[side]
@@ -86,7 +86,7 @@ class Effects:
             yield replace(change, condition=conjunction((change.condition, Negation(Equal(former, kept.name)))))
 
     def _known_partner(self, unique: UniqueSide, fixed: Typed) -> Typed | None:
-        """Return what the precondition says stands opposite to the fixed term."""
+        """Return the partner of the fixed term that the precondition names, None if it names none."""
         symbols = self.translator.symbols
         for reading in symbols.vocabulary.closure.canonical_sources[unique.relation]:
             predicate = symbols.relation(reading.relation)
@@ -98,7 +98,7 @@ class Effects:
         return None
 
     def _retract(self, relation: str, subject: Typed | None, object_: Typed | None) -> Iterator[Change]:
-        """Delete every fact of which `relation` follows; None stands for whatever is there."""
+        """Yield the deletion of every fact that implies `relation`; None matches any individual."""
         symbols = self.translator.symbols
         for reading in symbols.vocabulary.closure.canonical_sources[relation]:
             variables: list[Typed] = []

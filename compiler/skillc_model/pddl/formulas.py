@@ -91,14 +91,14 @@ class Change:
 
     @property
     def apart(self) -> Formula | None:
-        """What the condition says beside that there is something to delete: that objects differ. None for more."""
+        """The condition without the deleted atom itself, if it consists of inequalities only; None otherwise."""
         rest = [each for each in conjuncts(self.condition) if each != self.atom or self.positive]
         plain = all(isinstance(each, Negation) and isinstance(each.body, Equal) for each in rest)
         return conjunction(rest) if plain else None
 
 
 def conjunction(parts: Iterable[Formula]) -> Formula:
-    """Return the flat conjunction of the parts without repetition; FALSE if one is."""
+    """Return the flat conjunction of the parts without duplicates; FALSE if a part is FALSE."""
     flat: dict[Formula, None] = {}
     for part in parts:
         flat.update(dict.fromkeys(part.parts if isinstance(part, Conjunction) else (part,)))
@@ -108,7 +108,7 @@ def conjunction(parts: Iterable[Formula]) -> Formula:
 
 
 def disjunction(parts: Iterable[Formula]) -> Formula:
-    """Return the flat disjunction of the parts without repetition; TRUE if one is."""
+    """Return the flat disjunction of the parts without duplicates; TRUE if a part is TRUE."""
     flat: dict[Formula, None] = {}
     for part in parts:
         flat.update(dict.fromkeys(part.parts if isinstance(part, Disjunction) else (part,)))
@@ -118,10 +118,10 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
 
 
 def existential(variable: Typed, body: Formula) -> Formula:
-    """Return that the body holds for some object, of which there may be none.
+    """Return the existential formula, which is false if there is no object of the type.
 
-    What is true of anything is written as `x = x`: planners drop a quantifier over nothing to test, and PDDL has no
-    word for the denial.
+    A body of TRUE is written as `x = x`: planners drop a quantifier with an empty body, and PDDL has no literal for
+    its negation.
     """
     if body == FALSE:
         return FALSE
@@ -129,7 +129,7 @@ def existential(variable: Typed, body: Formula) -> Formula:
 
 
 def rename_terms(formula: Formula, names: Mapping[str, str]) -> Formula:
-    """Return the formula with other names for terms."""
+    """Return the formula with its terms renamed."""
     match formula:
         case Atom() | Equal():
             return _rename_leaf(formula, names)

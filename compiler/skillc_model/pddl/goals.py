@@ -1,4 +1,4 @@
-"""A goal as a ground formula: quantifiers written out, what no skill changes decided on the spot."""
+"""Grounds a goal: quantifiers are expanded, and conditions that no skill changes are evaluated in the initial world."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ def ground_goal(
     members: Members,
     holds: Callable[[Condition], bool],
 ) -> Formula:
-    """Return the goal over the objects of a problem; TRUE or FALSE when no skill can make a difference.
+    """Return the goal over the objects of a problem; TRUE or FALSE if no skill can change its value.
 
-    `objects` are names with types by IRI, `members` gives the individuals of a class, `holds` says whether a condition
+    `objects` are names with types by IRI, `members` returns the individuals of a class, `holds` whether a condition
     holds in the initial world. Untranslatable (as in "the goal reads ..") names what a planner cannot reason about.
     """
     symbols = _symbols(library, domain)
@@ -56,7 +56,7 @@ def ground_goal(
 
 
 def add_goal_predicates(goal: Formula, library: SkillLibrary, domain: PlanningDomain) -> PlanningDomain:
-    """Return the domain with the predicates that only the goal speaks of, so that the problem initialises them."""
+    """Return the domain with the predicates that only the goal uses, so that the problem initialises them."""
     missing = {atom.predicate for atom in atoms(goal)} - domain.predicate.keys()
     if not missing:
         return domain

@@ -1,4 +1,4 @@
-"""Conditions on what no skill changes, as static predicates that are settled when the problem is built."""
+"""Conditions on facts that no skill changes, as static predicates that are evaluated when the problem is built."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from skillc_model.traversal import free_variables_in_order
 
 @dataclass
 class Guards:
-    """Collects the guards of one skill; `taken` are names that no guard may have.
+    """Collects the guards of one skill; `taken` are names already in use.
 
-    The same condition on things of other types is another guard: it is settled for the things of its types alone.
+    A condition gets one guard per combination of parameter types, evaluated for the objects of these types only.
     """
 
     skill: str
@@ -29,7 +29,7 @@ class Guards:
     found: dict[tuple[Condition, tuple[str, ...]], Predicate] = field(default_factory=dict)
 
     def labelled(self, label: str, text: str) -> StaticEvaluator:
-        """Return what makes guards of the condition with this label, which its author wrote so."""
+        """Return an evaluator that makes guards from parts of the condition with this label and source text."""
 
         def evaluate(condition: Condition, scope: Scope) -> Formula | None:
             kept = is_plain_fact(condition) and not any(map(self.symbols.is_computed, terms_read(condition)))

@@ -1,4 +1,4 @@
-"""The class hierarchy as PDDL needs it: a tree. What the tree cannot say becomes static unary predicates."""
+"""The class hierarchy as a tree of PDDL types; classes with several parents become static unary predicates."""
 
 from __future__ import annotations
 
@@ -10,10 +10,9 @@ from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 
 class Hierarchy:
-    """Every class below the deepest of its parents.
+    """The tree of types: each class below the deepest of its parents.
 
-    `combined` are the sets of classes of those individuals that have several, which makes one more kind of class with
-    several parents each.
+    `combined` are the sets of classes of individuals that have several; each acts as a class with several parents.
     """
 
     def __init__(self, vocabulary: Vocabulary, names: Mapping[str, str], combined: Collection[frozenset[str]] = ()):
@@ -36,15 +35,15 @@ class Hierarchy:
         return tuple(sorted(types, key=lambda each: each.name))
 
     def type_name(self, cls: str) -> str:
-        """Return the most specific type that has every individual of the class."""
+        """Return the most specific type that contains every individual of the class."""
         return self._name(self._cover(cls))
 
     def is_exact(self, cls: str) -> bool:
-        """Whether the type that has every individual of the class has no others."""
+        """Whether the type returned by `type_name` contains only individuals of the class."""
         return self._cover(cls) == cls
 
     def common(self, classes: Iterable[str]) -> str:
-        """Return the deepest class that is above all of these."""
+        """Return the deepest common superclass."""
         return find_common_class(classes, self._vocabulary)
 
     def type_of(self, classes: Iterable[str]) -> str:
@@ -64,13 +63,13 @@ class Hierarchy:
         return self.is_below(one, other) or self.is_below(other, one)
 
     def join(self, one: str, other: str) -> str:
-        """Return the narrowest type that is above both."""
+        """Return the narrowest common supertype."""
         while not self.is_below(other, one):
             one = self._type_parents[one]
         return one
 
     def is_below(self, type_: str, above: str) -> bool:
-        """Whether every object of the type is of another."""
+        """Whether every object of the type is also of the type `above`."""
         while type_ not in (above, ROOT):
             type_ = self._type_parents[type_]
         return type_ == above or above == ROOT
@@ -80,7 +79,7 @@ class Hierarchy:
         return {each.name: each.parent for each in self.types}
 
     def _order(self, cls: str) -> tuple[int, str]:
-        """Order classes: those with most types above them first."""
+        """Sort key of classes: those with most supertypes first."""
         return 2 - len(self._chain(cls)), self._name(cls)
 
     def _name(self, cls: str) -> str:
@@ -110,7 +109,7 @@ class Hierarchy:
 
 
 def find_common_class(classes: Iterable[str], vocabulary: Vocabulary) -> str:
-    """Return the deepest class that is above all of these; `owl:Thing` of none."""
+    """Return the deepest common superclass; `owl:Thing` if there are no classes."""
     above = [vocabulary.ancestors.get(cls, frozenset({THING})) for cls in classes]
     return _deepest(frozenset.intersection(*above) if above else (), vocabulary)
 

@@ -1,7 +1,7 @@
-"""PDDL names for the terms of a library and for the objects of a scene, and the way back.
+"""PDDL names for the terms of a library and the objects of a scene, and the mapping back.
 
-A name has lower-case letters, digits and `-`, starts with a letter, is no word of PDDL, and is unique although planners
-fold case. Where two terms want the same name, both get their prefix in front.
+A name has lower-case letters, digits and `-`, starts with a letter, is not a PDDL keyword, and is unique even when
+planners fold case. If two terms would get the same name, both are prefixed.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _GAPS = re.compile(r"[^a-z0-9]+")
 def assign_names(library: SkillLibrary) -> dict[str, str]:
     """Return PDDL name -> IRI of a class, relation or property, `property=value` of a value, or skill name.
 
-    The individuals that skills name have names too: they are constants of the domain.
+    Individuals that skills name are included: they are constants of the domain.
     """
     vocabulary = library.vocabulary
     wanted = {iri: _of_iri(iri, vocabulary) for iri in (*vocabulary.classes, *vocabulary.relations)}
@@ -45,7 +45,7 @@ def assign_names(library: SkillLibrary) -> dict[str, str]:
 
 
 def assign_object_names(iris: Iterable[str], vocabulary: Vocabulary, taken: Collection[str]) -> dict[str, str]:
-    """Return object name -> IRI for the individuals of a scene, none of the names being in `taken`."""
+    """Return object name -> IRI for the individuals of a scene; no name is in `taken`."""
     plain = {iri: to_kebab(local_name(iri)) for iri in iris}
     times = Counter((*plain.values(), *taken, *KEYWORDS))
     wanted = {iri: (name,) if times[name] == 1 else _of_iri(iri, vocabulary) for iri, name in plain.items()}
@@ -53,17 +53,17 @@ def assign_object_names(iris: Iterable[str], vocabulary: Vocabulary, taken: Coll
 
 
 def finite_values(term: PropertyTerm) -> tuple[bool | str, ...]:
-    """Return the values of a property that has finitely many, each of which becomes a predicate; () otherwise."""
+    """Return the values of a property with finitely many values, each of which becomes a predicate; () otherwise."""
     return (True, False) if term.type == PlainType("Bool") else term.values
 
 
 def value_key(iri: str, value: bool | str) -> str:
-    """Return what a value's predicate is called in the table: the property itself for True, `property=value` else."""
+    """Return the key of a value's predicate in the table of names: the property for True, else `property=value`."""
     return iri if value is True else f"{iri}={'false' if value is False else value}"
 
 
 def to_kebab(text: str) -> str:
-    """Return the text in PDDL's letters: `ArmDevice` becomes arm-device, `Ur5e-1` ur5e-1, a foreign letter its code."""
+    """Return the text in kebab case: `ArmDevice` becomes arm-device, `Ur5e-1` ur5e-1, a non-ASCII letter its code."""
     if _KEBAB.fullmatch(text):
         return text
     spaced = _WORD_ENDS.sub("-", text).lower()
@@ -73,7 +73,7 @@ def to_kebab(text: str) -> str:
 
 
 def allocate_names(wanted: Mapping[str, Sequence[str]], taken: Collection[str] = ()) -> dict[str, str]:
-    """Give each key the first of its wanted names that no other key wants at that stage; number those left over."""
+    """Assign each key the first of its wanted names that no other key wants at the same position; number the rest."""
     used = KEYWORDS | set(taken)
     chosen: dict[str, str] = {}
     for stage in range(max((len(names) for names in wanted.values()), default=0)):
@@ -89,7 +89,7 @@ def allocate_names(wanted: Mapping[str, Sequence[str]], taken: Collection[str] =
 
 
 def make_unique(name: str, taken: Collection[str]) -> str:
-    """Return the name, numbered from 2 if it is taken or a word of PDDL."""
+    """Return the name, numbered from 2 if it is taken or a PDDL keyword."""
     candidate, number = name, 1
     while candidate in taken or candidate in KEYWORDS:
         number += 1
@@ -98,7 +98,7 @@ def make_unique(name: str, taken: Collection[str]) -> str:
 
 
 def make_variable(name: str, taken: Collection[str]) -> str:
-    """Return a PDDL variable for a name of the library that is none of `taken`."""
+    """Return a PDDL variable for a name of the library, different from all names in `taken`."""
     plain = to_kebab(name)
     return "?" + make_unique(f"the-{plain}" if plain in KEYWORDS else plain, {each.removeprefix("?") for each in taken})
 

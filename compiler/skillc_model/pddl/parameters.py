@@ -1,4 +1,4 @@
-"""The parameters of a skill as a planner takes them: things become variables, the rest keeps its default."""
+"""The parameters of a skill in a plan: individuals become variables, other parameters keep their defaults."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ from skillc_rdf.vocabulary.types import ClassType
 
 @dataclass(frozen=True)
 class DefaultValues:
-    """What optional parameters are worth in a plan: their default, or not given."""
+    """The values of optional parameters in a plan: the default, or not given."""
 
     values: Mapping[str, Expression]
     given: Mapping[str, bool]
 
     def applied(self, condition: Condition) -> Condition:
-        """Return the condition with the defaults put in and every `given` decided."""
+        """Return the condition with the defaults substituted and every `given` decided."""
         return decide_given(substitute(condition, self.values), self.given)
 
 
 def default_values(parameters: Sequence[Parameter]) -> DefaultValues:
-    """Return what the optional parameters are worth."""
+    """Return the values of the optional parameters in a plan."""
     values = {each.name: each.default for each in parameters if each.direction == "opt" and each.default is not None}
     given = {each.name: each.direction != "opt" or each.default is not None for each in parameters}
     return DefaultValues(values, given)
 
 
 def bind_parameters(parameters: Sequence[Parameter], hierarchy: Hierarchy) -> dict[str, BoundVariable]:
-    """Return the variables a planner binds, by parameter; Untranslatable names a parameter it would have to invent."""
+    """Return the variables a planner binds, by parameter; Untranslatable if one is not an individual."""
     places: dict[str, BoundVariable] = {}
     for parameter in parameters:
         if parameter.direction in ("opt", "out"):

@@ -1,6 +1,6 @@
-"""From a compiled library to a planning domain.
+"""Translates a compiled library into a planning domain.
 
-A skill that a planner cannot reason about is left out with the reason: nothing is dropped silently.
+A skill that a planner cannot handle is excluded with the reason; no skill is dropped silently.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from skillc_model.skills import Skill, SkillLibrary
 
 @dataclass(frozen=True)
 class _Attempt:
-    """What could be planned with when `changing` was taken for all that skills change."""
+    """The actions that could be built under the assumption that skills change only the terms `changing`."""
 
     symbols: Symbols
     objects: Mapping[str, NamedIndividual]
@@ -40,10 +40,10 @@ def make_planning_domain(
 ) -> PlanningDomain:
     """Return the library as a planning domain.
 
-    `combined` are the sets of classes of those individuals of the scene that have several, none below another.
-    `individuals` are those of the scene that skills name, with their lowest classes; without a scene it has them all,
-    and each is of the classes that the skills ask for. What the skills left over change decides what is static, which
-    decides what can be planned with: a fixed point.
+    `combined` are the sets of classes of individuals of the scene that have several, none a subclass of another.
+    `individuals` are those of the scene that skills name, with their most specific classes; None (no scene) assumes
+    that all exist and are of the classes that the skills require. The terms that the remaining skills change decide
+    what is static, which decides what skills can be planned with, so the result is computed as a fixed point.
     """
     named, settled = find_mentions(library), individuals is not None
     if individuals is None:
@@ -75,7 +75,7 @@ def make_planning_domain(
 def _unnamed(
     library: SkillLibrary, named: Mapping[str, Sequence[Mention]], objects: Mapping[str, NamedIndividual]
 ) -> Iterator[Excluded]:
-    """Yield the skills that name individuals which the scene lacks."""
+    """Yield the skills that name individuals which are not in the scene."""
     for skill, found in named.items():
         missing = [
             f"`{library.vocabulary.short(each.individual)}` ({each.source})"
@@ -125,7 +125,7 @@ def _domain(name: str, last: _Attempt, excluded: Iterable[Excluded]) -> Planning
 
 
 def _facts(last: _Attempt, constants: Mapping[str, Typed], guards: Collection[str]) -> list[Predicate]:
-    """Return the predicates that actions use, their parameters of types wide enough for every use."""
+    """Return the predicates that actions use, with parameter types wide enough for every use."""
     found: dict[str, Predicate] = {}
     join = last.symbols.hierarchy.join
     objects = {each.name: each.type for each in constants.values()}

@@ -1,7 +1,7 @@
-"""A problem made palatable for `astar(lmcut())`, which takes no axioms.
+"""Rewrites a problem for `astar(lmcut())`, which does not support axioms.
 
-Fast Downward turns forall over changing predicates in preconditions, and disjunctive goals, into axioms. So the first
-are expanded over the problem's objects, and the second become an action that costs nothing.
+Fast Downward compiles `forall` over changing predicates in preconditions, and disjunctive goals, into axioms. So the
+former are expanded over the problem's objects, and the latter become an action that costs nothing.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ REACH_GOAL = "reach-goal"
 
 
 def remove_axioms(problem: Problem) -> Problem:
-    """Return an equivalent problem without axioms; its goal action, if any, is no step of a plan."""
+    """Return an equivalent problem without axioms; its goal action, if any, does not become a step of a plan."""
     expanded = replace(problem, domain=_expanded_domain(problem))
     literals = all(isinstance(each, Atom | Negation) for each in conjuncts(problem.goal))
     return expanded if literals else _with_goal_action(expanded)
 
 
 def _expanded_domain(problem: Problem) -> PlanningDomain:
-    """Return the domain with every forall in a condition written out for the objects, which become constants."""
+    """Return the domain with every `forall` in a condition expanded over the objects, which become constants."""
     domain, expansion = problem.domain, _Expansion(problem.domain, problem.objects, frozenset(problem.init))
     actions = tuple(
         replace(action, precondition=expansion.of(action.precondition, {}), hold=expansion.of(action.hold, {}))
@@ -79,14 +79,14 @@ def _with_goal_action(problem: Problem) -> Problem:
 
 @dataclass(frozen=True)
 class _Expansion:
-    """Writes out every forall; what nothing changes is settled by the `facts`, or the planner would multiply it out."""
+    """Expands every `forall`; static atoms are replaced by their value in `facts` to keep the expansion small."""
 
     domain: PlanningDomain
     objects: Sequence[Typed]
     facts: Set[Atom]
 
     def of(self, formula: Formula, values: Mapping[str, str]) -> Formula:
-        """Return a formula with these objects in the place of variables."""
+        """Return the expanded formula with variables replaced by the objects in `values`."""
         match formula:
             case Atom(predicate=predicate, terms=terms):
                 return self._settled(Atom(predicate, tuple(values.get(each, each) for each in terms)))

@@ -1,4 +1,4 @@
-"""The typed form of a planning problem: pure data that the runtime fills from a snapshot of the world."""
+"""The planning problem as typed data, which the runtime fills from a snapshot of the world."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ class CostValue:
 
 @dataclass(frozen=True)
 class Problem:
-    """A problem of a domain.
+    """A planning problem of a domain.
 
-    Every object stands once, with its most specific type; `names` leads from object names to IRIs. `goal` is ground:
-    atoms, their negations, conjunctions and disjunctions, without quantifiers.
+    Every object occurs once, with its most specific type; `names` maps object names to IRIs. `goal` is ground: atoms,
+    their negations, conjunctions and disjunctions, without quantifiers.
     """
 
     name: str
@@ -36,11 +36,11 @@ class Problem:
 
     @property
     def rounds_down(self) -> bool:
-        """Whether some duration is not a whole number of units."""
+        """Whether some duration is not a whole number of cost units."""
         return any((each * self.domain.scale).denominator != 1 for each in action_durations(self))
 
 
 def action_durations(problem: Problem) -> frozenset[Fraction]:
-    """Return how long actions of a problem take, in seconds."""
+    """Return the durations of the actions of a problem, in seconds."""
     fixed = {each.cost.seconds for each in problem.domain.actions if isinstance(each.cost, FixedCost)}
     return frozenset(fixed | {each.seconds for each in problem.costs})

@@ -1,6 +1,7 @@
-"""A domain without the values of properties that no action reads, for readers who bring their own goals.
+"""Removes from a domain the predicates of property values that no action reads.
 
-`p` false is then said as `(not (p ..))`. A domain for a known goal keeps them: the goal may ask for such a value.
+A false `p` is then written `(not (p ..))`. A domain for a known goal keeps these predicates, since the goal may use
+them.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from skillc_model.pddl.typed import action_terms
 
 
 def prune_unread_values(domain: PlanningDomain) -> PlanningDomain:
-    """Return the domain without unread values that are false or that actions only take away."""
+    """Return the domain without unread predicates of values that are False or that no action adds."""
     read = {name for action in domain.actions for name in _read(action)}
     added = {change.atom.predicate for action in domain.actions for change in action.effects if change.positive}
     spare = {each.name for each in domain.predicates if each.name not in read and _is_spare(each, added)}

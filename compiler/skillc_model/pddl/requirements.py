@@ -1,4 +1,4 @@
-"""The `:requirements` of a domain: what its actions really use, in the order PDDL's definition lists them."""
+"""The `:requirements` of a domain: those its actions use, in the order of the PDDL definition."""
 
 from __future__ import annotations
 

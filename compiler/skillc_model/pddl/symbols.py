@@ -1,4 +1,4 @@
-"""The predicates of a library: which there are, what they mean and which of them skills change."""
+"""The predicates of a library: their names, their meaning and which of them skills change."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 @dataclass(frozen=True)
 class Symbols:
-    """Predicates by what they say.
+    """Predicates by their meaning.
 
-    `names` leads from PDDL names to terms; `changing` are canonical relations and properties that skills change.
-    `settled` says that the types of named objects are those of a scene, which they have no narrower ones of.
+    `names` maps PDDL names to terms; `changing` are the canonical relations and properties that skills change.
+    `settled` if the types of named objects come from a scene, so that they are the most specific ones.
     """
 
     vocabulary: Vocabulary
@@ -41,24 +41,24 @@ class Symbols:
         return chosen
 
     def affected(self, iri: str) -> bool:
-        """Whether skills change what holds of a relation or property, be it through another relation."""
+        """Whether skills change the facts of a relation or property, directly or through another relation."""
         return may_change(iri, self.changing, self.vocabulary)
 
     def is_computed(self, iri: str) -> bool:
-        """Whether a relation follows from other facts by a computation."""
+        """Whether a relation is computed from other facts."""
         return iri in self.vocabulary.relations and self.vocabulary.is_computed(iri)
 
     def decided_by(self, iri: str) -> tuple[str, ...]:
-        """Return what skills change of all that decides a computed relation; all that they change where nobody says."""
+        """Return the changing terms that a computed relation depends on; all of them if it declares no inputs."""
         known = self.vocabulary.relations[iri].computed_from
         return tuple(sorted(filter(self.affected, known))) if known else tuple(sorted(self.changing))
 
     def short(self, iri: str) -> str:
-        """Return what messages call a term."""
+        """Return the name of a term in messages."""
         return self.vocabulary.short(iri)
 
     def is_a(self, cls: str, ancestor: str) -> bool:
-        """Whether every individual of `cls` is one of `ancestor`."""
+        """Whether every individual of `cls` is also of `ancestor`."""
         return self.vocabulary.is_a(cls, ancestor)
 
     def member(self, cls: str) -> str:
@@ -70,7 +70,7 @@ class Symbols:
         return self._by_term[iri]
 
     def value(self, iri: str, value: bool | str) -> str:
-        """Return the predicate that says that the property has the value."""
+        """Return the predicate that is true if the property has the value."""
         return self._by_term[value_key(iri, value)]
 
     def values(self, iri: str) -> tuple[bool | str, ...]:
@@ -78,18 +78,18 @@ class Symbols:
         return finite_values(self.vocabulary.properties[iri])
 
     def readings(self, relation: str) -> tuple[Directed, ...]:
-        """Return the predicates of which any makes the relation hold: its own and the changing ones below it."""
+        """Return the predicates any of which implies the relation: its own and those of its changing subrelations."""
         closure = self.vocabulary.closure
         below = (each for each in closure.canonical_sources[relation] if each.relation in self.changing)
         return tuple(sorted({closure.canonical(relation), *below}))
 
     def follows_over_steps(self, relation: str) -> bool:
-        """Whether the relation may hold by several facts together which skills change: a transitive one is below it."""
+        """Whether the relation may follow from a chain of changing facts, because it has a transitive subrelation."""
         below = (each.relation for each in self.vocabulary.closure.sources[relation])
         return any(self.affected(each) for each in below if each in self.vocabulary.closure.transitive)
 
     def side_class(self, relation: str, side: int) -> str:
-        """Return the class of everything on one side (0 subject, 1 object) of the relation."""
+        """Return the class of the individuals on one side (0 subject, 1 object) of the relation."""
         signatures = self.vocabulary.relations[relation].signatures
         return self.hierarchy.common([(each.domain, each.range)[side] for each in signatures])
 
@@ -111,7 +111,7 @@ class Symbols:
         return self.hierarchy.common(self.vocabulary.properties[property_].domains)
 
     def predicate(self, name: str) -> Predicate:
-        """Return the declaration of a predicate that stands for a class, a relation or a property."""
+        """Return the declaration of the predicate of a class, a relation or a property value."""
         subject = "?subject"
         if name in self._classes:
             cls = self._classes[name]

@@ -1,4 +1,4 @@
-"""PDDL text of domains and problems: Jinja2 templates lay out the page, this module writes formulas and effects."""
+"""PDDL text of domains and problems: Jinja2 templates define the layout, this module formats formulas and effects."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ WIDTH = 100
 
 
 def format_domain(domain: PlanningDomain) -> str:
-    """Return the classical domain with action costs; hold conditions join the preconditions."""
+    """Return the classical domain with action costs; hold conditions are part of the preconditions."""
     return _template("domain.pddl.j2").render(domain=domain, requirements=find_requirements(domain))
 
 
 def format_temporal_domain(domain: PlanningDomain) -> str:
-    """Return the domain with durative actions: hold conditions hold over all, devices in use are locked."""
+    """Return the domain with durative actions: hold conditions are `over all`, devices in use are locked."""
     needed = [each for each in find_requirements(domain) if each != ":action-costs"]
     numbers = [":numeric-fluents"] if domain.costs else []
     return _template("temporal.pddl.j2").render(domain=domain, requirements=(*needed, *numbers, ":durative-actions"))
@@ -51,13 +51,13 @@ def format_problem(problem: Problem) -> str:
 
 
 def format_temporal_problem(problem: Problem) -> str:
-    """Return the problem for the temporal domain: no device is in use at first, and the makespan counts."""
+    """Return the problem for the temporal domain: no device is in use initially; the makespan is minimised."""
     idle = _lockable(problem)
     return _template("problem.pddl.j2").render(problem=problem, objects=_declared(problem), idle=idle, temporal=True)
 
 
 def _lockable(problem: Problem) -> list[str]:
-    """Return the objects that some action may lock."""
+    """Return the names of the objects that some action may lock."""
     locks = {each.type for action in problem.domain.actions for each in action.parameters if each.name in action.uses}
     return [each.name for each in problem.objects if any(problem.domain.is_a(each.type, lock) for lock in locks)]
 
@@ -104,7 +104,7 @@ def format_typed(typed: Iterable[Typed]) -> str:
 
 
 def format_cost(cost: Cost, domain: PlanningDomain) -> str:
-    """Return the number, in units of the domain, or the function that an action costs."""
+    """Return the cost of an action: the number in units of the domain, or the function."""
     match cost:
         case FixedCost(seconds=seconds):
             return str(domain.units(seconds))
@@ -115,7 +115,7 @@ def format_cost(cost: Cost, domain: PlanningDomain) -> str:
 
 
 def format_formula(formula: Formula, indent: int = 0) -> str:
-    """Return the formula, on one line where it fits and with a part per line where it does not."""
+    """Return the formula, on one line if it fits, otherwise with one part per line."""
     match formula:
         case Atom(predicate=predicate, terms=terms):
             return _list(predicate, terms)
@@ -144,15 +144,15 @@ def format_effect(change: Change) -> str:
 
 
 def is_used_up(change: Change, action: Action) -> bool:
-    """Whether an action that takes time deletes at its start what it reads there and does not need to its end."""
+    """Whether a durative action deletes at its start an atom that it reads there and does not need until its end."""
     deleted = not change.positive and change.condition == TRUE and not change.variables
     return deleted and change.atom in conjuncts(action.precondition) and change.atom not in atoms(action.hold)
 
 
 def _durative(change: Change, action: Action) -> str:
-    """Return one effect of a durative action, at its end; but what it needs at its start and uses up is gone at once.
+    """Return one effect of a durative action: `at end`, but `at start` for an atom that it uses up.
 
-    Otherwise two actions that overlap could use up the same thing.
+    Otherwise two overlapping actions could use up the same atom.
     """
     if is_used_up(change, action):
         return f"(at start {_literal(change)})"
@@ -190,7 +190,7 @@ def _format_scale(scale: Fraction) -> str:
 
 
 def _meaning_lines(predicate: Predicate) -> list[str]:
-    """Return what is said above a predicate whose name does not tell what it stands for: a condition as written."""
+    """Return the comment lines above a predicate whose name does not explain it: the condition as written."""
     match predicate.meaning:
         case GuardFact(skill=skill, label=label, text=text):
             return [f"`{label}` of {skill}: {' '.join(text.split())}"]

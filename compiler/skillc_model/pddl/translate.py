@@ -1,4 +1,4 @@
-"""Library conditions as formulas over predicates: what skills change becomes atoms, the rest is settled beforehand."""
+"""Translates conditions into formulas over predicates; conditions that no skill changes may be evaluated beforehand."""
 
 from __future__ import annotations
 
@@ -49,12 +49,12 @@ from skillc_model.read_write import terms_read
 
 
 class Untranslatable(Exception):
-    """Something a classical planner cannot reason about; the message says what, to end a sentence about the skill."""
+    """Something a classical planner cannot handle; the message completes a sentence about the skill."""
 
 
 @dataclass(frozen=True)
 class BoundVariable:
-    """What a variable of the library is called in PDDL, and its class."""
+    """The PDDL variable of a variable of the library, and its class."""
 
     variable: Typed
     cls: str
@@ -65,34 +65,34 @@ Scope: TypeAlias = Mapping[str, BoundVariable]
 
 @dataclass(frozen=True)
 class NamedIndividual:
-    """An individual that formulas may name: its PDDL name and type, and its classes as far as they are known."""
+    """An individual that formulas may name: its PDDL name and type, and its known classes."""
 
     object: Typed
     classes: frozenset[str]
 
 
 class Impossible(Untranslatable):
-    """Something that can never be done: a skill that is left out for it makes no difference to any plan."""
+    """Something that can never succeed: excluding the skill does not change any plan."""
 
 
 class StaticEvaluator(Protocol):
-    """What becomes of a condition that nothing changes."""
+    """Evaluates conditions that no skill changes."""
 
     def __call__(self, condition: Condition, scope: Scope) -> Formula | None:
-        """Return what it amounts to; None leaves it to be translated like any other."""
+        """Return the condition as a formula; None to translate it like any other."""
         ...
 
 
 @dataclass(frozen=True)
 class Translator:
-    """Turns conditions into formulas; `objects` are the individuals that may be named, by IRI."""
+    """Translates conditions into formulas; `objects` are the individuals that may be named, by IRI."""
 
     symbols: Symbols
     evaluate_static: StaticEvaluator
     objects: Mapping[str, NamedIndividual]
 
     def formula(self, condition: Condition, scope: Scope) -> Formula:
-        """Return the condition as a formula; Untranslatable says why not."""
+        """Return the condition as a formula; Untranslatable if a planner cannot handle it."""
         match condition:
             case Not(body=body):
                 return negate(self.formula(body, scope))
@@ -162,7 +162,7 @@ class Translator:
         return formula
 
     def holds(self, relation: str, subject: Typed, object_: Typed) -> Iterator[Atom]:
-        """Yield the atoms of which any makes the relation hold, without those that no objects of these types have."""
+        """Yield the atoms any of which implies the relation, except those that these types rule out."""
         for each in self.symbols.readings(relation):
             sides = each.ends(subject, object_)
             if self.symbols.takes(each.relation, sides):
@@ -199,13 +199,13 @@ class Translator:
         return existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
 
     def membership(self, cls: str, place: BoundVariable) -> Formula:
-        """Return what remains to be tested for the variable to be of the class, given its PDDL type."""
+        """Return the test that the variable is of the class; TRUE if its PDDL type implies it."""
         hierarchy = self.symbols.hierarchy
         exact = hierarchy.is_exact(cls) and hierarchy.type_name(cls) == place.variable.type
         return TRUE if exact else Atom(self.symbols.member(cls), (place.variable.name,))
 
     def is_a(self, subject: Term, cls: str, scope: Scope) -> Formula:
-        """Return what remains to be tested for a term to be of a class."""
+        """Return the test that a term is of a class; TRUE or FALSE if its known classes decide it."""
         term = self.term(subject, scope)
         if any(self.symbols.is_a(each, cls) for each in self._known_classes(subject, scope)):
             return TRUE
@@ -244,7 +244,7 @@ class Translator:
                 raise Untranslatable(f"compares {names}, which skills change, with something else than one value")
         values = self.symbols.values(read.property)
         equal = operator == "=="
-        # bool is an int: compare kinds too, so that 1 is not taken for true
+        # bool is a subclass of int: compare the types too, so that 1 does not equal True
         wanted = [each for each in values if (each == value and type(each) is type(value)) == equal]
         return self._one_of(read.property, wanted, self.term(read.of, scope))
 

@@ -1,4 +1,4 @@
-"""The atoms and terms of actions, with the types of the objects that may stand there."""
+"""The atoms and terms of actions, with the types of their terms."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def typed_atoms_in(formula: Formula, types: Mapping[str, str]) -> Iterator[Typed
 
 
 def action_terms(action: Action) -> frozenset[str]:
-    """Return the names of all variables and objects that an action speaks of."""
+    """Return the names of all variables and objects that occur in an action."""
     formulas = [action.precondition, action.hold]
     for change in action.effects:
         formulas += [change.atom, change.condition]

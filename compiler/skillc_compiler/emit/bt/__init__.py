@@ -1,10 +1,10 @@
-"""trees/: behaviour trees in the XML of BehaviorTree.CPP, version 4.
+"""Emits trees/: behaviour trees in the XML format of BehaviorTree.CPP 4.
 
-A file per skill that has a compound implementation, and per task written by hand. Each can be loaded by itself: it
-holds the trees of all skills it calls and declares every node it uses, with the names behind its ID: those of the
-skill, of the implementation (empty: the description) and of what is meant there. Its main tree only passes on what the
-skill requires, from the blackboard, and the defaults of what it does not. Nodes other than trees are written by their
-ID alone: version 4.7 takes no `<Condition ID=..>` in a ReactiveSequence.
+There is one file per skill with a compound implementation and per task with a body. Each file can be loaded on its own:
+it contains the trees of all skills it calls and declares every node it uses, with the names behind its ID: skill,
+implementation (empty: the description) and part. Its main tree passes the skill its required parameters from the
+blackboard and the defaults of the others. Nodes other than trees are written with their ID as the tag, since version
+4.7 does not accept `<Condition ID=..>` in a ReactiveSequence.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from skillc_model.tree import Node
 
 
 def emit(library: SkillLibrary) -> dict[str, str]:
-    """Return a file for each skill with a compound implementation, and for each task that is written by hand."""
+    """Return a file for each skill with a compound implementation and each task with a body."""
     names, chosen = _names(library), _chosen(library)
     files = {}
     for _, skill in sorted(library.skills.items()):
@@ -38,7 +38,7 @@ def emit(library: SkillLibrary) -> dict[str, str]:
 
 
 def _names(library: SkillLibrary) -> NodeIds:
-    """Return names in which skills and implementations come first, so that they are the same in every file."""
+    """Return IDs with skills and implementations registered first, so that theirs are the same in every file."""
     names = NodeIds()
     for skill in sorted(library.skills):
         names.of(skill)
@@ -83,7 +83,7 @@ def _trees(
 
 
 def _chosen(library: SkillLibrary) -> set[tuple[str, str]]:
-    """Return the implementations that some call of the library chooses itself, each with its skill."""
+    """Return the (skill, implementation) pairs that some call of the library selects explicitly."""
     bodies = [each.body.node for each in library.implementations.values() if isinstance(each.body, Compound)]
     bodies += [each.body for each in library.tasks.values() if each.body is not None]
     calls = [each for body in bodies for each in find_calls(body)]
@@ -91,7 +91,7 @@ def _chosen(library: SkillLibrary) -> set[tuple[str, str]]:
 
 
 def _document(trees: list[Element], names: NodeIds, model: Model) -> str:
-    """Return the file whose main tree is the first; TreeRefused if BehaviorTree.CPP would misread it."""
+    """Return the file whose main tree is the first; InvalidTree if it breaks a rule of BehaviorTree.CPP."""
     root = Element("root", BTCPP_format="4", main_tree_to_execute=trees[0].get("ID", ""))
     root.extend([part for tree in trees for part in split_deep_tree(tree, names, model)])
     root.append(model.element())
@@ -106,7 +106,7 @@ DEEPEST = 200
 
 
 def split_deep_tree(tree: Element, names: NodeIds, model: Model) -> list[Element]:
-    """Return the tree, and those that hold what is too deep in it; they share its blackboard."""
+    """Return the tree and the subtrees split off where it is too deep; they share its blackboard."""
     parts = [tree]
     for part in parts:
         for parent, index in _too_deep(part):
@@ -120,7 +120,7 @@ def split_deep_tree(tree: Element, names: NodeIds, model: Model) -> list[Element
 
 
 def _too_deep(tree: Element) -> list[tuple[Element, int]]:
-    """Return the places below which nodes are too deep, each as a parent and the number of its child."""
+    """Return the nodes to split off, each as its parent and its index among the children."""
     level = [tree]
     for _ in range(DEEPEST - 1):
         level = [child for parent in level for child in parent]

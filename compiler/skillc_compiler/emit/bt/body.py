@@ -1,4 +1,4 @@
-"""What every part of a tree is written with: names, declarations, tests of conditions, values of expressions."""
+"""Basics for writing trees: names, declarations, tests of conditions, values of expressions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from skillc_rdf.vocabulary.types import Position, ValueType
 
 @dataclass(frozen=True)
 class ParameterBinding:
-    """Where a local name has its value: an entry of the blackboard and the C++ type of that (None: not known)."""
+    """The blackboard entry that holds the value of a local name, and its C++ type (None: not known)."""
 
     entry: str
     type: str | None = None
@@ -26,9 +26,9 @@ class ParameterBinding:
 
 @dataclass
 class TreeWriter:
-    """Writes into one tree; `owner` is the path of names of whom the tree belongs to.
+    """Writes one tree; `owner` is the path of names of the skill, implementation or task of the tree.
 
-    `posts` are the postconditions that the body may apply, `bound` the names in scope where the writer is.
+    `posts` are the postconditions that the body may apply, `bound` the names that are currently in scope.
     """
 
     library: SkillLibrary
@@ -38,28 +38,28 @@ class TreeWriter:
     posts: Sequence[Post] = ()
     bound: Mapping[str, ParameterBinding] = field(default_factory=dict)
     start: list[str] = field(default_factory=list)
-    """Scripts that the tree runs first, each time it starts."""
+    """Scripts that run each time the tree starts."""
     _made: dict[str, int] = field(default_factory=dict)
     _held: dict[str, ValueType | str | None] = field(default_factory=dict)
-    """What the entries of outputs and loop variables hold."""
+    """The types of the entries of outputs and loop variables."""
 
     def number(self, word: str) -> int:
-        """Return how often this word has been asked for, 1 at first."""
+        """Return the next number for this word, starting at 1."""
         self._made[word] = self._made.get(word, 0) + 1
         return self._made[word]
 
     def entry(self, word: str) -> str:
-        """Return a new entry of the blackboard."""
+        """Return the name of a new blackboard entry."""
         return entry_name(word, self.number(f"entry {word}"))
 
     def at(self, name: str) -> ParameterBinding:
-        """Return where a name has its value."""
+        """Return the binding of a name."""
         return self.bound.get(name, ParameterBinding(port_name(name)))
 
     def bind(self, name: str, type_: ValueType | None) -> ParameterBinding:
-        """Bring a name of this type (None: not known) into scope, unless it is there, and return where its value goes.
+        """Bring a name of this type (None: not known) into scope, unless it already is, and return its binding.
 
-        An entry keeps its type for good, so a name that was used for another type elsewhere gets another entry.
+        The type of an entry cannot change, so a name used with another type elsewhere gets another entry.
         """
         if name not in self.bound:
             plain = port_type(type_) if type_ else None
@@ -72,7 +72,7 @@ class TreeWriter:
         return self.bound[name]
 
     def apart(self, parts: Sequence[Callable[[], Element]]) -> list[Element]:
-        """Return parts of which none sees the names of another; those that follow see the names of all."""
+        """Return parts that do not see each other's names; later parts of the tree see the names of all."""
         before, found = self.bound, dict[str, ParameterBinding]()
         elements = []
         for part in parts:
@@ -107,7 +107,7 @@ class TreeWriter:
         return make_leaf(identity, self.reads(variables), source)
 
     def evaluate(self, expression: Expression, into: str, type_: str | None = None) -> Element:
-        """Return the node that puts the value of an expression, of a C++ type if known, into an entry."""
+        """Return the node that writes the value of an expression, of a C++ type if known, to an entry."""
         path = (*self.owner, "evaluate", into)
         identity = self.names.of(*path)
         read = free_variables_in_order(expression)
@@ -118,7 +118,7 @@ class TreeWriter:
         return Element(identity, {**self.reads(read), result: pointer(into)})
 
     def converted(self, name: str, found: ParameterBinding, target: ParameterBinding) -> Element:
-        """Return the node that gives a name the value that is found, which is of another type."""
+        """Return the node that converts the value in `found`, which is of another type, to `target`."""
         path = (*self.owner, "evaluate", found.entry)
         identity = self.names.of(*path)
         result = _result([name])
@@ -127,9 +127,9 @@ class TreeWriter:
         return Element(identity, {port_name(name): pointer(found.entry), result: pointer(target.entry)})
 
     def value(self, word: str, expression: Expression, before: list[Element], type_: str | None = None) -> str:
-        """Return what a port of a C++ type is given for an expression; what must be computed is, by the nodes `before`.
+        """Return the attribute that passes an expression to a port of a C++ type; nodes to compute it go to `before`.
 
-        A variable of another type is computed too: an entry has one type, and an Int may be passed for a Number.
+        A variable of another type is converted: an entry has one type, and an Int may be passed for a Number.
         """
         if isinstance(expression, Variable) and type_ in (None, self.at(expression.name).type or type_):
             return pointer(self.at(expression.name).entry)
@@ -142,7 +142,7 @@ class TreeWriter:
 
 
 def _result(read: Sequence[str]) -> str:
-    """Return the name of the port of a result, beside those of the variables that are read for it."""
+    """Return the name of the result port, different from the ports of the variables read."""
     name, taken = "value", {port_name(each) for each in read}
     while name in taken:
         name += "_"
@@ -150,7 +150,7 @@ def _result(read: Sequence[str]) -> str:
 
 
 def bind_parameters(parameters: Sequence[Parameter]) -> Mapping[str, ParameterBinding]:
-    """Return where the tree of a skill finds its parameters."""
+    """Return the bindings of the parameters in the tree of a skill."""
     return {each.name: ParameterBinding(port_name(each.name), port_type(each.type)) for each in parameters}
 
 
@@ -160,21 +160,21 @@ def pointer(name: str) -> str:
 
 
 def make_leaf(identity: str, attributes: Mapping[str, str], source: Position) -> Element:
-    """Return a node that stands for something in a source."""
+    """Return a leaf node with a reference to its source position."""
     return Element(identity, {**attributes, "_description": str(source)})
 
 
 def with_children(parent: Element, *children: Element) -> Element:
-    """Return the parent with the children below it."""
+    """Return the parent with the children appended."""
     parent.extend(children)
     return parent
 
 
 def run_after(before: Sequence[Element], node: Element) -> Element:
-    """Return the node alone, or after others in a sequence."""
+    """Return the node, in a sequence after the nodes `before` if there are any."""
     return with_children(Element("Sequence"), *before, node) if before else node
 
 
 def join_steps(steps: Sequence[Element]) -> Element:
-    """Return the one step, or several as a sequence."""
+    """Return the step if there is only one, otherwise a sequence of the steps."""
     return run_after(steps[:-1], steps[-1])

@@ -1,4 +1,4 @@
-"""Calls of skills: a skill that must look up, test or choose anything is a tree, any other a single action."""
+"""Calls of skills: a skill that infers, tests or chooses anything is a tree, any other skill is a single action."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ from skillc_rdf.vocabulary.types import Position
 
 
 def is_tree(library: SkillLibrary, skill: Skill) -> bool:
-    """Whether a skill is a tree; else it is a single action."""
+    """Whether a skill is a tree; otherwise it is a single action."""
     implementations = library.implementations_of(skill.name)
     inferred = any(each.direction == "infer" for each in skill.parameters)
     return inferred or len(implementations) > 1 or any(_demands(each, skill) for each in implementations)
 
 
 def _demands(implementation: Implementation, skill: Skill) -> bool:
-    """Whether there is more to it than to run a primitive, which writes its posts itself."""
+    """Whether an implementation does more than run a primitive, which applies its postconditions itself."""
     described = {each.name: each.type for each in skill.parameters}
     narrower = any(described.get(each.name, each.type) != each.type for each in implementation.parameters)
     sensed = any(post.sensed for post in implementation.post)
@@ -56,7 +56,7 @@ def may_break_hold(library: SkillLibrary, node: Node) -> bool:
 
 
 def reachable_skills(start: Sequence[str], library: SkillLibrary) -> set[str]:
-    """Return these skills and all that they call, directly or not."""
+    """Return these skills and all that they call, directly or indirectly."""
 
     def called(name: str) -> Iterator[str]:
         bodies = (each.body for each in library.implementations_of(name))
@@ -67,7 +67,7 @@ def reachable_skills(start: Sequence[str], library: SkillLibrary) -> set[str]:
 
 
 def make_call(writer: TreeWriter, written: Call) -> Element:
-    """Return the call of a skill, after the expressions among its arguments."""
+    """Return the call of a skill, after the nodes that compute its arguments."""
     skill = writer.library.skills[written.skill]
     before, attributes = _arguments(writer, written, skill)
     outputs, converted = _outputs(writer, written, skill)
@@ -88,7 +88,7 @@ def make_call(writer: TreeWriter, written: Call) -> Element:
 
 
 def make_run(writer: TreeWriter, implementation: Implementation) -> Element:
-    """Return the node that runs an implementation of the skill whose tree this is, on the entries of that tree."""
+    """Return the node that runs an implementation in the tree of its skill, on the entries of that tree."""
     kind: Kind = "SubTree" if isinstance(implementation.body, Compound) else "Action"
     path, ports = (implementation.skill, implementation.name), action_ports(implementation.parameters)
     attributes = forward_parameters(implementation.parameters)
@@ -96,7 +96,7 @@ def make_run(writer: TreeWriter, implementation: Implementation) -> Element:
 
 
 def make_scoped(writer: TreeWriter, written: Call, child: Callable[[], Element]) -> Element:
-    """Return the child in a decorator that sets a skill up before it and undoes it however the child ends."""
+    """Return the child in a decorator that runs a scoped skill first and undoes its setup however the child ends."""
     skill = writer.library.skills[written.skill]
     before, attributes = _arguments(writer, written, skill)
     outputs, converted = _outputs(writer, written, skill)
@@ -115,7 +115,7 @@ def make_call_node(
     attributes: Mapping[str, str],
     source: Position,
 ) -> Element:
-    """Return a node that stands for a skill or an implementation, declared."""
+    """Declare and return a node that runs a skill or an implementation."""
     identity = writer.names.of(*path)
     writer.model.declare(kind, identity, path, ports, doc)
     if kind == "SubTree":
@@ -124,7 +124,7 @@ def make_call_node(
 
 
 def _arguments(writer: TreeWriter, written: Call, skill: Skill) -> tuple[list[Element], dict[str, str]]:
-    """Return the nodes that compute arguments, and the attributes of the call; a default no port can have is passed."""
+    """Return the nodes that compute arguments, and the attributes of the call; defaults that ports lack are passed."""
     before: list[Element] = []
     attributes: dict[str, str] = {}
     parameters: dict[str, Parameter] = {each.name: each for each in skill.parameters}
@@ -136,7 +136,7 @@ def _arguments(writer: TreeWriter, written: Call, skill: Skill) -> tuple[list[El
 
 
 def _outputs(writer: TreeWriter, written: Call, skill: Skill) -> tuple[dict[str, str], list[Element]]:
-    """Return where outputs go, and the nodes that convert them; those that the call does not name, nobody reads."""
+    """Return the attributes for outputs, and the nodes that convert them; unnamed outputs get unused entries."""
     outputs = [each for each in skill.parameters if each.direction == "out"]
     if written.out is None or len(outputs) != 1:
         return {port_name(each.name): pointer(writer.entry(each.name)) for each in outputs}, []

@@ -1,4 +1,4 @@
-"""The nodes that a file of trees uses, as its TreeNodesModel declares them."""
+"""The TreeNodesModel of a file: declarations of the nodes that its trees use."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Direction = Literal["input", "output"]
 
 @dataclass(frozen=True)
 class Port:
-    """A port: what flows through it where, its type in C++ (None: any) and default, and whose parameter it is."""
+    """A port: its name, direction, C++ type (None: any) and default, and the parameter that it stands for."""
 
     name: str
     direction: Direction = "input"
@@ -33,18 +33,18 @@ class _Declaration:
 
 @dataclass
 class Model:
-    """Collects declarations; a node declared twice must be declared alike."""
+    """Collects declarations; repeated declarations of a node must be equal."""
 
     _declared: dict[str, _Declaration] = field(default_factory=dict)
 
     def declare(self, kind: Kind, identity: str, path: tuple[str, ...], ports: Sequence[Port], doc: str = "") -> None:
-        """Declare a node that stands for the thing with this path of names; ValueError if another has its ID."""
+        """Declare the node for this path of names; ValueError if the ID is declared differently."""
         declaration = _Declaration(kind, path, tuple(ports), doc)
         if self._declared.setdefault(identity, declaration) != declaration:
             raise ValueError(f"two nodes are called {identity}")
 
     def element(self) -> Element:
-        """Return the TreeNodesModel, in order of the IDs."""
+        """Return the TreeNodesModel, sorted by ID."""
         model = Element("TreeNodesModel")
         for identity, declared in sorted(self._declared.items()):
             node = SubElement(model, declared.kind, ID=identity)
@@ -56,7 +56,7 @@ class Model:
 
 
 def _names(declared: _Declaration) -> Element:
-    """Return the names behind the ID, and behind each port that is not called as its parameter is."""
+    """Return the names behind the ID, and behind each port whose name differs from its parameter's."""
     fields = Element("MetadataFields")
     SubElement(fields, "Metadata", skillc="/".join(declared.path))
     for each in declared.ports:

@@ -1,8 +1,8 @@
-"""The nodes of an implementation's body as nodes of BehaviorTree.CPP.
+"""Translates the nodes of a body into nodes of BehaviorTree.CPP.
 
-What that cannot say with its own nodes is declared under a name of its own: OWNER_evaluate_ENTRY (an expression of the
-language), With_SKILL (what is undone when the child ends), ForEach, and Try and Invert where the child may break a
-hold, which neither may hide. In a race that two children end in one tick the first of them decides, not a failure.
+Nodes that it does not have are declared as custom nodes: OWNER_evaluate_ENTRY (an expression of the language),
+With_SKILL (a setup that is undone when the child ends), ForEach, and Try and Invert if the child may break a hold
+condition, which they must not hide. If two children of a race end in the same tick the first one decides.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ from skillc_model.tree import (
 
 COUNTS = {"all": ("-1", "1"), "any": ("1", "-1"), "race": ("1", "1")}
 MAX_MILLISECONDS = 2**32 - 1
-"""The longest time of Sleep and Timeout, about 49 days."""
+"""The longest duration of Sleep and Timeout, in ms, about 49 days."""
 HIDING = {
     "Try": ("ForceSuccess", "Turns a failure of its child into success, but not that of a broken hold condition."),
     "Invert": (
@@ -65,10 +65,10 @@ HIDING = {
 
 @dataclass
 class NodeWriter(TreeWriter):
-    """Makes the nodes of one tree."""
+    """Writes the nodes of one tree."""
 
     def node(self, node: Node) -> Element:
-        """Return the node with everything below it."""
+        """Return the node with its descendants."""
         match node:
             case Sequence(reactive=True):
                 return self._reactive(node)
@@ -139,7 +139,7 @@ class NodeWriter(TreeWriter):
         return parallel
 
     def _reactive(self, node: Sequence) -> Element:
-        """Return the sequence; a child that worked, but for tests, is kept while what it relied on still holds."""
+        """Return the sequence; a child that succeeded and is not a test does not run again while its results hold."""
         entries: list[str] = []
         reactive = Element("ReactiveSequence", _description=str(node.source))
         for child in node.children:
@@ -151,7 +151,7 @@ class NodeWriter(TreeWriter):
         return make_sequence(Element("Script", code=reset_script(entries)), reactive) if entries else reactive
 
     def _still(self, child: Node) -> list[Element]:
-        """Return the test whether what the child established and found still holds; none if that is nothing."""
+        """Return the test that the child's postconditions and tested conditions still hold; empty if it has none."""
         calls = list(find_calls(child))
         tested = [each for each in walk(child) if isinstance(each, Check | WaitUntil | If | While)]
         relied = [f"{each.skill}: {post.text}" for each in calls for post in self.library.skills[each.skill].post]
@@ -177,7 +177,7 @@ class NodeWriter(TreeWriter):
         return with_children(Element(tag), self.node(child))
 
     def _timed(self, tag: str, seconds: Expression, least: int, child: Element | None = None) -> Element:
-        """Return a node that takes milliseconds, at least so many: a timeout of 0 would never come."""
+        """Return a node with a time in milliseconds, at least `least`: a timeout of 0 would never expire."""
         before: list[Element] = []
         if isinstance(seconds, Literal) and isinstance(seconds.value, int | float):
             milliseconds = str(min(max(least, round(seconds.value * 1000)), MAX_MILLISECONDS))
@@ -209,6 +209,6 @@ class NodeWriter(TreeWriter):
 
 
 def with_start_scripts(body: NodeWriter, steps: list[Element]) -> Element:
-    """Return the steps in order, after the scripts that they need at the start."""
+    """Return a sequence of the start scripts of the body and the steps."""
     scripts = [Element("Script", code="; ".join(body.start))] if body.start else []
     return join_steps([*scripts, *steps])

@@ -1,4 +1,4 @@
-"""Nodes of the language that BehaviorTree.CPP has not, out of nodes that it has."""
+"""Nodes of the language that BehaviorTree.CPP does not have, composed of its built-in nodes."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ def invert(child: Element) -> Element:
 
 
 def run_lead(first: Element, others: Sequence[Element]) -> Element:
-    """Run the first child with the others beside it; these never finish, so the first decides and halts them."""
+    """Run the first child in parallel with the others, which never finish, so that the first decides and halts them."""
     endless = [make_sequence(with_children(Element("ForceSuccess"), each), _endless()) for each in others]
     return with_children(Element("Parallel", success_count="1", failure_count="1"), first, *endless)
 
 
 def run_once(child: Element, entry: str) -> Element:
-    """Run the child unless it has ended before; the entry remembers how and must be 0 when the skill starts."""
+    """Run the child unless it has ended before; the entry stores the result and must be 0 when the skill starts."""
     guarded = with_children(
         Element("Sequence", _onSuccess=f"{entry} := {WORKED}", _onFailure=f"{entry} := {FAILED}"),
         child,
@@ -38,16 +38,16 @@ def run_once(child: Element, entry: str) -> Element:
 
 
 def keep_result(child: Element, still: Sequence[Element], entry: str) -> Element:
-    """Run the child unless it has worked before and the tests say that this still holds."""
+    """Run the child unless it has succeeded before and the tests in `still` succeed."""
     guarded = with_children(Element("Sequence", _onSuccess=f"{entry} := {WORKED}"), child)
     tests = [_is(entry, WORKED), *still]
     return with_children(Element("Fallback"), run_after(tests[:-1], tests[-1]), guarded)
 
 
 def run_while(condition: Element, child: Element, limit: int, done: str, rounds: str) -> Element:
-    """Run the child again while the condition holds; the loop fails if it still holds after so many rounds.
+    """Repeat the child while the condition holds; the loop fails if it still holds after `limit` rounds.
 
-    A round that finds the condition false fails too, which ends the loop; `done` tells this from a child that failed.
+    A round also fails when the condition is false, which ends the loop; `done` distinguishes this from a failed child.
     """
     condition.set("_onFailure", f"{done} := {WORKED}")
     counted = Element("ScriptCondition", code=f"{rounds} < {limit}", _onSuccess=f"{rounds} := {rounds} + 1")
@@ -59,17 +59,17 @@ def run_while(condition: Element, child: Element, limit: int, done: str, rounds:
 
 
 def format_rounds(count: int) -> str:
-    """Return a number of rounds as the library reads it, which knows no higher one."""
+    """Return a number of rounds as text, at most the highest `int` that BehaviorTree.CPP can read."""
     return str(min(count, INT_MAX))
 
 
 def make_sequence(*children: Element) -> Element:
-    """Return the children in order."""
+    """Return a sequence of the children."""
     return with_children(Element("Sequence"), *children)
 
 
 def reset_script(entries: Sequence[str]) -> str:
-    """Return the script that forgets how things ended."""
+    """Return the script that resets the stored results."""
     return "; ".join(f"{entry} := {NOT_YET}" for entry in entries)
 
 

@@ -1,11 +1,11 @@
-"""The ports of skills, and what is written for them in a call.
+"""The ports of skills, and their attributes in a call.
 
-BehaviorTree.CPP refuses a call of a tree that does not map each port of its model that has no default. So a tree
-declares what every caller passes or takes, and what has a default; the rest may be mapped, but need not be.
+BehaviorTree.CPP rejects a call of a tree that does not map every declared port without a default. So a tree declares
+only the ports that every caller maps and those with a default; other ports may be mapped without a declaration.
 
-A constant that is passed to a tree becomes an entry of the blackboard. Since version 4.9 the type of that entry is
-guessed from the text: `12` is an int, `12.0`, `1e3` and `nan` are a double. The port that reads it must be of the same
-type, so numbers are written as their type is, and text that looks like a number is not written as a constant.
+A constant that is passed to a tree becomes a blackboard entry. Since version 4.9 the type of the entry is inferred from
+the text: `12` is an int; `12.0`, `1e3` and `nan` are doubles. The port that reads it must have the same type, so
+numbers are written according to their type, and text that looks like a number is not written as a constant.
 """
 
 from __future__ import annotations
@@ -23,32 +23,32 @@ from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, Numb
 
 PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Pose": None}
 TAKEN_OTHERWISE = re.compile(
-    r"|=| *\{.*|json:.*"  # no value, an entry, JSON
+    r"|=| *\{.*|json:.*"  # empty, an entry, JSON
     r"|-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-?inf(inity)?|-?nan(\(\w*\))?",  # a number
     re.IGNORECASE | re.ASCII | re.DOTALL,
 )
-"""Text that is not read as it is written."""
+"""Text that BehaviorTree.CPP does not read literally."""
 INT_MIN, INT_MAX = -(2**31), 2**31 - 1
 
 
 def action_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
-    """Return the ports of a single action on values that are there already."""
+    """Return the ports of a single action whose parameters all have values."""
     return tuple(_port(each) for each in parameters)
 
 
 def whole_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
-    """Return the ports of a node that stands for a whole skill and infers what it is not given."""
+    """Return the ports of a node that runs a whole skill and infers the parameters that are not passed."""
     return tuple(_given(each) if each.direction == "infer" else _port(each) for each in parameters)
 
 
 def inferring_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
-    """Return the ports of an action that finds the inferred parameters, except those that are given."""
+    """Return the ports of an action that infers parameters, except those that are passed."""
     inferred = [each for each in parameters if each.direction == "infer"]
     return (*whole_ports(parameters), *(_port(each, "output") for each in inferred))
 
 
 def tree_ports(parameters: Sequence[Parameter]) -> tuple[Port, ...]:
-    """Return the ports of a skill that is a tree: what is required, what has a default, and the outputs."""
+    """Return the declared ports of a skill's tree: required parameters, parameters with a default, and outputs."""
     return tuple(_port(each) for each in parameters if each.direction in ("in", "out") or format_default(each))
 
 
@@ -58,7 +58,7 @@ def call_port(parameter: Parameter) -> str:
 
 
 def default_attributes(parameters: Sequence[Parameter]) -> dict[str, str]:
-    """Return the attributes that give every parameter with a default its default."""
+    """Return the attributes that set every parameter with a default to its default."""
     texts = ((port_name(each.name), format_default(each)) for each in parameters)
     return {name: text for name, text in texts if text}
 
@@ -69,7 +69,7 @@ def forward_parameters(parameters: Sequence[Parameter]) -> dict[str, str]:
 
 
 def format_default(parameter: Parameter) -> str | None:
-    """Return the default as a port has it, None without one or if no port can have it."""
+    """Return the default as text for a port, None if there is none or a port cannot represent it."""
     match parameter.default:
         case None:
             return None
@@ -81,7 +81,7 @@ def format_default(parameter: Parameter) -> str | None:
 
 
 def format_plain_value(expression: Expression, type_: str | None) -> str | None:
-    """Return what a port of a C++ type is given for a constant or an individual; None for what must be computed."""
+    """Return a constant or an individual as text for a port of a C++ type; None for expressions to be computed."""
     match expression:
         case Literal(value=value):
             return format_constant(value, type_)
@@ -92,7 +92,7 @@ def format_plain_value(expression: Expression, type_: str | None) -> str | None:
 
 
 def format_constant(value: bool | int | float | str, type_: str | None) -> str | None:
-    """Return a constant as every version of the library reads it with this type, None if no text is read so."""
+    """Return a constant as text that every version of BehaviorTree.CPP reads as this type, None if there is none."""
     match value:
         case bool():
             return "true" if value else "false"

@@ -1,7 +1,7 @@
-"""What BehaviorTree.CPP refuses in a file of trees, or takes without a word and then runs otherwise than meant.
+"""Rules for files of trees that BehaviorTree.CPP rejects, or silently accepts and runs differently.
 
-Every file is verified before it is written. A broken rule is a mistake of this compiler: names and values of authors
-are turned into such as keep the rules.
+Every file is checked before it is written. A broken rule is a bug in the compiler, which converts the authors' names
+and values to valid ones.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ NODES: Mapping[str, tuple[Children, Mapping[str, str]]] = {
     "Script": ((0, 0), {"code": "std::string"}),
     "ScriptCondition": ((0, 0), {"code": "std::string"}),
 }
-"""The nodes of BehaviorTree.CPP that trees here are made of: how many children, which ports of which type."""
+"""The nodes of BehaviorTree.CPP that trees use: their number of children, and their ports with types."""
 
 KINDS: Mapping[str, Children] = {"Action": (0, 0), "Condition": (0, 0), "Decorator": (1, 1), "SubTree": (0, 0)}
 NAMELESS = frozenset({"_autoremap", "_description", "_onSuccess", "_onFailure"})
@@ -51,11 +51,11 @@ Ports = dict[str, Element]
 
 
 class InvalidTree(Exception):
-    """A file of trees that BehaviorTree.CPP would refuse or misread: a mistake of this compiler."""
+    """A file of trees that BehaviorTree.CPP would reject or misread: a bug in the compiler."""
 
 
 def check_file(root: Element) -> Element:
-    """Return the file; TreeRefused names every rule that it breaks."""
+    """Return the file; InvalidTree lists every rule that it breaks."""
     broken = list(broken_rules(root))
     if broken:
         raise InvalidTree("; ".join(broken))
@@ -178,13 +178,13 @@ def _ports(model: Element) -> Ports:
 
 
 def _entries(tree: Element) -> set[str]:
-    """Return the entries of the blackboard that a tree speaks of: a call may map them without declaring them."""
+    """Return the blackboard entries that a tree uses: a call may map them although they are not declared."""
     found = (POINTER.fullmatch(value) for node in tree.iter() for value in node.attrib.values())
     return {each.group(1) for each in found if each}
 
 
 def _fits(value: str, type_: str | None) -> bool:
-    """Whether a value is an entry of the blackboard or text of the type; empty text is no value at all."""
+    """Whether a value is a blackboard entry or text of the type; empty text is not a value."""
     if POINTER.fullmatch(value):
         return True
     known = type_ or "std::string"
@@ -192,13 +192,13 @@ def _fits(value: str, type_: str | None) -> bool:
 
 
 def _stays(value: str, type_: str | None) -> bool:
-    """Whether a constant that is passed to a tree, where its type is guessed from the text, is of the port's type."""
+    """Whether a constant passed to a tree, whose type is inferred from its text, is of the port's type."""
     guessed = next((each for each in ("int", "double") if re.fullmatch(LITERALS[each], value)), None)
     return type_ is None or (type_ == guessed if guessed else type_ not in ("int", "double"))
 
 
 def _of_entries(tree: Element, types_of: Callable[[Element], Mapping[str, str | None]]) -> Iterator[str]:
-    """Yield the entries that ports of several types share; one whose first port has no type takes what is written."""
+    """Yield the entries shared by ports of several types; an entry whose first port is untyped takes any type."""
     found: dict[str, list[str | None]] = {}
     for node in tree.iter():
         for name, type_ in types_of(node).items():

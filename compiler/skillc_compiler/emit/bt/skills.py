@@ -1,4 +1,4 @@
-"""A skill as a tree: look up what is inferred, test, run an implementation while the hold conditions hold, test."""
+"""A skill as a tree: infer, test preconditions, run an implementation under hold conditions, test postconditions."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from skillc_model.tree import Call
 from skillc_rdf.vocabulary.types import ClassType
 
 DESCRIPTION = ""
-"""Stands in a path of names where that of an implementation would."""
+"""The name of the description in a path of names, in place of an implementation's."""
 
 
 def make_main_tree(library: SkillLibrary, names: NodeIds, model: Model, skill: Skill) -> Element:
-    """Return the tree that runs a skill by itself: what has a default gets it, the rest is read from the blackboard."""
+    """Return the tree that runs a skill on its own: parameters without a default are read from the blackboard."""
     path = (skill.name, DESCRIPTION, "main")
     arguments: dict[str, Expression] = {
         each.name: Variable(each.name) for each in skill.parameters if each.direction != "out" and each.default is None
@@ -32,7 +32,7 @@ def make_main_tree(library: SkillLibrary, names: NodeIds, model: Model, skill: S
 
 
 def make_skill_tree(library: SkillLibrary, names: NodeIds, model: Model, skill: Skill) -> Element:
-    """Return the tree of a description, which runs the first implementation that fits."""
+    """Return the tree of a description, which runs the first applicable implementation."""
     body = NodeWriter(library, names, model, (skill.name,), bound=bind_parameters(skill.parameters))
     steps = _guarded(body, skill, library.implementations_of(skill.name))
     return _tree(body, steps, str(skill.source))
@@ -41,7 +41,7 @@ def make_skill_tree(library: SkillLibrary, names: NodeIds, model: Model, skill: 
 def make_fixed_tree(
     library: SkillLibrary, names: NodeIds, model: Model, skill: Skill, chosen: Implementation
 ) -> Element:
-    """Return the tree of a description for callers who have chosen the implementation."""
+    """Return the tree of a description for callers that have chosen the implementation."""
     owner = (skill.name, DESCRIPTION, "only", chosen.name)
     body = NodeWriter(library, names, model, owner, bound=bind_parameters(skill.parameters))
     return _tree(body, _guarded(body, skill, [chosen]), str(skill.source))
@@ -61,7 +61,7 @@ def make_implementation_tree(
 
 
 def _tree(body: NodeWriter, root: Element, source: str, doc: str | None = None) -> Element:
-    """Return the tree, declared here if a text is given: one that nobody calls is not declared by its callers."""
+    """Return the tree, declared here if `doc` is given: a tree that is called is declared by its callers."""
     identity = body.names.of(*body.owner)
     if doc is not None:
         body.model.declare("SubTree", identity, body.owner, (), doc)
@@ -106,7 +106,7 @@ def _held(body: NodeWriter, path: tuple[str, ...], holds: Sequence[Requirement],
 
 
 def _choice(body: NodeWriter, skill: Skill, implementations: Sequence[Implementation]) -> Element:
-    """Return the choice among implementations; the next is tried after a failure only where the skill says so."""
+    """Return the choice among implementations; the next is tried after a failure only if the skill has `fallback`."""
     options = [(_demands(body, each, skill), _run(body, each, skill)) for each in implementations]
     if skill.fallback and len(options) > 1:
         return _with_fallback(body, skill, options)
@@ -117,7 +117,7 @@ def _choice(body: NodeWriter, skill: Skill, implementations: Sequence[Implementa
 
 
 def _with_fallback(body: NodeWriter, skill: Skill, options: Sequence[tuple[list[Element], Element]]) -> Element:
-    """Return the implementations in turn; after one has failed, the world may be another and is tested again."""
+    """Return a fallback over the implementations; preconditions are tested again after a failure."""
     choice = Element("Fallback")
     for number, (demands, option) in enumerate(options):
         again = [_required(body, (skill.name, DESCRIPTION, "pre"), each) for each in skill.pre] if number else []
@@ -131,7 +131,7 @@ def _run(body: NodeWriter, implementation: Implementation, skill: Skill) -> Elem
 
 
 def _demands(body: NodeWriter, implementation: Implementation, skill: Skill) -> list[Element]:
-    """Return the tests of the refined types and of the preconditions that the implementation adds."""
+    """Return the tests of the refined types and the preconditions that the implementation adds."""
     owner = (skill.name, implementation.name)
     described = {each.name: each.type for each in skill.parameters}
     tests = []

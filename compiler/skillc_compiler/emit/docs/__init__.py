@@ -1,4 +1,4 @@
-"""docs/: a page per skill and one that lists them, in Markdown."""
+"""Emits docs/: a Markdown page per skill and an index."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
 
 
 def _parameter(parameter: Parameter, vocabulary: Vocabulary) -> tuple[str, ...]:
-    """Return the row of a parameter: name, kind, type, default, range, what it is."""
+    """Return the row of a parameter: name, direction, type, default, range, description."""
     kind = KINDS[parameter.direction] + (", any" if parameter.any_ else "")
     number = None if parameter.default is None else constant_number(parameter.default)
     default, low, high = format_quantities((number, parameter.low, parameter.high), parameter.type)
@@ -61,7 +61,7 @@ def _default(default: Expression, vocabulary: Vocabulary) -> str:
 
 
 def _difference(implementation: Implementation, skill: Skill, vocabulary: Vocabulary) -> list[str]:
-    """Return what an implementation demands beyond the description, a phrase each."""
+    """Return what an implementation requires beyond the description, one phrase per item."""
     described = {each.name: each for each in skill.parameters}
     refined = [each for each in implementation.parameters if described.get(each.name) != each]
     own = [
@@ -104,9 +104,9 @@ FAMILIAR = {"Angle": "deg", "AngularSpeed": "deg/s"}
 
 
 def format_quantities(values: Sequence[float | None], type_: ValueType) -> tuple[str, ...]:
-    """Return values in SI units as text with a common unit, "" for None.
+    """Return values (in SI units) as text with a common unit, "" for None.
 
-    Lengths and times have a finer unit, taken when some value other than zero is below a tenth in SI.
+    Lengths and times have a smaller unit, used if some non-zero value is below 0.1 in SI units.
     """
     dimension = type_.dimension if isinstance(type_, NumberType) else ""
     small = any(each is not None and 0 < abs(each) < SMALL for each in values)

@@ -1,4 +1,4 @@
-"""Links from page to page: relative ones, so that the reference works from any folder and without a server."""
+"""Links between pages, all relative, so that the reference works from any folder and without a server."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _NAME = re.compile(r"[A-Za-z_][\w-]*(?::[A-Za-z_][\w-]*)?")
 
 @dataclass(frozen=True, slots=True)
 class LinkWriter:
-    """Writes the links of one page; `root` leads from it to the top, "" or "../" or more of these.
+    """Writes the links of one page; `root` is the relative path from it to the top: "", "../", "../../", ..
 
-    `terms` are the IRIs and functions that have a place on the page of terms, `sources` the files that have a page.
+    `terms` are the IRIs and functions that are on the terms page, `sources` the files that have a page.
     """
 
     root: str
@@ -28,7 +28,7 @@ class LinkWriter:
     sources: frozenset[str]
 
     def page(self, skill: str) -> str | None:
-        """Return the address of a skill's page; None where it has none."""
+        """Return the address of a skill's page; None if it has no page."""
         return f"{self.root}skill/{skill}.html" if skill in self.skills else None
 
     def skill(self, name: str) -> Markup:
@@ -37,13 +37,13 @@ class LinkWriter:
         return _link(href, name) if href else Markup("<code>{}</code>").format(name)
 
     def source(self, place: Position) -> Markup:
-        """Return a link to a line of a source; its name alone where the source has no page."""
+        """Return a link to a line of a source file, or plain text if the file has no page."""
         if place.path not in self.sources:
             return Markup("<code>{}</code>").format(place)
         return _link(f"{self.root}source/{place.path}.html#L{place.line}", str(place))
 
     def line(self, place: Position) -> Markup:
-        """Return a link to a line of a source that is spoken of already."""
+        """Return a link to a line of a source file, shown without the name of the file."""
         return Markup('<a href="{}source/{}.html#L{}">line {}</a>').format(
             self.root, place.path, place.line, place.line
         )
@@ -53,7 +53,7 @@ class LinkWriter:
         return self._term(name, self.vocabulary.short(name))
 
     def type(self, type_: ValueType) -> Markup:
-        """Return a type with its class linked."""
+        """Return a type with a link to its class."""
         match type_:
             case ClassType(iri=iri):
                 return self.term(iri)
@@ -63,7 +63,7 @@ class LinkWriter:
                 return Markup("<code>{}</code>").format(format_type(type_, self.vocabulary))
 
     def code(self, text: str, mentioned: Iterable[str]) -> Markup:
-        """Return what an author wrote as code, with the terms it mentions linked."""
+        """Return source text as code with links to the terms in `mentioned`."""
         known = {written: each for each in mentioned for written in (local_name(each), self.vocabulary.short(each))}
         parts, end = [], 0
         for found in _NAME.finditer(text):
@@ -80,7 +80,7 @@ class LinkWriter:
 
 
 def make_anchor(name: str, vocabulary: Vocabulary) -> str:
-    """Return the place of a term on the page of terms."""
+    """Return the anchor of a term on the terms page."""
     return re.sub(r"[^\w-]", "-", vocabulary.short(name))
 
 

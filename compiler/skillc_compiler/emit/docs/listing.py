@@ -1,4 +1,4 @@
-"""A source file as HTML: lines with numbers to link to, keywords and comments set apart."""
+"""Source files as HTML lines, with keywords and comments highlighted."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ VALUES = frozenset({"STRING", "QUANTITY", "NUMBER"})
 
 
 def format_listing(source: Source) -> tuple[Markup, ...]:
-    """Return the lines of a file, without their numbers."""
+    """Return the lines of a file, without line numbers."""
     marked = Markup("").join(_pieces(source.text, _stretches(source)))
     return tuple(Markup(line) for line in marked.split("\n"))
 
 
 def format_excerpt(source: Source, first: int, last: int) -> Markup:
-    """Return some lines of a file, counted from 1, both included."""
+    """Return the lines `first` to `last` of a file, counted from 1, both included."""
     return Markup("\n").join(format_listing(source)[first - 1 : last])
 
 
 def _stretches(source: Source) -> Iterator[tuple[int, int, str]]:
-    """Yield start, end and kind of what is set apart, in order."""
+    """Yield start, end and kind of the highlighted ranges, in order."""
     end = 0
     for token in tokenize(source).value:
         start = token.start_pos or 0
@@ -38,7 +38,7 @@ def _stretches(source: Source) -> Iterator[tuple[int, int, str]]:
 
 
 def _comments(text: str, start: int, end: int) -> Iterator[tuple[int, int, str]]:
-    """Yield the comments between two tokens, a line at a time."""
+    """Yield the comments between two tokens, one range per line."""
     position = text.find("#", start, end)
     while position >= 0:
         stop = text.find("\n", position, end)

@@ -1,4 +1,4 @@
-"""Which terms of the vocabulary a skill, an implementation or a task speaks of."""
+"""Finds the vocabulary terms and skills that a skill, an implementation or a task uses."""
 
 from __future__ import annotations
 

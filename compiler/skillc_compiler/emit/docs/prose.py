@@ -1,4 +1,4 @@
-"""Documentation comments, which are Markdown, as HTML."""
+"""Documentation comments (Markdown) as HTML."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 
 def block(text: str) -> Markup:
-    """Return paragraphs, lists and the like; HTML in it is shown, not obeyed, and headings start at level three."""
+    """Return Markdown as HTML blocks; HTML in the text is escaped, headings start at level three."""
     tokens = _markdown().parse(text)
     for token in tokens:
         if token.type in {"heading_open", "heading_close"}:
@@ -18,7 +18,7 @@ def block(text: str) -> Markup:
 
 
 def line(text: str) -> Markup:
-    """Return the first paragraph, without a paragraph's tags."""
+    """Return the first paragraph, without `<p>` tags."""
     return Markup(_markdown().renderInline(text.split("\n\n")[0].replace("\n", " ")))
 
 

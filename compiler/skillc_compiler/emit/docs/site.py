@@ -1,6 +1,6 @@
-"""The whole reference: an index, a page for each skill and each file, the tasks, the terms; static, without a server.
+"""The static HTML reference: an index, a page for each skill and each source file, the tasks, the terms.
 
-The same library gives the same bytes. Nothing is fetched from elsewhere.
+The output is deterministic and loads nothing from other servers.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from skillc_compiler.program.typed import ParsedFile
 from skillc_model.skills import Skill, SkillLibrary, Task
 
 ENTRIES = "[/* entries */]"
-"""Where the script of the search box has its entries."""
+"""Placeholder for the entries in the script of the search box."""
 MARK = "Made by skillc doc from the library"
-"""What the first line of each page says."""
+"""The text of the first line of each page."""
 
 
 @dataclass(frozen=True, slots=True)
 class SiteContents:
-    """What all pages share: the library, what was written, its own skills and the imported ones, the terms shown."""
+    """Data shared by all pages: the library, its declarations, its own and imported skills, the terms shown."""
 
     library: SkillLibrary
     declared: WrittenDeclarations
@@ -42,7 +42,7 @@ class SiteContents:
     terms: frozenset[str]
 
     def links(self, path: str) -> LinkWriter:
-        """Return what writes the links of the page at `path`."""
+        """Return the writer of links for the page at `path`."""
         sources, skills = frozenset(self.declared.sources), frozenset(self.library.skills)
         return LinkWriter("../" * path.count("/"), self.library.vocabulary, skills, self.terms, sources)
 
@@ -54,7 +54,7 @@ class SiteContents:
 
     @property
     def mark(self) -> str:
-        """What the first line of each page says."""
+        """The text of the first line of each page."""
         return f"{MARK} {self.library.name}, sha256 {self.library.hash}"
 
 
@@ -69,7 +69,7 @@ class ShownTask:
 
 
 def make_site(library: SkillLibrary, files_read: Sequence[ParsedFile]) -> dict[str, str]:
-    """Return the text of each file of the reference by its path, `/` between folders.
+    """Return the text of each file of the reference by its path, with `/` as separator.
 
     `files_read` are the files that the library was compiled from.
     """

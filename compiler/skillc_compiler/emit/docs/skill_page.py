@@ -1,4 +1,4 @@
-"""What the page of a skill shows."""
+"""The contents of a skill's page."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from skillc_rdf.vocabulary.types import ClassType, Vocabulary, local_name
 
 COLUMNS = ("name", "kind", "type", "default", "range", "what it is")
 Row: TypeAlias = tuple[str, Markup, str, Markup]
-"""A condition: label, text, remark, place."""
+"""A condition: label, text, remark, link to the source."""
 KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
 
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """An implementation: its name, documentation, place in the order, picture, text and what it calls."""
+    """An implementation: its name, documentation, reason for its rank, picture, text and called skills."""
 
     name: str
     doc: Markup
@@ -43,7 +43,7 @@ class Way:
 
 @dataclass(frozen=True, slots=True)
 class SkillPage:
-    """A skill; `columns` heads the cells of each row of `parameters`."""
+    """A skill; `columns` are the headings of the rows in `parameters`."""
 
     name: str
     doc: Markup
@@ -58,7 +58,7 @@ class SkillPage:
 
 
 def skill_page(skill: Skill, library: SkillLibrary, written: WrittenDeclarations, links: LinkWriter) -> SkillPage:
-    """Return what is shown of a skill."""
+    """Return the contents of a skill's page."""
     declared = written.skills[skill.name]
     ranked = library.implementations_of(skill.name)
     why = reasons(ranked, library.vocabulary)
@@ -92,7 +92,7 @@ def _traits(skill: Skill, declared: s.SkillDeclaration, written: WrittenDeclarat
 def _parameters(
     skill: Skill, declared: s.SkillDeclaration, written: WrittenDeclarations, links: LinkWriter
 ) -> tuple[tuple[str, ...], tuple[tuple[Markup, ...], ...]]:
-    """Return the heads of the columns in which some parameter has something, and the cells of each row."""
+    """Return the headings of the columns that are not empty, and the cells of each row."""
     as_written = {each.name.text: each for each in declared.members if isinstance(each, s.Parameter)}
     rows = [_parameter(each, as_written[each.name], written, links) for each in skill.parameters]
     filled = [index for index in range(len(COLUMNS)) if any(row[index] for row in rows)]
@@ -149,7 +149,7 @@ def _callers(name: str, library: SkillLibrary) -> list[str]:
 
 
 def reasons(ranked: Sequence[Implementation], vocabulary: Vocabulary) -> tuple[str, ...]:
-    """Return for each implementation, in rank order, why it stands before the next; Markdown."""
+    """Return for each implementation, in rank order, why it ranks before the next, as Markdown."""
     if len(ranked) == 1:
         return ("The only one in this library.",)
     return (*(_before(one, other, vocabulary) for one, other in pairwise(ranked)), "Tried last.") if ranked else ()
@@ -171,7 +171,7 @@ def _before(one: Implementation, other: Implementation, vocabulary: Vocabulary) 
 
 
 def _classes(one: Implementation, other: Implementation) -> list[tuple[tuple[str, str], tuple[str, str]]]:
-    """Return the parameters that are individuals, with their names and classes in both implementations."""
+    """Return the (name, class) pairs, in both implementations, of the parameters that are individuals."""
     return [
         ((p.name, p.type.iri), (q.name, q.type.iri))
         for p, q in zip(one.parameters, other.parameters, strict=True)

@@ -1,4 +1,4 @@
-"""What the page of terms shows: the part of the vocabulary that the library speaks of."""
+"""The contents of the terms page: the part of the vocabulary that the library uses."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Term: TypeAlias = ClassTerm | RelationTerm | PropertyTerm | FunctionTerm
 
 @dataclass(frozen=True, slots=True)
 class TermEntry:
-    """A term: its place on the page, its name, its facts, what it means, where it is declared, which skills use it."""
+    """A term: its anchor, name, facts, documentation, place of declaration, and the skills that use it."""
 
     anchor: str
     name: str
@@ -33,7 +33,7 @@ class TermEntry:
 
 
 def shown_terms(library: SkillLibrary) -> frozenset[str]:
-    """Return the library's own terms and those it mentions, with the classes these are made of."""
+    """Return the library's own terms and those it mentions, with the classes that these refer to."""
     vocabulary = library.vocabulary
     known = {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.functions}
     found = {name for name in known if name.startswith(library_namespace(library.name))}
@@ -44,7 +44,7 @@ def shown_terms(library: SkillLibrary) -> frozenset[str]:
 
 
 def term_groups(library: SkillLibrary, links: LinkWriter) -> tuple[tuple[str, tuple[TermEntry, ...]], ...]:
-    """Return the terms by kind, each kind in order of name."""
+    """Return the terms by kind, each kind sorted by name."""
     vocabulary, users = library.vocabulary, _users(library)
     tables: tuple[tuple[str, Mapping[str, Term]], ...] = (
         ("Classes", vocabulary.classes),
@@ -76,7 +76,7 @@ def _users(library: SkillLibrary) -> dict[str, frozenset[str]]:
 
 
 def _classes_of(name: str, vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the classes between which a term holds."""
+    """Return the classes that a term's signature refers to."""
     if name in vocabulary.relations:
         signatures = vocabulary.relations[name].signatures
         return frozenset(iri for each in signatures for iri in (each.domain, each.range))

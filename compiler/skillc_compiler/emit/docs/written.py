@@ -1,4 +1,4 @@
-"""What was written of each skill, implementation and task, by name and with its text."""
+"""The source declarations of skills, implementations and tasks, by name."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ class WrittenDeclarations:
     tasks: Mapping[str, s.TaskDeclaration]
 
     def source(self, span: Span) -> Source:
-        """Return the file in which something stands."""
+        """Return the source file of a span."""
         return self.sources[span.path]
 
     def words(self, span: Span) -> str:
-        """Return what stands there, on one line."""
+        """Return the text of a span, on one line."""
         return TreeBuilder(self.source(span)).written(span)
 
 
 def collect_declarations(files: Sequence[ParsedFile]) -> WrittenDeclarations:
-    """Return what the files declare."""
+    """Return the declarations of the files."""
     declared = [each for unit in files for each in unit.file.declarations]
     return WrittenDeclarations(
         {unit.file.path: Source(unit.file.path, unit.text) for unit in files},

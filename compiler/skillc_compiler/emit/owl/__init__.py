@@ -1,8 +1,8 @@
-"""skills.ttl: the library as OWL.
+"""Emits skills.ttl, the library as an OWL ontology.
 
-A description is a class of capabilities and, under the same name, an individual with its parameters and conditions. An
-implementation is a defined class of invocations, so that a reasoner orders implementations by how specific they are and
-finds those that fit an invocation.
+A description is a class of capabilities and, with the same IRI, an individual with parameters and conditions. An
+implementation is a defined class of invocations, so that a reasoner can order implementations by specificity and find
+those that are applicable to an invocation.
 """
 
 from __future__ import annotations

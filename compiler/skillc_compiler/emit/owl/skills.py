@@ -38,12 +38,12 @@ from skillc_rdf.vocabulary.types import ClassType, NumberType, Position
 
 Statement = tuple[str, str, Object]
 BOUND = ("in", "infer")
-"""Parameters that every invocation binds."""
+"""Directions of the parameters that every invocation binds."""
 KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"}
 
 
 def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
-    """Yield a description: a class of capabilities, and an individual that has parameters and conditions."""
+    """Yield the statements of a description: a class of capabilities, an individual with parameters and conditions."""
     iri = f"{library_base(library)}{skill.name}"
     yield iri, RDF_TYPE, IriNode(f"{OWL}Class")
     yield iri, RDF_TYPE, IriNode(f"{SKIROS}Skill")
@@ -60,7 +60,7 @@ def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
 
 
 def describe_implementation(each: Implementation, skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
-    """Yield an implementation: the class of those invocations whose arguments are of its refined types."""
+    """Yield the statements of an implementation: the class of invocations with arguments of its refined types."""
     base = f"{library_base(library)}{skill.name}"
     iri = f"{base}.{each.name}"
     yield iri, RDF_TYPE, IriNode(f"{OWL}Class")
@@ -88,12 +88,12 @@ def _invocations(base: str, parameters: Sequence[Parameter]) -> AnonymousNode:
 
 
 def _argument_class(parameter: Parameter) -> str | None:
-    """Return the class of the things that an invocation may bind a parameter to, None for other types and outputs."""
+    """Return the class of a parameter whose values are individuals; None for other types and for outputs."""
     return parameter.type.iri if parameter.direction != "out" and isinstance(parameter.type, ClassType) else None
 
 
 def _restriction(relation: str, kind: OneOf["some", "all"], cls: str) -> AnonymousNode:
-    """Return the things that have such a value, or whose values, if any, are all such."""
+    """Return the OWL restriction `relation some cls` or `relation all cls`."""
     of, on = (RDF_TYPE, IriNode(f"{OWL}Restriction")), (f"{OWL}onProperty", IriNode(relation))
     return AnonymousNode((of, on, (f"{OWL}{kind}ValuesFrom", IriNode(cls))))
 
@@ -131,7 +131,7 @@ def _argument(iri: str) -> Iterator[Statement]:
 def _condition(
     owner: str, kind: str, requirement: Requirement | Post, skill: Skill, library: SkillLibrary, described: str = ""
 ) -> Iterator[Statement]:
-    """Yield a condition of a description, or of an implementation of the description `described`."""
+    """Yield the statements of a condition of a description, or of an implementation of the description `described`."""
     iri = f"{owner}.{kind}.{requirement.label}"
     yield owner, f"{SKIROS}has{KINDS[kind]}", IriNode(iri)
     if not described:
@@ -147,7 +147,7 @@ def _condition(
 
 
 def _literal(condition: Condition, parameters: dict[str, str]) -> Iterator[tuple[str, Object]]:
-    """Yield the parts of a condition that is one literal, for readers that know only such; nothing for others."""
+    """Yield the parts of a condition that is a single literal, for simple readers; nothing for other conditions."""
     literal = condition.body if isinstance(condition, Not) else condition
     if isinstance(literal, Holds | Compare | HasProperty | IsA | Same):
         yield f"{SKILLC}desiredState", literal is condition

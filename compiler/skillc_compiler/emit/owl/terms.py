@@ -1,4 +1,4 @@
-"""The vocabulary terms that a library uses, with their axioms, so that its ontology can be read by itself."""
+"""The vocabulary terms that a library uses, with their axioms, so that its ontology is self-contained."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ FLAGS = {
 
 
 def describe_terms(library: SkillLibrary) -> Iterator[Statement]:
-    """Yield the frame, the terms the library declares or mentions, and what those need to be understood."""
+    """Yield the frame, the terms that the library declares or mentions, and the terms that these depend on."""
     vocabulary = library.vocabulary
     read = _mentioned(library)
     relations = _relations(read, vocabulary)
@@ -122,7 +122,7 @@ def _property(term: PropertyTerm) -> Iterator[Statement]:
 
 
 def _datatype(term: PropertyTerm) -> Object | None:
-    """Return the range as reasoners know it; None for poses, vectors and lists, which are no datatypes to them."""
+    """Return the range as a datatype; None for poses, vectors and lists, which are not datatypes in OWL."""
     if term.values:
         values = ListNode(tuple(term.values))
         return AnonymousNode(((RDF_TYPE, IriNode(f"{RDFS}Datatype")), (f"{OWL}oneOf", values)))
@@ -135,7 +135,7 @@ def _datatype(term: PropertyTerm) -> Object | None:
 
 
 def _union(classes: list[str]) -> Object:
-    """Return the class, or the union of several: an overload accepts each, a second axiom would narrow it."""
+    """Return the class, or the union of several: overloads accept each, and separate axioms would intersect them."""
     unique = sorted(set(classes))
     if len(unique) == 1:
         return IriNode(unique[0])

@@ -1,6 +1,6 @@
-"""A Turtle writer whose text depends on nothing but the statements: subjects, predicates and objects in order.
+"""A deterministic Turtle writer: subjects, predicates and objects are sorted.
 
-Blank nodes occur only written inline, as OWL's class expressions need them: `[ .. ]` and `( .. )`.
+Blank nodes are always inline, as needed for OWL class expressions: `[ .. ]` and `( .. )`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ Statements: TypeAlias = Iterable[tuple[str, str, Object]]
 
 
 def format_turtle(prefixes: Mapping[str, str], statements: Statements) -> str:
-    """Return the statements (subject IRI, predicate IRI, object) as a document; repeated ones once."""
+    """Return the statements (subject IRI, predicate IRI, object) as a document, without duplicates."""
     bases = sorted(prefixes.items(), key=lambda item: (-len(item[1]), item[0]))
     subjects: dict[str, dict[str, set[str]]] = {}
     for subject, predicate, object_ in statements:

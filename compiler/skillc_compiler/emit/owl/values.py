@@ -1,4 +1,4 @@
-"""Types and values as OWL has them: a type is always an IRI, a constant a typed literal, its unit stands beside it."""
+"""Types and values in OWL: a type is an IRI, a constant a typed literal, with the unit as a separate statement."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Statement = tuple[str, str, Object]
 
 
 def type_statements(subject: str, type_: ValueType) -> Iterator[Statement]:
-    """Yield the type of a parameter, with its SI unit, and whether it takes a list of such values."""
+    """Yield the statements of a parameter's type, its SI unit, and whether its value is a list."""
     element = type_.element if isinstance(type_, ListType) else type_
     yield subject, f"{SKILLC}parameterType", IriNode(_type_iri(element))
     if element is not type_:
@@ -37,7 +37,7 @@ def type_statements(subject: str, type_: ValueType) -> Iterator[Statement]:
 
 
 def convert_value(expression: Expression, type_: ValueType, vocabulary: Vocabulary) -> Object:
-    """Return a constant as a literal of its type or as an individual; the text of what is computed at run time."""
+    """Return a constant as a typed literal or an individual, any other expression as text."""
     match expression:
         case Individual(iri=iri):
             return IriNode(iri)

@@ -1,8 +1,8 @@
-"""The words of the OWL output: namespaces and the frame every library stands in.
+"""The terms of the OWL output: namespaces and the frame shared by all libraries.
 
-Those in css: are of the Capability-Skill-Service ontology, https://github.com/CaSkade-Automation/CSS, version 3.0.0:
-a description is a capability restricted by constraints. An implementation is what they call a skill, so no constraint
-restricts it there; it is not said to be one, as reasoners lose a defined class that is also the object of a relation.
+Terms in css: are of the Capability-Skill-Service ontology, https://github.com/CaSkade-Automation/CSS, version 3.0.0:
+a description is a capability restricted by constraints. An implementation corresponds to a skill of CSS, which has no
+constraints. It is not declared as one, since reasoners lose a defined class that is also the object of a relation.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def library_base(library: SkillLibrary) -> str:
 
 
 def declare_frame() -> Iterator[tuple[str, str, Object]]:
-    """Yield the declarations of every word above."""
+    """Yield the declarations of all terms above."""
     for iris, kind in (
         (CLASSES, "Class"),
         (RELATIONS, "ObjectProperty"),

@@ -1,1 +1,1 @@
-"""Pictures of skills and tasks: `find` and `drawing` make boxes of what was written, `svg` and `mermaid` draw them."""
+"""Pictures of skills and tasks: `drawing` converts declarations to boxes, `svg` and `mermaid` draw them."""

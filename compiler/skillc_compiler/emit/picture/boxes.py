@@ -1,4 +1,4 @@
-"""A picture before it has a form: boxes that hold boxes, with text in the author's words."""
+"""Pictures as nested boxes, independent of the output format."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 Look: TypeAlias = Literal["heading", "flow", "guard", "call", "time", "code"]
-"""What a box stands for: a declaration, an order of children, a condition, a skill, a wait, Python."""
+"""Kinds of boxes: a declaration, control flow, a condition, a skill, a wait, Python code."""
 
 
 @dataclass(frozen=True, slots=True)
 class PictureBox:
-    """One box: its symbol (one character), its title, further lines, the boxes under it, the skill it calls, if any."""
+    """A box: its symbol (one character), title, further lines, child boxes, and the skill it calls, if any."""
 
     look: Look
     symbol: str

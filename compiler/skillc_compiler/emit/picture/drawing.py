@@ -1,4 +1,4 @@
-"""From what an author wrote to boxes."""
+"""Converts declarations of skills, implementations and tasks to boxes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from skillc_dsl.source import Source
 def draw_skill(
     skill: s.SkillDeclaration, source: Source, implementations: Sequence[tuple[s.ImplementationDeclaration, Source]]
 ) -> PictureBox:
-    """Return a skill's conditions over a tree for each implementation; each comes with the text it was written in."""
+    """Return a skill's conditions above a tree for each implementation, which is given with its source file."""
     places = TreeBuilder(source)
     conditions = tuple(places.written(each.span) for each in skill.members if isinstance(each, s.Requirement))
     ways = tuple(draw_implementation(written, own) for written, own in implementations)
@@ -25,7 +25,7 @@ def draw_skill(
 
 
 def draw_implementation(written: s.ImplementationDeclaration, source: Source) -> PictureBox:
-    """Return the tree of an implementation under what it demands and the values it names."""
+    """Return the tree of an implementation below its conditions and lets."""
     places = TreeBuilder(source)
     lines: list[str] = []
     bodies: list[PictureBox] = []
@@ -43,7 +43,7 @@ def draw_implementation(written: s.ImplementationDeclaration, source: Source) ->
 
 
 def draw_task(written: s.TaskDeclaration, source: Source) -> PictureBox:
-    """Return a task with its scene over its goal or its body."""
+    """Return a task with its scene above its goal or its body."""
     parts: list[PictureBox] = []
     if written.goal is not None:
         parts.append(PictureBox("guard", "⚑", "goal", (written.goal_text,)))
@@ -60,7 +60,7 @@ def list_drawable(files: Sequence[ParsedFile]) -> tuple[str, ...]:
 
 
 def make_picture(name: str, files: Sequence[ParsedFile]) -> PictureBox | None:
-    """Return the picture of the skill or the task of that name, None where there is neither."""
+    """Return the picture of the skill or the task of that name, None if there is neither."""
     for declared, source in _declared(files):
         match declared:
             case s.SkillDeclaration() if declared.name.text == name:

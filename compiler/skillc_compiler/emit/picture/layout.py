@@ -1,4 +1,4 @@
-"""Where each box goes: every box on its own rows, children below their parent and indented, as in an outline."""
+"""Layout of boxes as an outline: every box on its own rows, children below their parent and indented."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from skillc_compiler.emit.picture.boxes import Look, PictureBox
 from skillc_compiler.emit.picture.wrapping import count_cells, wrap_text
 
 CELL = 7.5
-"""Pixels a character takes at most: fonts of one width have 0.60 to 0.62 of their size, which is 12."""
+"""Maximum width of a character, in pixels: monospaced fonts have 0.60 to 0.62 of their size, which is 12."""
 LINE = 17
-"""Pixels from line to line."""
+"""Line height, in pixels."""
 SYMBOL = 28
-"""Pixels of the field with the symbol."""
+"""Width of the field with the symbol, in pixels."""
 PADDING = 8
 INDENT = 30
 GAP = 9
 MARGIN = 8
 WIDEST = 58
-"""Cells of the longest line."""
+"""Maximum width of a line, in cells."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlacedBox:
-    """A box in its place: pixels from the upper left corner; `parent` is the row at which its line begins."""
+    """A box with its position in pixels from the upper left corner; `parent` is where its connecting line starts."""
 
     look: Look
     symbol: str

@@ -1,4 +1,4 @@
-"""A picture as a Mermaid flow chart, which many wikis and code hosts draw."""
+"""Pictures as Mermaid flow charts, which many wikis and code hosts render."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.wrapping import wrap_text
 
 WIDEST = 40
-"""Cells of the longest line of a box."""
+"""Maximum width of a line, in cells."""
 OUTSIDE = {"#": "#35;", '"': "#quot;", "<": "#lt;", ">": "#gt;", "&": "#amp;", "`": "#96;"}
-"""Characters that mean something in Mermaid or HTML, as Mermaid writes them."""
+"""Mermaid's escapes of characters that are special in Mermaid or HTML."""
 
 
 def draw(box: PictureBox) -> str:

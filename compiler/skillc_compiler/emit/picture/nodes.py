@@ -1,4 +1,4 @@
-"""From the nodes of a behaviour tree to boxes."""
+"""Converts the nodes of a behaviour tree to boxes."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ SYMBOLS = {"seq": "→", "sel": "?", "par": "⇉", "try": "~", "invert": "!", "o
 
 @dataclass(frozen=True, slots=True)
 class NodeDrawer:
-    """Draws the nodes of one file; `places` has its text."""
+    """Converts the nodes of one file; `places` has its text."""
 
     places: TreeBuilder
 
     def box(self, node: s.Node) -> PictureBox:
-        """Return the box of a node with those of its children."""
+        """Return the box of a node with the boxes of its children."""
         match node:
             case s.CallSkill():
                 return self._call(node, "", ())
@@ -37,7 +37,7 @@ class NodeDrawer:
                 return self._around(node)
 
     def _around(self, node: s.Block | s.Counted | s.Timeout | s.If | s.While | s.For) -> PictureBox:
-        """Return the box of a node that is there for its children."""
+        """Return the box of a control node or decorator."""
         match node:
             case s.Block(kind=kind, children=children):
                 reactive = kind.startswith("reactive")

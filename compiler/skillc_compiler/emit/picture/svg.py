@@ -1,4 +1,4 @@
-"""A picture as SVG: plain shapes and text, no font or script from elsewhere, legible on light and dark ground."""
+"""Pictures as SVG: plain shapes and text without external fonts or scripts, legible on light and dark backgrounds."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ STYLE = """\
 .picture rect.guard { fill: var(--guard); } .picture rect.call { fill: var(--call); }
 .picture rect.time { fill: var(--time); } .picture rect.code { fill: var(--code); }
 """
-"""Style for pages that hold drawings."""
+"""Style sheet for pages that contain pictures."""
 
 
 def draw(box: PictureBox, href: Callable[[str], str | None]) -> str:
-    """Return the picture as an SVG element for a page that has `STYLE`; the title is read out by screen readers.
+    """Return the picture as an SVG element for a page that has `STYLE`; screen readers read its title.
 
-    `href` gives the page of a called skill, where it has one.
+    `href` returns the address of a called skill's page, None if it has no page.
     """
     return _element(box, "", href)
 
@@ -43,7 +43,7 @@ def draw_document(box: PictureBox) -> str:
 
 
 def _nowhere(_skill: str) -> None:
-    """A file stands alone."""
+    """Return None: a picture in a file of its own has no links."""
 
 
 def _element(box: PictureBox, style: str, href: Callable[[str], str | None]) -> str:

@@ -1,4 +1,4 @@
-"""Text in lines of a limited width, counted in cells of a font whose characters are all as wide."""
+"""Wraps text to lines of limited width, in cells of a monospaced font."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ _BETWEEN = re.compile(r"(?<!:)\s+")
 
 
 def count_cells(text: str) -> int:
-    """Return how many cells a text takes; wide characters take two."""
+    """Return the width of a text in cells; wide characters take two."""
     return sum(2 if unicodedata.east_asian_width(character) in "WF" else 1 for character in text)
 
 
 def wrap_text(text: str, width: int) -> tuple[str, ...]:
-    """Return the text in lines of at most `width` cells; it is cut after blanks, and in words that are longer.
+    """Return the text in lines of at most `width` cells, broken at blanks and within words longer than a line.
 
-    Lines after the first are indented; `width` is more than the indent and a wide character.
+    Lines after the first are indented; `width` must exceed the indent plus a wide character.
     """
     lines: list[str] = []
     line = ""
@@ -33,7 +33,7 @@ def wrap_text(text: str, width: int) -> tuple[str, ...]:
 
 
 def _words(text: str, width: int) -> Iterator[str]:
-    """Yield the words, a name with the value after it as one, and those longer than `width` cells in pieces."""
+    """Yield the words; a name and the value after it are one word, words longer than `width` cells are split."""
     for word in _BETWEEN.split(text.strip()):
         piece = ""
         for character in word:
