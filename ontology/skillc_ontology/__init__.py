@@ -1,1 +1,4 @@
-"""What the world can contain: vocabularies, robots, grippers, tools and scenes as Turtle and MJCF."""
+"""What the world can contain: vocabularies, robots, grippers, tools, fixtures and scenes as Turtle and MJCF.
+
+Start at `catalogue`, which finds these files.
+"""

@@ -1,1 +1,4 @@
-"""Diagnostics in various output formats, one module each: `full`, `concise`, `json`, `github`, `sarif`."""
+"""Diagnostics in various output formats, one module each: `full`, `concise`, `json`, `github`, `sarif`.
+
+Start at `full.render`.
+"""

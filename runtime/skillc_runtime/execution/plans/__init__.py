@@ -1,1 +1,4 @@
-"""Executes plans: bodies that run their steps, progress, and which steps have failed."""
+"""Executes plans: bodies that run their steps, progress, and which steps have failed.
+
+Start at `plan_body.build_plan_body`.
+"""

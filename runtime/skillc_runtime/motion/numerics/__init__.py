@@ -1,1 +1,4 @@
-"""Functions over arrays in loops that run a thousand times a second: compiled where numba is installed."""
+"""Functions over arrays that run a thousand times a second: compiled where numba is installed.
+
+Start at `compiled.compiled`; `linear` selects the linear algebra.
+"""
