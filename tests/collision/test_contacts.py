@@ -36,7 +36,7 @@ def least_distance(of: CollisionChecker, q: Array) -> float:
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@settings(max_examples=25)
+@settings(max_examples=25, derandomize=True)
 @given(turn=st.lists(st.floats(-1.2, 1.2), min_size=6, max_size=6))
 def test_a_posture_is_free_where_every_pair_is_far_enough_apart(scene: str, turn: list[float]) -> None:
     of, q = of_scene(scene), home(scene)
@@ -46,6 +46,14 @@ def test_a_posture_is_free_where_every_pair_is_far_enough_apart(scene: str, turn
         assert touch is None or touch.other.startswith(OWN)
     elif distance < CLEARANCE_M - 2 * SLACK_M:
         assert touch is not None and touch.distance_m < CLEARANCE_M
+
+
+@pytest.mark.xfail(strict=True, reason="mj_collision reports no contact of two boxes 6 mm apart with a margin of 20 mm")
+def test_a_box_beside_the_edge_of_a_box_is_too_near() -> None:
+    of, q = of_scene("ur5e_whiteboard"), home("ur5e_whiteboard")
+    q[:6] += [-0.375, -0.375, 0.0, 1.0, 1.0, 1.0625]
+    assert least_distance(of, q) < CLEARANCE_M / 2
+    assert of.find_collision(q) is not None
 
 
 @pytest.mark.parametrize("scene", SCENES)
