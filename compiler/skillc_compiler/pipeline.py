@@ -79,4 +79,8 @@ def visible_diagnostics(problems: Sequence[Diagnostic], sources: Sequence[Source
     """
     own = {source.path for source in sources}
     chosen = [problem for problem in problems if problem.severity == "error" or problem.span.path in own]
-    return tuple(sorted(set(apply_suppressions(chosen, sources)), key=lambda problem: (problem.span, problem.name)))
+    return tuple(
+        sorted(
+            set(apply_suppressions(chosen, sources)), key=lambda problem: (problem.span, problem.name, problem.message)
+        )
+    )
