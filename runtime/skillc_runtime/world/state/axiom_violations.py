@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, combinations
 from typing import assert_never
@@ -162,10 +162,12 @@ def _signature_violations(state: WorldState, subject: str, relation: str, object
             yield violation
 
 
-def _implied(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[tuple[RelationTerm, str, str]]:
-    """Yield the relations that a fact implies, with their subjects and objects; the fact itself first."""
-    links = state.vocabulary.implied_links(relation, subject, object_)
-    yield from sorted(links, key=lambda each: (each[0].iri, each[1]) != (relation, subject))
+def _implied(state: WorldState, subject: str, relation: str, object_: str) -> Sequence[tuple[RelationTerm, str, str]]:
+    """Return the relations that a fact implies, with their subjects and objects; the fact itself first."""
+    links = tuple(state.vocabulary.implied_links(relation, subject, object_))
+    if len(links) < 2:
+        return links
+    return sorted(links, key=lambda each: each[0].iri != relation or each[1] != subject)
 
 
 def asserted_facts(state: WorldState, subject: str, relation: str, object_: str) -> tuple[IriTriple, ...]:
