@@ -83,7 +83,7 @@ def measured(objects: int) -> dict[str, float]:
         found["save s"], _ = timed(lambda: save_scene(state, Path(folder, "saved.ttl"), load_sheets(vocabulary)))
         if objects <= CAREFUL_AT_MOST:
             documents = [Document.read(path), *sheet_documents()]
-            found["load, all that is wrong told s"], _ = timed(lambda: read_documents(documents, vocabulary))
+            found["load, all problems reported s"], _ = timed(lambda: read_documents(documents, vocabulary))
     found["most memory of the process MB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return found
 
@@ -102,7 +102,7 @@ def reading(state: WorldState) -> dict[str, float]:
 
 
 def writing(model: WorldModel) -> dict[str, float]:
-    """Measure writes, checked and told."""
+    """Measure writes with their checks and listeners."""
     ways = [AddRelation(BOUND["a"], CONTAIN, BOUND["b"]), AddRelation(f"{LAB}dock", CONTAIN, BOUND["b"])]
     model.commit([AddIndividual(f"{LAB}dock", (PLACES,))])
     turns, numbers = cycle(ways), count()

@@ -56,19 +56,19 @@ def measure(text: str, file: Path) -> None:
     def edit() -> None:
         libraries.write(uri, text.replace(_EDITED, f"0.{next(numbers)} m/s"))
 
-    def told() -> None:
+    def find_problems() -> None:
         view = libraries.view(uri)
         problems.diagnostics_by_uri(libraries, view.root, view.analysis, "utf-16")
 
-    def coloured() -> None:
+    def highlight() -> None:
         view = libraries.view(uri)
         highlighting.highlight_words(view.analysis, view.path)
 
     middle = text[: text.index("target: above")].count("\n") + 1
     bare = median(_seconds(lambda: load_parser().parse(text)) for _ in range(EDITS))
     answers: list[tuple[str, Callable[[], object]]] = [
-        ("problems after an edit", told),
-        ("colours, then", coloured),
+        ("problems after an edit", find_problems),
+        ("colours, then", highlight),
         ("completion, then", lambda: complete(libraries.view(uri).analysis, "all.skill", middle, 16)),
         ("hover, then", lambda: find_hover(libraries.view(uri).analysis, "all.skill", middle, 10)),
     ]

@@ -1,4 +1,4 @@
-"""Problems, plans and memory over 10 to 250,000 places and as many parts, a million facts; the goal speaks of three.
+"""Problems, plans and memory over 10 to 250,000 places and as many parts, a million facts; the goal names three.
 
 Run it as `python benchmarks/planning.py`; it prints seconds, and how often the smallest scene's the largest one's are.
 How they grow is drawn in `planning.png` in the folder `build/benchmarks`, or in the one given.

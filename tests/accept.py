@@ -1,6 +1,6 @@
 """Build cases: `python tests/accept.py` rewrites what each folder of `cases/build` is expected to compile to.
 
-It also writes the table of features in the documentation anew.
+It also rewrites the table of features in the documentation.
 
 A case holds the `.skill` files of a library, its vocabularies in Turtle, and the artifacts below `expected/`.
 """

@@ -6,7 +6,7 @@ import msgspec
 
 from skillc_model.skills import FORMAT, SkillLibrary
 
-COMPILE_AGAIN = "make it anew with `skillc compile`"
+COMPILE_AGAIN = "compile the library again with `skillc compile`"
 
 
 class LibraryError(ValueError):

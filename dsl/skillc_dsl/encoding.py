@@ -57,7 +57,7 @@ def report_not_text(source: Source) -> Diagnostic | None:
         return None
     if source.text.startswith(_BYTE_ORDER_MARK) or source.text[1:2] == _NUL or source.text.startswith(_NUL):
         return _problem(source, 0, "the file is UTF-16 or UTF-32, not UTF-8")
-    return _problem(source, source.text.index(_NUL), "the file is no text: it has NUL bytes")
+    return _problem(source, source.text.index(_NUL), "the file is not text: it has NUL bytes")
 
 
 def report_too_large(source: Source) -> Diagnostic | None:

@@ -100,7 +100,7 @@ WRONG = [
     ("lab:Board.isClean == true lab:Board", "syntax", 27, "a goal is a condition"),
     ("(and lab:Board)", "syntax", 6, "stands alone"),
     ("(contain lab:Hand)", "unknown-property", 2, "relation"),
-    ("(exists lab:Hand (isClean lab:Board))", "syntax", 1, "no goal"),
+    ("(exists lab:Hand (isClean lab:Board))", "syntax", 1, "not a goal"),
     ("(> (Weight lab:Felt) 1)", "syntax", 1, "numbers with their units: `lab:Felt.Weight > 1`"),
     ("(and (= (isClean lab:Board) true))", "syntax", 6, "`lab:Board.isClean == true`"),
     ("(exists (?x - Product) (<= 1 (Weight ?x)))", "syntax", 24, "`1 <= x.Weight`"),

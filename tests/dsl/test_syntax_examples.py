@@ -181,7 +181,7 @@ def test_conditions(text: str, expected: object) -> None:
         ("-1.5e-3 m", ("Quantity", -0.0015, "m")),
         ("2.0", ("Number", 2.0, "2.0")),
         ("8 N/area", ("Arithmetic", "/", ("Quantity", 8.0, "N"), ("NameReference", "area"))),
-        ("f(a, 1).x", ("Member", ("Apply", "f", (("NameReference", "a"), ("Number", 1.0, "1"))), "x")),
+        ("f(a, 1).x", ("Member", ("Invoke", "f", (("NameReference", "a"), ("Number", 1.0, "1"))), "x")),
         ('"a # b"', ("Text", "a # b")),
     ],
 )  # fmt: skip

@@ -18,7 +18,9 @@ def test_a_library_is_read_back() -> None:
 def test_another_format_is_refused_before_its_content_is_looked_at() -> None:
     old = {**json.loads(dumps(wiping())), "format": FORMAT - 1}
     del old["vocabulary"]
-    with pytest.raises(LibraryError, match=rf"^old has format {FORMAT - 1}, .* reads {FORMAT}; make it anew"):
+    with pytest.raises(
+        LibraryError, match=rf"^old has format {FORMAT - 1}, .* reads {FORMAT}; compile the library again"
+    ):
         loads(json.dumps(old).encode(), "old")
 
 

@@ -28,7 +28,7 @@ from skillc_model.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_model.pddl.domain import Action, ClassFact, GuardFact, PlanningDomain, Predicate, RelationFact
+from skillc_model.pddl.domain import Action, ClassMeaning, GuardMeaning, PlanningDomain, Predicate, RelationMeaning
 from skillc_model.pddl.formulas import (
     FALSE,
     TRUE,
@@ -155,7 +155,7 @@ def test_a_condition_on_a_relation_reads_its_changing_subrelations() -> None:
     no_arm = conjuncts(action(with_pre(DRIVE, holds("robot hasA to")), mount).precondition)
     assert no_arm[0] == Atom("has-a", ("?robot", "?to"))
     domain = make_planning_domain(library(mount))
-    assert domain.predicate["has-a"].meaning == RelationFact(iri("hasA"), ((iri("hasGripper"), False),))
+    assert domain.predicate["has-a"].meaning == RelationMeaning(iri("hasA"), ((iri("hasGripper"), False),))
 
 
 def test_a_transitive_relation_may_be_read_only_while_nothing_changes_it() -> None:
@@ -184,7 +184,7 @@ def test_an_enumerated_property_has_a_predicate_per_value() -> None:
 def test_what_nothing_changes_becomes_a_guard_with_defaults_put_in() -> None:
     domain = make_planning_domain(library(PICK))
     meaning = domain.predicate["guard-pick-light"].meaning
-    assert isinstance(meaning, GuardFact)
+    assert isinstance(meaning, GuardMeaning)
     assert meaning.variables == ("object",)
     assert meaning.condition == Compare(PropertyOf(Variable("object"), iri("weight")), "<=", Literal(2.0))
 
@@ -295,7 +295,7 @@ def test_what_nothing_changes_is_settled_where_forall_is_written_out() -> None:
     """A planner multiplies out what would be left of each object, so that a few of them are a million cases."""
     domain = make_planning_domain(library(PICK))
     pick, place = domain.action["pick"], Typed("?place", "place")
-    fixed = Predicate("is-fixed", (place,), ClassFact("fixed"), False)
+    fixed = Predicate("is-fixed", (place,), ClassMeaning("fixed"), False)
     at_place = Atom("core-at", (pick.parameters[0].name, place.name))
     every = Universal(place, disjunction((Negation(Atom("is-fixed", (place.name,))), at_place)))
     actions = (replace(pick, precondition=every),)
@@ -359,5 +359,5 @@ def test_the_same_condition_on_other_things_is_another_guard() -> None:
     heavy = Compare(read("x", "weight"), ">=", Literal(1.0))
     each = [Exists("x", iri(cls), And((holds("robot at to"), heavy))) for cls in ("Product", "Surface")]
     domain = make_planning_domain(library(with_pre(DRIVE, And(tuple(each)))))
-    guards = [each for each in domain.predicates if isinstance(each.meaning, GuardFact)]
+    guards = [each for each in domain.predicates if isinstance(each.meaning, GuardMeaning)]
     assert sorted(each.parameters[0].type for each in guards) == ["product", "surface"]

@@ -14,7 +14,7 @@ from unified_planning.plans import ActionInstance, SequentialPlan, TimeTriggered
 from unified_planning.shortcuts import get_environment
 
 from skillc_model.conditions import And
-from skillc_model.pddl.domain import Action, RelationFact
+from skillc_model.pddl.domain import Action, RelationMeaning
 from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_model.skills import SkillLibrary
@@ -122,7 +122,7 @@ def _facts(posed: PosedProblem, facts: Iterator[tuple[str, ...]]) -> frozenset[t
     for name, *terms in facts:
         predicate = posed.problem.domain.predicate[name]
         meaning = predicate.meaning
-        symmetric = isinstance(meaning, RelationFact) and relations[meaning.relation].symmetric
+        symmetric = isinstance(meaning, RelationMeaning) and relations[meaning.relation].symmetric
         if predicate.changes:
             found.add((name, *(sorted(terms) if symmetric else terms)))
     return frozenset(found)

@@ -7,7 +7,7 @@ from typing import assert_never
 
 from oracle.forced import steps, worked
 from skillc_model.conditions import And
-from skillc_model.pddl.domain import PropertyFact, RelationFact
+from skillc_model.pddl.domain import PropertyMeaning, RelationMeaning
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
@@ -51,7 +51,7 @@ def _differences(posed: PosedProblem, atoms: Set[Atom], after: WorldState) -> It
     names = {
         iri: each.name
         for each in predicates
-        if isinstance(each.meaning, RelationFact)
+        if isinstance(each.meaning, RelationMeaning)
         for iri in [each.meaning.relation]
     }
     for iri in after.vocabulary.relations:
@@ -65,7 +65,7 @@ def _differences(posed: PosedProblem, atoms: Set[Atom], after: WorldState) -> It
                 if said != after.holds(first, iri, second):
                     yield f"{first} {iri} {second}"
     for each in predicates:
-        if isinstance(each.meaning, PropertyFact) and each.changes:
+        if isinstance(each.meaning, PropertyMeaning) and each.changes:
             value = each.meaning.value
             yield from (
                 f"{owner}.{each.name}"

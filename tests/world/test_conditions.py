@@ -160,7 +160,7 @@ def test_what_holds_instead_is_said_in_words(condition: Condition, words: str) -
 UNDECIDED = [
     (Compare(Variable("speed"), "<", Literal(1.0)), "`speed` has no value"),
     (holds("arm", "hasA", "speed"), "`speed` has no value"),
-    (holds("arm", "hasA", "number"), "`number` is 3.0, which is no individual"),
+    (holds("arm", "hasA", "number"), "`number` is 3.0, which is not an individual"),
     (Compare(Literal("red"), "<", Literal(1.0)), "cannot be compared"),
     (Compare(Arithmetic("/", Literal(1.0), Literal(0.0)), "<", Literal(1.0)), "by zero"),
     (Compare(Invoke("broken", ()), "<", Literal(1.0)), "broken() failed: RuntimeError: sensor unplugged"),

@@ -3,8 +3,8 @@
 Start with `proof`.
 
 A state (`state`) is partial knowledge: relations, values and other conditions that are known to hold or not to hold.
-Everything else is open. Names are symbolic individuals. Two names may denote the same individual unless their classes
-are disjoint or a condition tells them apart (`alias_types`). A write removes all knowledge that it may have made untrue
+Everything else is open. Names are symbolic individuals. Two names may denote one individual unless their classes are
+disjoint or a condition distinguishes them (`alias_types`). A write removes all knowledge that it may have made untrue
 (`apply_effects`, `havoc`), according to the axioms of its relation (`axioms`): functional relations replace values,
 inverses and sub-relations follow, and chains of a transitive relation become open. `evaluate` evaluates a condition to
 true, false or open; `assume` adds what was observed.

@@ -90,7 +90,7 @@ def convert_goal(group: PddlGroup, is_class: Callable[[str], bool]) -> s.Conditi
         case [PddlWord() as name, PddlWord() as subject]:
             value = s.Member(_reference(subject), _name(name), group.span)
             return s.Compare(value, "==", s.Boolean(True, group.span), group.span)
-    raise _refusal(group.span, "this is no goal")
+    raise _refusal(group.span, "this is not a goal")
 
 
 def _quantified(

@@ -68,7 +68,7 @@ class ValueOccurrences:
             case s.Member(of=of, property=name):
                 yield from self.value(known, of)
                 yield from self.term("property", name)
-            case s.Apply(function=name, arguments=arguments):
+            case s.Invoke(function=name, arguments=arguments):
                 if name.text in self.visible.functions:
                     yield Occurrence(name.span, FunctionSymbol(name.text))
                 for argument in arguments:

@@ -57,7 +57,7 @@ def resolve_value(
             return _resolve_reference(context, scope, written, wanted)
         case s.Member():
             return _resolve_member(context, scope, written)
-        case s.Apply():
+        case s.Invoke():
             return _resolve_apply(context, scope, written)
         case s.Arithmetic():
             return _resolve_arithmetic(context, scope, written)
@@ -162,7 +162,7 @@ def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) ->
     )
 
 
-def _resolve_apply(context: FileContext, scope: Scope, written: s.Apply) -> TypedExpression:
+def _resolve_apply(context: FileContext, scope: Scope, written: s.Invoke) -> TypedExpression:
     function = context.names.look_up_function(written.function)
     wanted = [type_of(kind) for _, kind in function.parameters] if function else []
     wanted += [UNKNOWN] * (len(written.arguments) - len(wanted))

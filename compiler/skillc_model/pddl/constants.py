@@ -108,8 +108,8 @@ class _Mentions:
 
 def missing_individuals(found: Iterable[Mention], known: Mapping[str, object]) -> Iterator[Mention]:
     """Yield the first mention of each individual that is not known."""
-    told: set[str] = set()
+    reported: set[str] = set()
     for each in found:
-        if each.individual not in known and each.individual not in told:
-            told.add(each.individual)
+        if each.individual not in known and each.individual not in reported:
+            reported.add(each.individual)
             yield each

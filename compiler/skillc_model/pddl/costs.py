@@ -37,7 +37,7 @@ _MOST_DENOMINATOR = 10**6
 def exact_seconds(value: object) -> Fraction:
     """Return a duration, in seconds, as a fraction without rounding errors; ValueError unless it is finite and >= 0."""
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise ValueError("it is no number")
+        raise ValueError("it is not a number")
     seconds = float(value)
     if not 0.0 <= seconds < float("inf"):
         raise ValueError(f"it is {seconds:g} s")

@@ -27,7 +27,7 @@ class PlanningType:
 
 
 @dataclass(frozen=True)
-class RelationFact:
+class RelationMeaning:
     """True of (s, o) if `s relation o` follows from facts of relations that are not in `narrower`.
 
     `narrower` are the relations of other predicates as (relation, swapped). They change independently, so a condition
@@ -39,7 +39,7 @@ class RelationFact:
 
 
 @dataclass(frozen=True)
-class PropertyFact:
+class PropertyMeaning:
     """True of an individual whose property has the value: True of a Bool, one of the values of an enumerated text."""
 
     property: str
@@ -47,14 +47,14 @@ class PropertyFact:
 
 
 @dataclass(frozen=True)
-class ClassFact:
+class ClassMeaning:
     """True of the individuals of a class; never changes."""
 
     cls: str
 
 
 @dataclass(frozen=True)
-class GuardFact:
+class GuardMeaning:
     """True of the individuals for which the condition holds in the initial world; it reads nothing a skill changes.
 
     `variables` are the free variables of the condition, in the order of the predicate's parameters. `text` is the
@@ -69,11 +69,11 @@ class GuardFact:
 
 
 @dataclass(frozen=True)
-class GoalFact:
+class GoalMeaning:
     """True once the goal has been reached; false at first."""
 
 
-Meaning: TypeAlias = RelationFact | PropertyFact | ClassFact | GuardFact | GoalFact
+Meaning: TypeAlias = RelationMeaning | PropertyMeaning | ClassMeaning | GuardMeaning | GoalMeaning
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from skillc_model.conditions import (
     Or,
     Same,
 )
-from skillc_model.pddl.domain import PlanningDomain, PropertyFact, RelationFact
+from skillc_model.pddl.domain import PlanningDomain, PropertyMeaning, RelationMeaning
 from skillc_model.pddl.formulas import FALSE, TRUE, Formula, Typed, atoms
 from skillc_model.pddl.hierarchy import Hierarchy
 from skillc_model.pddl.symbols import Symbols
@@ -71,7 +71,7 @@ def _symbols(library: SkillLibrary, domain: PlanningDomain) -> Symbols:
     for predicate in domain.predicates:
         if predicate.changes:
             match predicate.meaning:
-                case RelationFact(relation=iri) | PropertyFact(property=iri):
+                case RelationMeaning(relation=iri) | PropertyMeaning(property=iri):
                     changing.add(iri)
     hierarchy = Hierarchy(vocabulary, {name: term for term, name in domain.names.items()}, domain.combined)
     return Symbols(vocabulary, domain.names, hierarchy, frozenset(changing), settled=True)

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 
 from skillc_model.conditions import Condition
-from skillc_model.pddl.domain import GuardFact, Predicate
+from skillc_model.pddl.domain import GuardMeaning, Predicate
 from skillc_model.pddl.formulas import Atom, Formula
 from skillc_model.pddl.names import make_unique, to_kebab
 from skillc_model.pddl.symbols import Symbols
@@ -47,6 +47,6 @@ class Guards:
         if key not in self.found:
             used = {*self.taken, *(each.name for each in self.found.values())}
             name = make_unique(f"guard-{to_kebab(self.skill)}-{to_kebab(label)}", used)
-            meaning = GuardFact(variables, condition, self.skill, label, text)
+            meaning = GuardMeaning(variables, condition, self.skill, label, text)
             self.found[key] = Predicate(name, tuple(places), meaning, False)
         return Atom(self.found[key].name, tuple(each.name for each in places))

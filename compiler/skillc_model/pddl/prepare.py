@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import assert_never
 
-from skillc_model.pddl.domain import Action, FixedCost, GoalFact, PlanningDomain, Predicate
+from skillc_model.pddl.domain import Action, FixedCost, GoalMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import (
     FALSE,
     TRUE,
@@ -70,7 +70,7 @@ def _with_goal_action(problem: Problem) -> Problem:
     )
     extended = replace(
         domain,
-        predicates=(*domain.predicates, Predicate(GOAL_REACHED, (), GoalFact(), True)),
+        predicates=(*domain.predicates, Predicate(GOAL_REACHED, (), GoalMeaning(), True)),
         actions=(*domain.actions, action),
         constants=problem.objects,
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from skillc_model.pddl.domain import Action, PlanningDomain, Predicate, PropertyFact
+from skillc_model.pddl.domain import Action, PlanningDomain, Predicate, PropertyMeaning
 from skillc_model.pddl.formulas import atoms
 from skillc_model.pddl.typed import action_terms
 
@@ -35,6 +35,6 @@ def _read(action: Action) -> set[str]:
 
 def _is_spare(predicate: Predicate, added: set[str]) -> bool:
     match predicate.meaning:
-        case PropertyFact(value=value):
+        case PropertyMeaning(value=value):
             return value is False or predicate.name not in added
     return False

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from skillc_model.pddl.domain import ROOT, ClassFact, Predicate, PropertyFact, RelationFact
+from skillc_model.pddl.domain import ROOT, ClassMeaning, Predicate, PropertyMeaning, RelationMeaning
 from skillc_model.pddl.formulas import Typed
 from skillc_model.pddl.hierarchy import Hierarchy
 from skillc_model.pddl.names import finite_values, make_unique, value_key
@@ -115,13 +115,13 @@ class Symbols:
         subject = "?subject"
         if name in self._classes:
             cls = self._classes[name]
-            return Predicate(name, (Typed(subject, ROOT),), ClassFact(cls), False)
+            return Predicate(name, (Typed(subject, ROOT),), ClassMeaning(cls), False)
         term = self.names[name]
         if term in self.vocabulary.relations:
             return self._relation_predicate(name, term)
         iri, value = self._values[name]
         typed = Typed(subject, self.hierarchy.type_name(self._owner(iri)))
-        return Predicate(name, (typed,), PropertyFact(iri, value), iri in self.changing)
+        return Predicate(name, (typed,), PropertyMeaning(iri, value), iri in self.changing)
 
     @cached_property
     def _classes(self) -> dict[str, str]:
@@ -136,4 +136,4 @@ class Symbols:
         sides = [self.hierarchy.type_name(self.side_class(iri, side)) for side in (0, 1)]
         narrower = tuple(each for each in self.readings(iri) if each.relation != iri)
         typed = (Typed("?subject", sides[0]), Typed("?value", sides[1]))
-        return Predicate(name, typed, RelationFact(iri, narrower), iri in self.changing)
+        return Predicate(name, typed, RelationMeaning(iri, narrower), iri in self.changing)

@@ -10,7 +10,7 @@ from typing import assert_never
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from skillc_model.pddl.domain import Action, ComputedCost, Cost, FixedCost, GuardFact, PlanningDomain, Predicate
+from skillc_model.pddl.domain import Action, ComputedCost, Cost, FixedCost, GuardMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import (
     TRUE,
     Atom,
@@ -173,7 +173,7 @@ def _list(head: str, terms: Sequence[str]) -> str:
 def _block(word: str, parts: Sequence[Formula], indent: int) -> str:
     flat = _list(word, [format_formula(part) for part in parts])
     if word == "or" and not parts:
-        raise ValueError("PDDL has no word for false: a condition that can never hold must be told before printing")
+        raise ValueError("PDDL has no word for false: a condition that can never hold must be reported before printing")
     if len(flat) + indent <= WIDTH:
         return flat
     inner = " " * (indent + 2)
@@ -192,7 +192,7 @@ def _format_scale(scale: Fraction) -> str:
 def _meaning_lines(predicate: Predicate) -> list[str]:
     """Return the comment lines above a predicate whose name does not explain it: the condition as written."""
     match predicate.meaning:
-        case GuardFact(skill=skill, label=label, text=text):
+        case GuardMeaning(skill=skill, label=label, text=text):
             return [f"`{label}` of {skill}: {' '.join(text.split())}"]
     return []
 

@@ -47,7 +47,7 @@ def _first(problems: list[Diagnostic]) -> tuple[Diagnostic, ...]:
     if len(problems) <= MOST_PROBLEMS:
         return tuple(problems)
     shown, place = problems[:MOST_PROBLEMS], problems[MOST_PROBLEMS].span
-    help_ = "correct those above first; if they make no sense, this is no file of skills"
+    help_ = "correct those above first; if they make no sense, this is not a file of skills"
     return (
         *shown,
         Diagnostic("syntax", place, f"more than {MOST_PROBLEMS} syntax errors; the rest is not shown", help_),

@@ -97,7 +97,7 @@ class Recovery:
     def _give_up(self, index: int) -> int:
         """Report that the rest of the file is not parsed; return the index of the end."""
         span = token_span(self.tokens[index], self.path)
-        help_ = "correct the errors above first; if there are none to see, this is no file of skills"
+        help_ = "correct the errors above first; if there are none to see, this is not a file of skills"
         message = f"this file has more than {MOST_FAULTS} syntax errors; the rest is not read"
         self.problems.append(Diagnostic("syntax", span, message, help_))
         self._close(END)

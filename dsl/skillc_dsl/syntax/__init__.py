@@ -58,9 +58,9 @@ from skillc_dsl.syntax.nodes import Wait as Wait
 from skillc_dsl.syntax.nodes import WaitUntil as WaitUntil
 from skillc_dsl.syntax.nodes import While as While
 from skillc_dsl.syntax.nodes import With as With
-from skillc_dsl.syntax.values import Apply as Apply
 from skillc_dsl.syntax.values import Arithmetic as Arithmetic
 from skillc_dsl.syntax.values import Boolean as Boolean
+from skillc_dsl.syntax.values import Invoke as Invoke
 from skillc_dsl.syntax.values import ListOf as ListOf
 from skillc_dsl.syntax.values import Member as Member
 from skillc_dsl.syntax.values import Name as Name

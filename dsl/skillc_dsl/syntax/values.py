@@ -88,7 +88,7 @@ class Member:
 
 
 @dataclass(frozen=True, slots=True)
-class Apply:
+class Invoke:
     """`function(argument, ..)`"""
 
     function: Name
@@ -106,4 +106,4 @@ class Arithmetic:
     span: Span
 
 
-Value: TypeAlias = Quantity | Number | Text | Boolean | NameReference | Member | Apply | Arithmetic
+Value: TypeAlias = Quantity | Number | Text | Boolean | NameReference | Member | Invoke | Arithmetic

@@ -60,7 +60,7 @@ class Editor:
         self._put(alike[0].object_at.start, self._end(alike[0]), self._written(object_))
 
     def remove(self, subject: str, predicate: str, object_: Node) -> None:
-        """Remove a statement; NotWritten if it is not in the text."""
+        """Remove a statement; StatementNotFound if it is not in the text."""
         alike = [each for each in self._said(subject) if self._named(each.predicate) == predicate]
         found = [each for each in alike if self._same(each.object, object_)]
         if not found:
@@ -69,7 +69,7 @@ class Editor:
             self._cut(each)
 
     def forget(self, individual: str) -> None:
-        """Remove all statements with an individual as subject or object; NotWritten if there are none."""
+        """Remove all statements with an individual as subject or object; StatementNotFound if there are none."""
         if not self._about(individual):
             raise StatementNotFound
         while found := self._about(individual):

@@ -69,7 +69,7 @@ def value_type(graph: Graph, iri: str) -> PropertyType | None:
 
 
 def describe_ranges(graph: Graph, iri: str) -> tuple[str, ...]:
-    """Return the kinds of values that a data property's ranges require, in words, sorted."""
+    """Return the kinds of values that a data property's ranges require, as text, sorted."""
     types = {_word(typed) for each in graph.objects(iri, RANGE) if (typed := _type_of(graph, each, "Number"))}
     return tuple(sorted(types))
 

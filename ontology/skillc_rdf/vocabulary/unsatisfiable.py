@@ -16,7 +16,7 @@ MOST_CHOICES = 4096
 
 
 class Reason(NamedTuple):
-    """Why a class or relation is unsatisfiable, in words.
+    """Why a class or relation is unsatisfiable, as text.
 
     `follows`: because something else is. `pair`: the disjoint classes. `kind`: what makes a relation unsatisfiable: its
     domain and range, its super-relations, or its characteristics.

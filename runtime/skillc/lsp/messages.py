@@ -52,7 +52,7 @@ class MessageReader:
         self._answers = answers
 
     def readline(self) -> bytes:
-        """Return the next line; Malformed if it is neither a header nor the empty line after the headers.
+        """Return the next line; MalformedMessage if it is neither a header nor the empty line after the headers.
 
         If the output is closed, the input counts as ended.
         """

@@ -88,7 +88,7 @@ def _for_skill_files(answer: Handler, session: Session, params: Any) -> object:
 def serve() -> bool:
     """Serve on stdin and stdout until the input ends, and return whether the editor asked for the shutdown.
 
-    Malformed if the input is not a message, OutputError if answers cannot be written.
+    MalformedMessage if the input is not a message, OutputError if answers cannot be written.
     """
     session = make_session()
     answers = MessageWriter(sys.stdout.buffer)

@@ -13,7 +13,7 @@ from skillc_model.format_condition import (
     format_quantified,
     format_relation,
 )
-from skillc_model.pddl.domain import ROOT, ClassFact, GoalFact, GuardFact, PropertyFact, RelationFact
+from skillc_model.pddl.domain import ROOT, ClassMeaning, GoalMeaning, GuardMeaning, PropertyMeaning, RelationMeaning
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import Implementation, SkillLibrary
@@ -69,16 +69,16 @@ class FormulaFormatter:
         terms = [self._format_term(term, names) for term in atom.terms]
         meaning = self._problem.domain.predicate[atom.predicate].meaning
         match meaning:
-            case RelationFact(relation):
+            case RelationMeaning(relation):
                 return format_relation(terms[0], relation, terms[1])
-            case PropertyFact(property_, value):
+            case PropertyMeaning(property_, value):
                 return format_property(terms[0], property_, show(value))
-            case ClassFact(cls):
+            case ClassMeaning(cls):
                 return format_class(terms[0], self._short(cls))
-            case GuardFact():
+            case GuardMeaning():
                 text = self._texts.get((meaning.skill, meaning.label), meaning.label)
                 return f"{text} for {', '.join(terms)}"
-            case GoalFact():
+            case GoalMeaning():
                 return "the goal"
             case _:
                 assert_never(meaning)

@@ -125,7 +125,7 @@ PARTS: dict[Kind, str] = {
 
 
 def describe_quality(optimal: Optimal, left_out: Collection[LeftOut], at_least_s: float | None) -> str:
-    """Return in words how good a plan is known to be; "proved optimal" refers to the whole problem."""
+    """Describe how good a plan is known to be; "proved optimal" refers to the whole problem."""
     known = "" if at_least_s is None else f", any plan takes at least {at_least_s:g} s"
     missing = {each.kind for each in left_out if not each.harmless}
     parts = [words for kind, words in PARTS.items() if kind in missing]

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator
 
 from skillc_model.conditions import Condition
-from skillc_model.pddl.domain import Action, GuardFact, Meaning
+from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
 from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import PosedProblem
@@ -115,7 +115,7 @@ class _Explanation:
 
     def _explain_static(self, meaning: Meaning, terms: tuple[str, ...]) -> str:
         """Return why a static condition does not hold for these objects; empty if there is no explanation."""
-        if not isinstance(meaning, GuardFact):
+        if not isinstance(meaning, GuardMeaning):
             return ""
         individuals = [self._iris.get(term) for term in terms]
         bindings = {name: iri for name, iri in zip(meaning.variables, individuals, strict=True) if iri is not None}

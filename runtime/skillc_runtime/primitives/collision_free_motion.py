@@ -57,7 +57,7 @@ def _make_collision_model(cell: Cell, state: WorldState, arm: str) -> tuple[Coll
 def _plan_motion(
     driver: ArmDriver, contacts: CollisionChecker, known: JointSpace, goals: Iterable[Array], pace: float
 ) -> JointTrajectory:
-    """Return a collision-free motion whose corners are blended as far as possible; NoWay if there is no path.
+    """Return a collision-free motion whose corners are blended as far as possible; NoPath if there is no path.
 
     If no blending is possible the arm stops at each posture of the path, which is free of collisions.
     """

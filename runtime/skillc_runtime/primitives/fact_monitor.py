@@ -26,7 +26,7 @@ ARRIVAL_TOLERANCE_M = 0.05
 """How far from its place a base may stand whose data sheet does not say so."""
 
 Reading = Callable[[], "str | None"]
-"""What a device says against a fact, in words; None while it does not contradict it."""
+"""What a device says against a fact, as text; None while it does not contradict it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ class FactMonitor:
 
 
 def describe_evidence(known: DecidingWrite | None) -> str:
-    """Return how a fact is known in words, as `assumed by Place`."""
+    """Return how a fact is known, such as `assumed by Place`."""
     if known is None or known.evidence is None:
         return "given"
     return f"{known.evidence} by {known.origin}" if known.origin else known.evidence
@@ -98,7 +98,7 @@ def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | N
 
 
 def base_away_from(cell: Cell, robot: str, place: str, state: WorldState) -> Reading:
-    """Return what tells where a robot's base stands when that is not at a place.
+    """Return the facts that say where a robot's base stands when that is not at a place.
 
     FrameError for a place without a pose, SheetError for a robot without a sheet, KeyError for one without a base.
     """

@@ -45,7 +45,7 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     """A planner found a plan; `cost` is its expected duration in s.
 
-    `optimal` is the planner's claim, `quality` the same in words, with the problem for which it holds.
+    `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds.
     """
 
     planner: str

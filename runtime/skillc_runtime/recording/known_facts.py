@@ -44,12 +44,12 @@ def format_status(status: str, verified: bool | None) -> str:
 
 
 def format_assumption(known: KnownFact) -> str:
-    """Return in words that a fact is only assumed, and what would have to be sensed."""
+    """Return a sentence that a fact is only assumed, and what would have to be sensed."""
     return f"{format_fact(known.fact)} is only assumed: {describe_missing_sensing(known)}"
 
 
 def describe_missing_sensing(known: KnownFact) -> str:
-    """Return in words what would have to be sensed to confirm a fact that is only assumed."""
+    """Describe what would have to be sensed to confirm a fact that is only assumed."""
     after = f" after {known.by}" if known.by else ""
     match known.fact:
         case LabelledProperty(individual, property_):

@@ -64,7 +64,7 @@ def _number(text: str) -> float:
     try:
         number = float(text)
     except ValueError as error:
-        raise LiteralError(f"`{text}` is no number") from error
+        raise LiteralError(f"`{text}` is not a number") from error
     if math.isinf(number) and "inf" not in text.lower():
         raise LiteralError(TOO_LARGE, SMALLER)
     if not math.isfinite(number):

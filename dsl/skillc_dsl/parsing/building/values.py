@@ -91,10 +91,10 @@ class ValueBuilder(TreeBuilder):
         """`of.property`"""
         return s.Member(self.value(children[0]), self.as_name(children[2]), self.over(children))
 
-    def apply(self, children: list[Child]) -> s.Apply:
+    def apply(self, children: list[Child]) -> s.Invoke:
         """`function(argument, ..)`"""
         arguments = tuple(self.value(child) for child in children[1:] if not isinstance(child, Token))
-        return s.Apply(self.as_name(children[0]), arguments, self.over(children))
+        return s.Invoke(self.as_name(children[0]), arguments, self.over(children))
 
     def sum(self, children: list[Child]) -> s.Arithmetic:
         """`left + right`, `left - right`, `left * right`, `left / right`"""

@@ -34,7 +34,7 @@ class FixtureVariation:
 
     @property
     def description(self) -> str:
-        """The differences in words."""
+        """The differences as text."""
         x, y, z = (1e3 * each for each in self.place_m)
         tilt = "" if self.tilt_rad == (0.0, 0.0) else f", tilted {_degrees(self.tilt_rad)} deg"
         friction = "" if self.friction is None else f", friction {self.friction:.2f}"

@@ -54,7 +54,7 @@ class PersonVariation:
 
     @property
     def description(self) -> str:
-        """The differences in words."""
+        """The differences as text."""
         x, y, z = (1e3 * each for each in self.place_m)
         return f"leads {x:+.0f}, {y:+.0f} and {z:+.0f} mm beside, with {self.strength_n:.0f} N at most"
 

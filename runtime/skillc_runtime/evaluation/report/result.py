@@ -59,7 +59,7 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     """The result of a task. `plan_optimal` is None if nothing was planned; `failure` is why it did not succeed.
 
-    `plan_quality` is in words how good the plan is known to be, and for what problem. `facts` are those that a success
+    `plan_quality` describes how good the plan is known to be, and for which problem. `facts` are those that a success
     rests on; it is `verified` if none of them is only assumed. `plan` is the last plan; `replanned` is why each earlier
     one was abandoned. `wipings` has one entry for each surface that was wiped, `wiping` is the first of them.
     """

@@ -16,7 +16,7 @@ from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 class Spread(msgspec.Struct, frozen=True, kw_only=True):
     """A metric of one object over all trials in which it was measured; `met` is the number that meet the target.
 
-    `target` is the target in words, `bound` its value, None without a target; `values` are in the order of the seeds.
+    `target` is the target as text, `bound` its value, None without a target; `values` are in the order of the seeds.
     """
 
     metric: str

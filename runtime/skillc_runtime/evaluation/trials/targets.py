@@ -43,7 +43,7 @@ class Metric(Generic[Result]):
 
     @property
     def target_text(self) -> str:
-        """The target in words."""
+        """The target as text."""
         if self.target is None:
             return "no target"
         return f"{self.sense} {self.target:g} {self.unit}"

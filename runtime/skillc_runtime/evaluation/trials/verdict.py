@@ -11,7 +11,7 @@ from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 
 
 def find_unmet_criteria(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
-    """Return the criteria that a trial does not meet, in words; empty if it passed."""
+    """Return the criteria that a trial does not meet, as text; empty if it passed."""
     if trial.status in ("refused", "crashed"):
         return (_describe_end(trial),)
     return (*_outcome_problems(trial, disturbance), *_safety_problems(trial))

@@ -19,14 +19,14 @@ from typing import assert_never
 
 from skillc_model.pddl.costs import ASSUMED_SECONDS
 from skillc_model.pddl.domain import (
-    ClassFact,
+    ClassMeaning,
     CostFunction,
-    GoalFact,
-    GuardFact,
+    GoalMeaning,
+    GuardMeaning,
     PlanningDomain,
     Predicate,
-    PropertyFact,
-    RelationFact,
+    PropertyMeaning,
+    RelationMeaning,
 )
 from skillc_model.pddl.formulas import Atom, Typed
 from skillc_model.pddl.names import make_unique
@@ -95,21 +95,21 @@ class _Abstraction:
     def _abstract_atoms(self, predicate: Predicate) -> Iterator[Atom]:
         """Yield the atoms of a predicate about abstract objects that hold for some of their members."""
         match predicate.meaning:
-            case RelationFact(relation=relation):
+            case RelationMeaning(relation=relation):
                 yield from (Atom(predicate.name, pair) for pair in self._related_pairs(relation))
-            case PropertyFact(property=property_, value=value):
+            case PropertyMeaning(property=property_, value=value):
                 yield from (Atom(predicate.name, (name,)) for name in self._with_value(property_, value))
-            case ClassFact(cls=cls):
+            case ClassMeaning(cls=cls):
                 found = self._state.instances(cls)
                 holding = (name for name, members in self._members.items() if not found.isdisjoint(members))
                 yield from (Atom(predicate.name, (name,)) for name in holding)
-            case GuardFact(variables=(variable,), condition=condition):
+            case GuardMeaning(variables=(variable,), condition=condition):
                 fits = (each.name for each in self._objects_for(predicate.parameters[0]) if each.name in self._members)
                 accepted = self._with_some_member(fits, lambda iri: evaluate(condition, self._state, {variable: iri}))
                 yield from (Atom(predicate.name, (name,)) for name in accepted)
-            case GuardFact():
+            case GuardMeaning():
                 yield from (Atom(predicate.name, names) for names in self._abstract_arguments(predicate.parameters))
-            case GoalFact():
+            case GoalMeaning():
                 return
             case _:
                 assert_never(predicate.meaning)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import assert_never
 
-from skillc_model.pddl.domain import ROOT, Action, ClassFact, PlanningDomain, Predicate, RelationFact
+from skillc_model.pddl.domain import ROOT, Action, ClassMeaning, PlanningDomain, Predicate, RelationMeaning
 from skillc_model.pddl.formulas import (
     TRUE,
     Atom,
@@ -53,7 +53,7 @@ class DomainRelaxation:
         known = self._domain.predicate
         predicates = [known[name] for name in sorted(self.negated)]
         predicates += [replace(known[name], name=may) for name, may in sorted(self.may.items())]
-        marked = Predicate(self.mark, (Typed("?subject", ROOT),), ClassFact(""), False)
+        marked = Predicate(self.mark, (Typed("?subject", ROOT),), ClassMeaning(""), False)
         actions = tuple(self._relax_action(each) for each in self._domain.actions)
         return replace(self._domain, predicates=(*predicates, marked), actions=actions)
 
@@ -106,7 +106,7 @@ class DomainRelaxation:
     def _delete_former(self, atom: Atom) -> Iterator[Change]:
         """Yield the deletions of the former values of a functional or inverse functional relation."""
         predicate = self._domain.predicate[atom.predicate]
-        if not isinstance(predicate.meaning, RelationFact):
+        if not isinstance(predicate.meaning, RelationMeaning):
             return
         for unique in unique_sides(predicate.meaning.relation, self._vocabulary):
             former = Typed("?former-other", predicate.parameters[1 - unique.fixed].type)

@@ -17,7 +17,7 @@ CACHE_SIZE = 4
 def get_planning_domain(
     library: SkillLibrary, combined: frozenset[frozenset[str]], classes: Callable[[str], frozenset[str]]
 ) -> PlanningDomain:
-    """Return the library as a planning domain, as `planning_domain` does.
+    """Return the library as a planning domain, as `make_planning_domain` does.
 
     `classes` returns the most specific classes of an individual; empty if the scene does not have it.
     """

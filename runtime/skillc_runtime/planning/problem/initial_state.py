@@ -11,14 +11,14 @@ from typing import assert_never
 from skillc_model.conditions import Expression
 from skillc_model.pddl.costs import ASSUMED_SECONDS, exact_seconds
 from skillc_model.pddl.domain import (
-    ClassFact,
+    ClassMeaning,
     CostFunction,
-    GoalFact,
-    GuardFact,
+    GoalMeaning,
+    GuardMeaning,
     PlanningDomain,
     Predicate,
-    PropertyFact,
-    RelationFact,
+    PropertyMeaning,
+    RelationMeaning,
 )
 from skillc_model.pddl.formulas import Atom, Typed
 from skillc_model.pddl.problem import CostValue
@@ -64,15 +64,15 @@ class InitialState:
 
     def _true_tuples(self, predicate: Predicate) -> Iterable[tuple[str, ...]]:
         match predicate.meaning:
-            case RelationFact(relation, narrower):
+            case RelationMeaning(relation, narrower):
                 return self._related_pairs(relation, narrower)
-            case PropertyFact(property_, value):
+            case PropertyMeaning(property_, value):
                 return ((self._names[iri],) for iri in self._with_value(property_, value))
-            case ClassFact(cls):
+            case ClassMeaning(cls):
                 return ((name,) for iri, name in self._names.items() if self._state.is_a(iri, cls))
-            case GuardFact():
+            case GuardMeaning():
                 return self._satisfying(predicate, predicate.meaning)
-            case GoalFact():
+            case GoalMeaning():
                 return ()
             case _:
                 assert_never(predicate.meaning)
@@ -107,7 +107,7 @@ class InitialState:
         owners = (iri for iri in self._names if not computed or any(state.is_a(iri, each) for each in term.domains))
         return (iri for iri in owners if has_value(property_of(state, iri, property_), value))
 
-    def _satisfying(self, predicate: Predicate, fact: GuardFact) -> Iterator[tuple[str, ...]]:
+    def _satisfying(self, predicate: Predicate, fact: GuardMeaning) -> Iterator[tuple[str, ...]]:
         for names in self._arguments(predicate.parameters, f"condition `{fact.label}` of {fact.skill}"):
             bindings = {variable: self._iris[name] for variable, name in zip(fact.variables, names, strict=True)}
             try:

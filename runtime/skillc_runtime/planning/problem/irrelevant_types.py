@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Set
 from typing import assert_never
 
-from skillc_model.pddl.domain import Meaning, PlanningDomain, Predicate, PropertyFact, RelationFact
+from skillc_model.pddl.domain import Meaning, PlanningDomain, Predicate, PropertyMeaning, RelationMeaning
 from skillc_model.pddl.formulas import (
     FALSE,
     TRUE,
@@ -48,9 +48,9 @@ def has_asserted_fact(individual: str, domain: PlanningDomain, state: WorldState
 
 def _is_asserted(predicate: Predicate, vocabulary: Vocabulary) -> bool:
     match predicate.meaning:
-        case RelationFact():
+        case RelationMeaning():
             return True
-        case PropertyFact(property=iri):
+        case PropertyMeaning(property=iri):
             return vocabulary.properties[iri].computed_by is None
         case _:
             return False
@@ -58,9 +58,9 @@ def _is_asserted(predicate: Predicate, vocabulary: Vocabulary) -> bool:
 
 def _mentions(meaning: Meaning, individual: str, state: WorldState) -> bool:
     match meaning:
-        case RelationFact(relation=relation):
+        case RelationMeaning(relation=relation):
             return bool(state.objects(individual, relation) or state.subjects(relation, individual))
-        case PropertyFact(property=iri):
+        case PropertyMeaning(property=iri):
             return state.value(individual, iri) is not None
         case _:
             return False

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import nsmallest
 
-from skillc_model.pddl.domain import GuardFact, PlanningDomain, RelationFact
+from skillc_model.pddl.domain import GuardMeaning, PlanningDomain, RelationMeaning
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
@@ -64,12 +64,12 @@ class _NearbyObjects:
     ) -> None:
         self._state, self._size = state, size
         self._relations = sorted(
-            {each.meaning.relation for each in domain.predicates if isinstance(each.meaning, RelationFact)}
+            {each.meaning.relation for each in domain.predicates if isinstance(each.meaning, RelationMeaning)}
         )
         self._guards = [
             each.meaning
             for each in domain.predicates
-            if isinstance(each.meaning, GuardFact) and len(each.meaning.variables) == 1
+            if isinstance(each.meaning, GuardMeaning) and len(each.meaning.variables) == 1
         ]
         wanted = sorted({each.type for action in domain.actions for each in action.parameters})
         self._members = [tuple(by_type[type_] for type_ in by_type if domain.is_a(type_, each)) for each in wanted]
@@ -110,7 +110,7 @@ class _NearbyObjects:
         )
         return linked + sum(self._satisfies(guard, individual) for guard in self._guards)
 
-    def _satisfies(self, guard: GuardFact, individual: str) -> bool:
+    def _satisfies(self, guard: GuardMeaning, individual: str) -> bool:
         try:
             return evaluate(guard.condition, self._state, {guard.variables[0]: individual})
         except EvaluationError:

@@ -93,7 +93,7 @@ def _individual(term: Term) -> Callable[[Bindings], str]:
 def _bound_individual(name: str, bindings: Bindings) -> str:
     value = bound_value(name, bindings)
     if type(value) is not str:
-        raise EvaluationError(f"`{name}` is {value!r}, which is no individual")
+        raise EvaluationError(f"`{name}` is {value!r}, which is not an individual")
     return value
 
 

@@ -43,5 +43,5 @@ def _changes(effect: Effect, state: WorldState, bindings: Bindings) -> Iterator[
 def _individual(term: Variable | Individual, bindings: Bindings) -> str:
     value = term.iri if isinstance(term, Individual) else bound_value(term.name, bindings)
     if not isinstance(value, str):
-        raise EvaluationError(f"`{term}` is {value!r}, which is no individual")
+        raise EvaluationError(f"`{term}` is {value!r}, which is not an individual")
     return value

@@ -114,7 +114,7 @@ def _property(owner: ExpressionFunction, property_: str) -> ExpressionFunction:
         if individual is None:
             return None
         if not isinstance(individual, str):
-            raise EvaluationError(f"{local_name(property_)} is asked of {individual!r}, which is no individual")
+            raise EvaluationError(f"{local_name(property_)} is asked of {individual!r}, which is not an individual")
         return property_of(state, individual, property_)
 
     return read
