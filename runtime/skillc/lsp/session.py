@@ -107,10 +107,8 @@ class Session:
                 return
             by_uri = problems.diagnostics_by_uri(self.libraries, root, analysis, self.encoding)
         except Exception as error:  # noqa: BLE001 - the boundary of a task
-            analysis, by_uri = (
-                None,
-                problems.diagnostics_after_failure(self.libraries, root, self._report(error), self.encoding),
-            )
+            analysis, message = None, self._report(error)
+            by_uri = problems.diagnostics_after_failure(self.libraries, root, message, self.encoding)
         self._withdraw(before.uris - by_uri.keys() if before else frozenset())
         for uri, found in by_uri.items():
             self._send(uri, found)

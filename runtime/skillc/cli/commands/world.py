@@ -8,11 +8,15 @@ Exit code 1 if the scene has errors, the store cannot be used, the query is not 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from skillc.cli.command import Command
 from skillc.cli.options import PATH, json_option, store_options
+
+if TYPE_CHECKING:
+    from skillc.services.scenes import OpenScene
 
 
 @click.command(cls=Command)
@@ -57,7 +61,6 @@ def command(
     or property is replaced. `not SUBJECT PREDICATE VALUE` removes a statement, `not INDIVIDUAL` all statements about an
     individual. The rest of the file is not changed.
     """
-    from skillc.cli import scene_output
     from skillc.cli.console import Terminal
     from skillc.services import scenes
     from skillc.services.stores import StoreChoice
@@ -73,12 +76,22 @@ def command(
         elif graph:
             scenes.draw_scene(opened, graph)
             click.echo(graph)
-        elif sparql is not None:
-            click.echo(scene_output.format_answer(scenes.query_scene(opened, sparql), as_json))
-        elif other is not None:
-            click.echo(scene_output.format_diff(scenes.compare_scenes(opened, other, Terminal()), as_json))
-        elif names:
-            found = scenes.describe_individuals(opened, names)
-            click.echo(scene_output.format_individuals(found, opened, as_json))
         else:
-            click.echo(scene_output.format_elements(scenes.find_individuals(opened, words), opened, as_json))
+            click.echo(_format_view(opened, sparql, other, names, words, as_json))
+
+
+def _format_view(
+    opened: OpenScene, sparql: str | None, other: Path | None, names: tuple[str, ...], words: str | None, as_json: bool
+) -> str:
+    """Return the answer to a query, the differences from another scene, or individuals: the named or the found ones."""
+    from skillc.cli import scene_output
+    from skillc.cli.console import Terminal
+    from skillc.services import scenes
+
+    if sparql is not None:
+        return scene_output.format_answer(scenes.query_scene(opened, sparql), as_json)
+    if other is not None:
+        return scene_output.format_diff(scenes.compare_scenes(opened, other, Terminal()), as_json)
+    if names:
+        return scene_output.format_individuals(scenes.describe_individuals(opened, names), opened, as_json)
+    return scene_output.format_elements(scenes.find_individuals(opened, words), opened, as_json)
