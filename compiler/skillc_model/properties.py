@@ -17,7 +17,7 @@ class Runs(msgspec.Struct, frozen=True, tag="runs"):
     skill: str
 
 
-class Is(msgspec.Struct, frozen=True, tag="is"):
+class ConditionEvent(msgspec.Struct, frozen=True, tag="is"):
     """A condition holds."""
 
     condition: Condition
@@ -31,7 +31,7 @@ class Measures(msgspec.Struct, frozen=True, tag="measures"):
     limit: Expression
 
 
-Event: TypeAlias = Runs | Is | Measures
+Event: TypeAlias = Runs | ConditionEvent | Measures
 
 
 class Property(msgspec.Struct, frozen=True, kw_only=True):

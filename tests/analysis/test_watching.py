@@ -9,7 +9,7 @@ import pytest
 
 from skillc_model import tree
 from skillc_model.conditions import Compare, Literal, Variable
-from skillc_model.properties import Event, Is, Measures, Property
+from skillc_model.properties import ConditionEvent, Event, Measures, Property
 from skillc_model.skills import Compound, Parameter, Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import ClassTerm, ClassType, Vocabulary
 from skillc_runtime.execution.tree.run import TreeRun
@@ -77,7 +77,7 @@ def started(event: Event, force_n: float = 0.0) -> tuple[Cell, TreeRun]:
 
 
 def test_a_forbidden_condition_ends_the_skill() -> None:
-    off = Is(Compare(is_on(Variable("flag")).left, "==", Literal(False)))  # type: ignore[union-attr]
+    off = ConditionEvent(Compare(is_on(Variable("flag")).left, "==", Literal(False)))  # type: ignore[union-attr]
     cell, run = started(off)
     assert run.tick() is Status.RUNNING
     cell.world.commit([SetProperty(FLAGS[0], ON, False)])

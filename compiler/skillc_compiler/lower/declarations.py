@@ -154,7 +154,7 @@ def _property(typed: Property) -> properties.Property:
 
 def _event(typed: Event) -> properties.Event:
     if typed.condition is not None:
-        return properties.Is(fold(typed.condition.meaning))
+        return properties.ConditionEvent(fold(typed.condition.meaning))
     if typed.measured is not None:
         limit = fold(typed.measured.limit.meaning)
         return properties.Measures("force", typed.measured.operator, limit)

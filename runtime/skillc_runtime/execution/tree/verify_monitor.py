@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from skillc_model.conditions import Compare, Literal
-from skillc_model.properties import Is, Measures, Property
+from skillc_model.properties import ConditionEvent, Measures, Property
 from skillc_model.skills import Implementation
 from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 from skillc_runtime.devices.cell import Cell
@@ -21,7 +21,9 @@ from skillc_runtime.world.state.world_state import WorldState
 def monitored_properties(implementation: Implementation) -> tuple[Property, ...]:
     """Return the `verify` lines that are checked while an implementation runs; the compiler checks the others."""
     return tuple(
-        line for line in implementation.verify if line.pattern == "never" and isinstance(line.first, Is | Measures)
+        line
+        for line in implementation.verify
+        if line.pattern == "never" and isinstance(line.first, ConditionEvent | Measures)
     )
 
 
@@ -48,7 +50,7 @@ def _describe_violation(
     frame: Frame,
 ) -> str | None:
     match line.first:
-        case Is(condition=condition):
+        case ConditionEvent(condition=condition):
             return "" if evaluate(condition, state, frame) else None
         case Measures(operator=operator, limit=limit):
             for arm in _find_arms(implementation, vocabulary, frame):
