@@ -104,8 +104,7 @@ class Bench:
     hand: Hand = field(default_factory=Hand)
     wheels: Base = field(default_factory=Base)
 
-    @property
-    def at_rest(self) -> bool:
+    def is_at_rest(self) -> bool:
         """Whether nothing more is to happen."""
         return not self.meanwhile
 

@@ -66,9 +66,12 @@ class Depot:
     meanwhile: dict[float, Callable[[WorldModel], object]] = field(default_factory=dict)
     fails: Callable[[str, int], bool] = lambda step, number: False
     now: float = 0.0
-    at_rest: bool = True
     watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
     log: list[str] = field(default_factory=list)
+
+    def is_at_rest(self) -> bool:
+        """Tell that nothing here moves."""
+        return True
 
     def secure(self) -> tuple[str, ...]:
         """Leave nothing behind, for nothing here moves."""

@@ -33,10 +33,10 @@ def is_safe(there: SimulatedCell, scene: str) -> None:
     """The arm comes to rest within two seconds, exerts nothing, and is held stiff where it is."""
     arm = there.arm(things(scene)["arm"])
     for _ in range(200):
-        if there.at_rest:
+        if there.is_at_rest():
             break
         there.advance(0.01)
-    assert there.at_rest
+    assert there.is_at_rest()
     assert not arm.compliance.commanded_wrench.any()
     assert arm.compliance.commanded_stiffness.all()
     there.advance(0.3)

@@ -83,7 +83,7 @@ def at_rest(cell: SimulatedCell) -> bool:
     drivers = [cell.arm(arm.individual) for arm in cell.scene.arms]
     stiff = all(bool((one.compliance.commanded_stiffness > 0).all()) for one in drivers)
     pushing = any(bool((abs(one.compliance.commanded_wrench) > 0.1).any()) for one in drivers)
-    return bool(drivers) and cell.at_rest and stiff and not pushing
+    return bool(drivers) and cell.is_at_rest() and stiff and not pushing
 
 
 def vanish(cell: SimulatedCell, fixture: str) -> None:

@@ -102,14 +102,14 @@ def test_interrupted_while_driving_the_base_comes_to_rest() -> None:
 
     def interrupted() -> bool:
         if cell.now > 2.0:
-            moving.append(cell.at_rest)
+            moving.append(cell.is_at_rest())
             return True
         return False
 
     execution = execute_task(prepared, library(), cell, interrupted=interrupted)
     assert moving == [False]
     assert execution.status is Status.HALTED
-    assert cell.at_rest
+    assert cell.is_at_rest()
 
 
 def test_the_same_seed_gives_the_same_run() -> None:

@@ -32,8 +32,7 @@ SETTLE_S = 5.0
 class SteppedCell(Cell, Protocol):
     """A cell whose time passes only in `advance`."""
 
-    @property
-    def at_rest(self) -> bool:
+    def is_at_rest(self) -> bool:
         """Whether nothing moves any more."""
         ...
 
@@ -163,7 +162,7 @@ def _check_plan(run: TreeRun, prepared: PreparedTask, library: SkillLibrary, sta
 
 def _wait_until_at_rest(cell: SteppedCell, run: TreeRun) -> None:
     for _ in range(round(SETTLE_S / TICK_S)):
-        if cell.at_rest:
+        if cell.is_at_rest():
             return
         _advance(cell, TICK_S, run)
 

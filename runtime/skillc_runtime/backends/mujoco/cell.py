@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import mujoco
@@ -31,9 +31,9 @@ from skillc_runtime.world.state.terms import DEVICE_STATE
 
 
 class SimulatedCell:
-    """A cell built from the facts of a world model, implementing `Cell`; `variation` is how reality differs from them.
+    """A cell built from the facts of a world model, implementing `Cell` and `Backend`.
 
-    The same facts and the same seed give the same run, bit for bit. Between calls of `advance` all measurements are of
+    `variation` is how reality differs from the facts. The same facts and the same seed give the same run, bit for bit. Between calls of `advance` all measurements are of
     the present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
     """
 
@@ -81,10 +81,24 @@ class SimulatedCell:
         return float(self.data.time)
 
     @property
-    def at_rest(self) -> bool:
-        """Whether nothing moves or pushes."""
-        arms = all(arm.at_rest for arm in self._drivers.values())
-        return arms and all(base.at_rest for base in self._bases.values())
+    def cell(self) -> SimulatedCell:
+        """The cell as skills see it."""
+        return self
+
+    @property
+    def clock(self) -> SimulatedCell:
+        """The clock of the cell."""
+        return self
+
+    @property
+    def broken(self) -> str | None:
+        """Why the cell cannot go on; None while it can."""
+        return None
+
+    def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
+        """Whether devices, all if None, neither move nor push."""
+        moving = {**self._drivers, **self._bases}
+        return all(each.at_rest for name, each in moving.items() if devices is None or name in devices)
 
     @property
     def period_s(self) -> float:
@@ -121,32 +135,37 @@ class SimulatedCell:
         for _ in range(round(seconds / self._timestep)):
             self._advance_one()
 
-    def secure(self) -> tuple[str, ...]:
-        """Stop all devices and pushes and restore releases; return what was not in order, and why arms had stopped.
+    def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
+        """Stop devices, all if None, and pushes, and restore releases; return what was not in order.
 
         For the end of a run, however it ended; the result is empty after a regular end.
         """
         names, found = self.scene.names, []
         for individual, arm in self._drivers.items():
+            if devices is not None and individual not in devices:
+                continue
             if (fault := arm.take_fault()) is not None:
                 found.append(f"{names[individual]} had stopped: {fault}")
             if arm.secure():
                 found.append(f"{names[individual]} was left yielding; it is held stiff again")
-        self._stop_devices()
+        self._stop_devices(devices)
         return tuple(found)
+
+    def close(self) -> None:
+        """Do nothing: the simulation has no threads."""
 
     def _stop_all(self, reason: str) -> None:
         for arm in self._drivers.values():
             arm.abort(reason)
         self._stop_devices()
 
-    def _stop_devices(self) -> None:
-        """Stop grippers and bases."""
-        for gripper in self._grippers.values():
-            if gripper.moving:
+    def _stop_devices(self, devices: Collection[str] | None = None) -> None:
+        """Stop grippers and bases, all if None."""
+        for name, gripper in self._grippers.items():
+            if gripper.moving and (devices is None or name in devices):
                 gripper.stop()
-        for base in self._bases.values():
-            if not base.at_rest:
+        for name, base in self._bases.items():
+            if not base.at_rest and (devices is None or name in devices):
                 base.stop()
 
     def _advance_one(self) -> None:

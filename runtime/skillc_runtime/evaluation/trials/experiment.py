@@ -94,7 +94,7 @@ class TrialRunner:
             greatest_force_n=_greatest_force_n(cell),
             force_limit_n=_force_limit_n(cell),
             pushed=push.pushed,
-            at_rest=cell.at_rest,
+            at_rest=cell.is_at_rest(),
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,
         )

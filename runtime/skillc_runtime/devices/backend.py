@@ -1,0 +1,56 @@
+"""The interface of what owns the time of a cell: a simulation in lock step, or devices with a control thread."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from skillc_runtime.devices.cell import Cell
+
+
+class Clock(Protocol):
+    """The clock of a cell."""
+
+    @property
+    def now(self) -> float:
+        """The time in s since the cell started; simulated time in simulation."""
+        ...
+
+
+class Backend(Protocol):
+    """Owns the time of a cell. In lock step time passes only in `advance`; with a control thread `advance` waits.
+
+    Devices are arms, grippers and bases, by IRI; None stands for all of the cell.
+    """
+
+    @property
+    def cell(self) -> Cell:
+        """The cell as skills see it."""
+        ...
+
+    @property
+    def clock(self) -> Clock:
+        """The clock of the cell."""
+        ...
+
+    @property
+    def broken(self) -> str | None:
+        """Why the cell cannot go on, for example because the simulation diverged; None while it can."""
+        ...
+
+    def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
+        """Whether devices neither move nor push."""
+        ...
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass, in s; raises if the cell breaks."""
+        ...
+
+    def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:
+        """Stop devices, release all their forces and make arms stiff; return what had to be corrected."""
+        ...
+
+    def close(self) -> None:
+        """End the threads of the backend; idempotent."""
+        ...
