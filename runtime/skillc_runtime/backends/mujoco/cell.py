@@ -33,8 +33,9 @@ from skillc_runtime.world.state.terms import DEVICE_STATE
 class SimulatedCell:
     """A cell built from the facts of a world model, implementing `Cell` and `Backend`.
 
-    `variation` is how reality differs from the facts. The same facts and the same seed give the same run, bit for bit. Between calls of `advance` all measurements are of
-    the present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
+    `variation` is how reality differs from the facts. The same facts and the same seed give the same run, bit for bit.
+    Between calls of `advance` all measurements are of the present instant. The world model has the state of each arm:
+    `Idle` at the start, `Fault` once it is broken.
     """
 
     def __init__(
