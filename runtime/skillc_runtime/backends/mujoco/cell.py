@@ -98,7 +98,7 @@ class SimulatedCell:
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices, all if None, neither move nor push."""
-        moving = {**self._drivers, **self._bases}
+        moving: dict[str, CompliantArmDriver | SimulatedBase] = {**self._drivers, **self._bases}
         return all(each.at_rest for name, each in moving.items() if devices is None or name in devices)
 
     @property
