@@ -12,7 +12,7 @@ from skillc_model.properties import Property
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
-FORMAT = 2
+FORMAT = 3
 
 
 class Parameter(msgspec.Struct, frozen=True, kw_only=True):
@@ -49,6 +49,17 @@ class Post(msgspec.Struct, frozen=True, kw_only=True):
     source: Position
 
 
+class PausePolicy(msgspec.Struct, frozen=True):
+    """Where a skill may be paused, and for how long a paused tool goes on pressing before it is taken off.
+
+    Anywhere: at any time; between steps: only before a call of its body starts; never: not while it runs, and then
+    `keep_s` means nothing.
+    """
+
+    where: OneOf["anywhere", "between steps", "never"] = "anywhere"
+    keep_s: float = 2.0
+
+
 class Skill(msgspec.Struct, frozen=True, kw_only=True):
     """A skill description. `implementations` are names in rank order; the first that is applicable is run."""
 
@@ -64,6 +75,7 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     scoped: bool = False
     planned: bool = True
     fallback: bool = False
+    pause: PausePolicy = PausePolicy()
     implementations: tuple[str, ...] = ()
     source: Position
 
