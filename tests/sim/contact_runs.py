@@ -34,7 +34,7 @@ class Outcome:
 
     @property
     def succeeded(self) -> bool:
-        return self.execution.status == "succeeded"
+        return self.execution.status.value == "success"
 
     @property
     def why(self) -> str:

@@ -47,7 +47,7 @@ TEXT, BOOL = PlainType("Text"), PlainType("Bool")
 
 _lines = count(1)
 
-Ending = Literal["success", "fail", "crash", "refuse", "crash at start"]
+Ending = Literal["success", "fail", "crash", "refuse", "crash at start", "exit"]
 
 
 @dataclass(frozen=True)
@@ -109,6 +109,8 @@ class Scripted(Primitive):
             return Status.RUNNING
         if self.script.ending == "fail":
             raise SkillFailure(f"{self.name} failed")
+        if self.script.ending == "exit":
+            raise SystemExit(0)
         if self.script.ending == "crash":
             raise RuntimeError(f"{self.name} broke")
         return Status.SUCCESS

@@ -68,6 +68,14 @@ def test_an_exception_halts_the_siblings_and_the_one_that_raised() -> None:
     assert run.failure.message.startswith("RuntimeError: b broke (stage.py:")
 
 
+def test_a_primitive_that_exits_fails_and_ends_nothing_else() -> None:
+    cell = stage(a=LONG, b=Script("exit", 2))
+    run = TreeRun(par("all", act("a"), act("b")), Library().build(), cell)
+    assert finish(run, cell) is Status.FAILURE
+    assert cell.said("halt") == ["halt b", "halt a"]
+    assert run.failure is not None and run.failure.message.startswith("SystemExit: 0 (stage.py:")
+
+
 def test_what_succeeded_or_refused_to_start_is_not_halted() -> None:
     cell = stage(a=Script("success", 2), b=Script("refuse"))
     run = TreeRun(seq(act("a"), act("b")), Library().build(), cell)

@@ -10,7 +10,7 @@ from typing import get_args
 
 from skillc_model.skills import Parameter
 from skillc_runtime.primitives.primitive import Activity, Phase, Primitive
-from skillc_runtime.world.state.python_calls import EvaluationError, load_python
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, EvaluationError, load_python
 
 
 class PrimitiveError(Exception):
@@ -27,7 +27,7 @@ def import_primitive(python: str) -> type[Primitive]:
     module_name, _, class_name = python.partition(":")
     try:
         module = importlib.import_module(module_name)
-    except (Exception, SystemExit) as error:  # user code: whatever it raises, it cannot be used
+    except FOREIGN_ERRORS as error:  # user code: whatever it raises, it cannot be used
         reason = error if isinstance(error, ImportError) else f"{type(error).__name__}: {error}"
         raise PrimitiveError(f"the Python module of `{python}` cannot be imported: {reason}") from error
     found = getattr(module, class_name, None)

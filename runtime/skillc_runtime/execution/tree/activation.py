@@ -23,6 +23,7 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -173,7 +174,7 @@ def activate(
     except PrimitiveError as error:
         context.locks.release(holder)
         return _reject(implementation, "start", str(error))
-    except Exception:
+    except FOREIGN_ERRORS:
         context.locks.release(holder)
         raise
     return Activation(context, skill, bound, holder, body, context.cell.world.ledger.count)

@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_model import tree
 from skillc_model.conditions import Variable
-from skillc_model.skills import Implementation
+from skillc_model.skills import Implementation, PausePolicy
 from skillc_runtime.execution.selection.binding import bind_implementation
 from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
 from skillc_runtime.execution.tree.activation import Activation, BuildNode, activate
@@ -29,6 +29,7 @@ from skillc_runtime.recording.failure import Failure, Rejection, as_failure
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.labelled import LabelledFact
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 _STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
 
@@ -48,6 +49,7 @@ class CallNode(Node):
         "_remaining",
         "_scope",
         "_state_at_start",
+        "_waits",
         "activation",
         "node",
         "rejected",
@@ -64,18 +66,45 @@ class CallNode(Node):
         self._facts: tuple[LabelledFact, ...] | None = None
         self._scope = scope
         self._build = build
+        self._waits = False
+
+    @property
+    def skill_name(self) -> str:
+        """The name of the skill."""
+        return self.skill.name
+
+    @property
+    def pause_policy(self) -> PausePolicy:
+        """Where the skill may be paused."""
+        return self.skill.pause
+
+    def enclosing_calls(self) -> Iterator[CallNode]:
+        """Yield the calls around this one, the innermost first."""
+        node = self.parent
+        while node is not None:
+            if isinstance(node, CallNode):
+                yield node
+            node = node.parent
 
     def on_start(self) -> Status:
         self.rejected = []
         self.activation = None
         self.children = ()
         self._arguments, self._facts = {}, None
+        gate = self.context.gate
+        self._waits = gate is not None and gate.stops(self)
+        return RUNNING if self._waits else self._begin()
+
+    def _begin(self) -> Status:
+        """Choose an implementation and start it."""
         self._state_at_start = self.context.state
         self._arguments = self._evaluate_arguments()
         self._remaining = iter(ranked_implementations(self.context.library, self.node.skill, self.node.implementation))
         return self._try_next(self._remaining)
 
     def tick(self) -> Status:
+        if self._waits:
+            return self._wait()
         activation = self.activation
         assert activation is not None, "tick before start"
         failure = self._check_running(activation)
@@ -101,7 +130,7 @@ class CallNode(Node):
             failure = activation.apply_results()
             if failure is None:
                 self._assign_output(activation)
-        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports and fails
+        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports and fails
             failure = Failure(
                 kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name
             )
@@ -116,6 +145,17 @@ class CallNode(Node):
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and (self.activation is None or self.activation.posts_hold())
+
+    def _wait(self) -> Status:
+        """Begin as soon as the gate allows it."""
+        gate = self.context.gate
+        if gate is not None and gate.holds_back(self):
+            return RUNNING
+        self._waits = False
+        try:
+            return self._begin()
+        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
+            return self.fail_with_error(error)
 
     def _evaluate_arguments(self) -> Frame:
         """Evaluate the arguments; an argument that is an unset optional parameter of the enclosing skill is omitted."""
@@ -152,7 +192,7 @@ class CallNode(Node):
             for note in bound.notes:
                 self.context.note(note, self.id, self.source)
             return activate(self.context, self.skill, bound, self, self._scope, self._build)
-        except Exception as error:  # noqa: BLE001  the other implementations are tried
+        except FOREIGN_ERRORS as error:  # the other implementations are tried
             return self._reject(
                 implementation, Failure(kind="error", message=describe_exception(error), source=self.source)
             )
@@ -207,7 +247,7 @@ class CallNode(Node):
         try:
             failure = activation.check_holds() if self.context.state is not activation.holds_checked_in else None
             return failure or (activation.check_properties() if activation.implementation.verify else None)
-        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
             return Failure(kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name)
 
     def _assign_output(self, activation: Activation) -> None:

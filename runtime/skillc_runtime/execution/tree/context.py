@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.cell import Cell
+from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.recording.events import Listener, Note
 from skillc_runtime.world.state.changes import Change
@@ -17,18 +18,26 @@ class TreeContext:
     """The mutable state that the nodes of a tree share.
 
     `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
-    `time` is the cell's clock in s. `emit` is None without listeners; then no events are created.
+    `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
+    calls back where the run pauses; None if it never does.
     """
 
-    __slots__ = ("_snapshot", "cell", "emit", "last_id", "library", "locks", "now", "paused_s", "state", "time")
+    __slots__ = ("_snapshot", "cell", "emit", "gate", "last_id", "library", "locks", "now", "paused_s", "state", "time")
 
     def __init__(
-        self, library: SkillLibrary, cell: Cell, emit: Listener | None, locks: DeviceLocks, ids: int = 0
+        self,
+        library: SkillLibrary,
+        cell: Cell,
+        emit: Listener | None,
+        locks: DeviceLocks,
+        ids: int = 0,
+        gate: Gate | None = None,
     ) -> None:
         self.library = library
         self.cell = cell
         self.emit = emit
         self.locks = locks
+        self.gate = gate
         self.paused_s = 0.0
         self.time = self.now = 0.0
         self.state: WorldState

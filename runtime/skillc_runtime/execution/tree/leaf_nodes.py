@@ -17,6 +17,7 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 _EPSILON_S = 1e-9
 
@@ -70,7 +71,7 @@ class WaitUntilNode(Node):
         self._seen = state
         try:
             return self.succeed() if evaluate(self.node.condition, state, self.frame) else RUNNING
-        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports and fails
+        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports and fails
             return self.fail_with_error(error)
 
     def remains_satisfied(self) -> bool:

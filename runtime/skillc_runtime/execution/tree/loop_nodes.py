@@ -14,6 +14,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 from skillc_runtime.world.state.values import Value
 
 
@@ -38,7 +39,7 @@ class LoopNode(Node):
             return RUNNING if status is RUNNING else self.on_child_ended(status)
         try:
             return self.next_round()
-        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
             return self.fail_with_error(error)
 
     def start_round(self) -> Status:

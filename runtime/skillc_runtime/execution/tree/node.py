@@ -11,6 +11,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.reasons import FailedCallContext
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILURE, Status.HALTED
 
@@ -55,7 +56,7 @@ class Node:
             context.emit(started)
         try:
             return self.on_start()
-        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
             return self.fail_with_error(error)
 
     def on_start(self) -> Status:
@@ -113,7 +114,7 @@ class Node:
         """Record a failure; None if a child failed without details."""
         return self._finish(FAILURE, failure or Failure(kind="body", message=f"{self.name} failed", source=self.source))
 
-    def fail_with_error(self, error: Exception) -> Status:
+    def fail_with_error(self, error: BaseException) -> Status:
         """Halt all running descendants and fail because of an exception."""
         message = describe_exception(error)
         self.stop(message)

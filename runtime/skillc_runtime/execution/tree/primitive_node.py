@@ -14,6 +14,7 @@ from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.labelled import LabelledValue
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 NO_VALUES: Mapping[str, LabelledValue] = MappingProxyType({})
 
@@ -66,7 +67,7 @@ class PrimitiveNode(Node):
             return self._on_finished(status)
         except SkillFailure as failure:
             return self._halt_and_fail(str(failure), failure.values)
-        except Exception as error:  # noqa: BLE001  the boundary to skill code: it reports, halts and fails
+        except FOREIGN_ERRORS as error:  # the boundary to skill code: it reports, halts and fails
             return self.fail_with_error(error)
 
     def stop(self, reason: str) -> None:
@@ -74,7 +75,7 @@ class PrimitiveNode(Node):
             self._running = False
             try:
                 self._primitive.halt(reason)
-            except Exception as error:  # noqa: BLE001  the other nodes must be halted too
+            except FOREIGN_ERRORS as error:  # the other nodes must be halted too
                 self.context.note(f"{self.name} could not be halted: {describe_exception(error)}", self.id, self.source)
         self.undo_now()
 

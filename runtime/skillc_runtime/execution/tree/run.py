@@ -14,6 +14,7 @@ from skillc_runtime.execution.tree.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.event_factory import make_change_event
+from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
@@ -24,6 +25,7 @@ from skillc_runtime.recording.events import Listener, Paused, Resumed
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 from skillc_runtime.world.state.transactions import ChangeEvent
 
 _ALIVE = (RUNNING, Status.IDLE)
@@ -45,16 +47,17 @@ class TreeRun:
         locks: DeviceLocks | None = None,
         nodes_before: int = 0,
         failures: CallFailures | None = None,
+        gate: Gate | None = None,
     ) -> None:
         """Build the tree; nothing starts.
 
         Runs on the same devices share `locks`. The nodes are numbered from `nodes_before` + 1, so that the events of
         several runs can share a recording. Calls skip implementations that would fail again according to `failures`,
-        and add their own failures.
+        and add their own failures. `gate` holds calls back where the run pauses.
         """
         self._listeners = Listeners(listeners)
         self._context = TreeContext(
-            library, cell, self._listeners if listeners else None, locks or DeviceLocks(), nodes_before
+            library, cell, self._listeners if listeners else None, locks or DeviceLocks(), nodes_before, gate
         )
         self._undo = UndoStack()
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
@@ -79,6 +82,11 @@ class TreeRun:
     def outcome(self) -> NodeOutcome:
         """The tree with the current status of each node."""
         return _collect_outcome(self._root)
+
+    @property
+    def active_calls(self) -> tuple[CallNode, ...]:
+        """The innermost calls that run or wait, in the order of the tree."""
+        return tuple(_find_active_calls(self._root))
 
     @property
     def claims(self) -> tuple[Claim, ...]:
@@ -109,7 +117,7 @@ class TreeRun:
                 return self._fail_contradicted(contradiction)
             if running:
                 return RUNNING
-        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+        except FOREIGN_ERRORS as error:  # the task's boundary: it reports, halts and ends
             self.abort(error)
             return self.status
         return self._finish(self._root.status, self._root.failure)
@@ -121,7 +129,7 @@ class TreeRun:
             self._root.halt(reason)
             self._finish(Status.HALTED, Failure(kind="halted", message=reason, source=self._root.source))
 
-    def abort(self, error: Exception) -> None:
+    def abort(self, error: BaseException) -> None:
         """Fail because of an error, for example of the cell: halt all running nodes, undo scoped skills and end."""
         if self.status in (Status.IDLE, RUNNING):
             message = describe_exception(error)
@@ -148,7 +156,7 @@ class TreeRun:
         self._emit(Paused)
         try:
             self._root.pause()
-        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+        except FOREIGN_ERRORS as error:  # the task's boundary: it reports, halts and ends
             self.abort(error)
 
     def resume(self) -> None:
@@ -160,7 +168,7 @@ class TreeRun:
         self._emit(Resumed)
         try:
             self._root.resume()
-        except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
+        except FOREIGN_ERRORS as error:  # the task's boundary: it reports, halts and ends
             self.abort(error)
 
     def _send_heartbeat(self) -> None:
@@ -227,6 +235,11 @@ def _collect_outcome(node: Node) -> NodeOutcome:
         rejected=tuple(node.rejected) if isinstance(node, CallNode) else (),
         children=tuple(_collect_outcome(child) for child in node.children),
     )
+
+
+def _find_active_calls(node: Node) -> Iterator[CallNode]:
+    below = [call for child in node.children if child.status is RUNNING for call in _find_active_calls(child)]
+    yield from below or ((node,) if isinstance(node, CallNode) and node.status is RUNNING else ())
 
 
 def _collect_claims(node: Node) -> Iterator[Claim]:

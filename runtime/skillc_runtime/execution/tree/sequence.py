@@ -7,6 +7,7 @@ from typing import ClassVar
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 
 class SequenceNode(Node):
@@ -50,7 +51,7 @@ class ReactiveSequenceNode(Node):
     def tick(self) -> Status:
         try:
             return self._tick_children()
-        except Exception as error:  # noqa: BLE001  a node is the boundary: it reports, halts and fails
+        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
             return self.fail_with_error(error)
 
     def remains_satisfied(self) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 
 class UndoStack:
@@ -42,6 +43,6 @@ class UndoStack:
 def _try_undo(undo: Callable[[], None]) -> str | None:
     try:
         undo()
-    except Exception as error:  # noqa: BLE001  the other entries must be undone too; the caller reports
+    except FOREIGN_ERRORS as error:  # the other entries must be undone too; the caller reports
         return describe_exception(error)
     return None

@@ -11,6 +11,9 @@ from skillc_rdf.vocabulary.types import local_name
 
 T = TypeVar("T")
 
+FOREIGN_ERRORS = (Exception, SystemExit)
+"""What code of users may raise without ending the program; Ctrl-C is not among them."""
+
 
 class EvaluationError(ValueError):
     """A condition or expression that cannot be evaluated; the message names what is missing and where."""
@@ -26,7 +29,7 @@ def load_python(target: str) -> Any:
     module, _, attribute = target.partition(":")
     try:
         return getattr(import_module(module), attribute)
-    except Exception as error:  # foreign code: it may raise anything
+    except FOREIGN_ERRORS as error:  # foreign code: it may raise anything
         expected = isinstance(error, ImportError | AttributeError | ValueError)
         reason = error if expected else f"{type(error).__name__}: {error}"
         raise EvaluationError(f"the Python function {target} cannot be loaded: {reason}") from error
@@ -38,6 +41,6 @@ def call_python(function: Callable[..., T], name: str, state: object, *arguments
         return function(state, *arguments)
     except EvaluationError:
         raise
-    except Exception as error:  # foreign code: it may raise anything, which fails the condition and not the run
+    except FOREIGN_ERRORS as error:  # foreign code: it may raise anything, which fails the condition and not the run
         shown = ", ".join(local_name(str(argument)) for argument in arguments)
         raise EvaluationError(f"{name}({shown}) failed: {type(error).__name__}: {error}") from error

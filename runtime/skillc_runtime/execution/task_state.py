@@ -1,0 +1,66 @@
+"""The states of a task run, and which requests each allows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, get_args
+
+from skillc_runtime.recording.commands import Command
+
+EndState: TypeAlias = Literal["succeeded", "failed", "stopped", "interrupted"]
+State: TypeAlias = Literal["queued", "planning", "planned", "running", "pausing", "paused", "stopping"] | EndState
+"""`queued`: waits for devices; `planned`: waits for approval; `interrupted`: the process or the machine died."""
+
+ENDS: frozenset[str] = frozenset(get_args(EndState))
+
+ALLOWED: dict[State, tuple[str, ...]] = {
+    "queued": ("stop", "edit-world"),
+    "planning": ("stop", "edit-world"),
+    "planned": ("approve", "replan", "stop", "edit-world"),
+    "running": ("pause", "stop", "edit-world"),
+    "pausing": ("resume", "stop", "edit-world"),
+    "paused": ("resume", "step-into", "step-over", "step-out", "replan", "stop", "edit-world"),
+    "stopping": ("stop", "edit-world"),
+    "succeeded": (),
+    "failed": (),
+    "stopped": (),
+    "interrupted": (),
+}
+"""The names of the commands that each state allows."""
+
+ALLOWED_AFTER_FAILURE = ("retry", "skip", "replan", "stop", "edit-world")
+"""The same for a run that is paused because a step failed."""
+
+TRANSITIONS: dict[State, frozenset[State]] = {
+    "queued": frozenset({"planning", "planned", "running", "stopping", "stopped", "failed"}),
+    "planning": frozenset({"queued", "planned", "running", "pausing", "stopping", "stopped", "failed"}),
+    "planned": frozenset({"queued", "planning", "running", "stopping", "stopped", "failed"}),
+    "running": frozenset({"planning", "pausing", "paused", "stopping", "succeeded", "failed"}),
+    "pausing": frozenset({"planning", "paused", "running", "stopping", "succeeded", "failed"}),
+    "paused": frozenset({"planning", "running", "pausing", "stopping", "failed"}),
+    "stopping": frozenset({"stopped", "failed"}),
+    "succeeded": frozenset(),
+    "failed": frozenset(),
+    "stopped": frozenset(),
+    "interrupted": frozenset(),
+}
+"""The states that can follow each state; from each that is no end, `interrupted` as well."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """A request that a task run does not allow now; nothing has changed."""
+
+    command: str
+    state: State
+    allowed: tuple[str, ...]
+    why: str = ""
+
+    def __str__(self) -> str:
+        allowed = f"it allows {', '.join(self.allowed)}" if self.allowed else "it has ended"
+        return f"`{self.command}` is not possible while the task is {self.state}; {self.why or allowed}"
+
+
+def refusal(command: Command, state: State, allowed: tuple[str, ...]) -> Refusal | None:
+    """Return why a command is not allowed; None if it is."""
+    return None if command.name in allowed else Refusal(command.name, state, allowed)

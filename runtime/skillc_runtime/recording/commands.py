@@ -1,0 +1,74 @@
+"""What can be requested of a task run, as values that are recorded."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import msgspec
+
+from skillc_runtime.world.state.labelled import LabelledChange
+
+
+class _Command(msgspec.Struct, frozen=True, omit_defaults=True):
+    @property
+    def name(self) -> str:
+        """The name of the command, such as `step-over`."""
+        return str(self.__struct_config__.tag)
+
+
+class Approve(_Command, tag="approve", frozen=True):
+    """Run the plan that waits for approval."""
+
+
+class Pause(_Command, tag="pause", frozen=True):
+    """Pause at the next point where all active skills may be paused."""
+
+    reason: str = "requested"
+
+
+class Resume(_Command, tag="resume", frozen=True):
+    """Continue after a pause."""
+
+
+class StepInto(_Command, tag="step-into", frozen=True):
+    """Continue until the next call starts."""
+
+
+class StepOver(_Command, tag="step-over", frozen=True):
+    """Continue until a call starts that is not part of the current one."""
+
+
+class StepOut(_Command, tag="step-out", frozen=True):
+    """Continue until a call starts that is not part of the call around the current one."""
+
+
+class Stop(_Command, tag="stop", frozen=True):
+    """Halt everything and end."""
+
+    reason: str = "stopped"
+
+
+class Retry(_Command, tag="retry", frozen=True):
+    """After a failure: run the failed step again."""
+
+
+class Skip(_Command, tag="skip", frozen=True):
+    """After a failure: count the failed step as done, because somebody did it; its effects are assumed."""
+
+    who: str
+    why: str
+
+
+class Replan(_Command, tag="replan", frozen=True):
+    """Halt what runs and plan again."""
+
+
+class EditWorld(_Command, tag="edit-world", frozen=True):
+    """Change the world model in one transaction."""
+
+    changes: tuple[LabelledChange, ...]
+    who: str
+    why: str
+
+
+Command: TypeAlias = Approve | Pause | Resume | StepInto | StepOver | StepOut | Stop | Retry | Skip | Replan | EditWorld
