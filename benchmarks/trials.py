@@ -42,7 +42,7 @@ def run(tried: Experiment, jobs: int, count: int) -> Series:
     """Run trials with seeds from 0 on, each process beginning from nothing."""
     began, first = perf_counter(), 0.0
     for trial in run_in_processes(partial(TrialRunner, tried), range(count), jobs):
-        assert trial.status == "success", trial
+        assert trial.status == "succeeded", trial
         first = first or perf_counter() - began - trial.wall_time_s
     took = perf_counter() - began
     return Series(jobs, 60 * count / took, first / took)

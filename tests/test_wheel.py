@@ -58,7 +58,7 @@ def test_the_wheel_works_in_a_clean_environment(tmp_path: Path) -> None:
     call(skillc, "compile", library, "-o", tmp_path / "build", cwd=tmp_path)
     assert json.loads((tmp_path / "build/library.json").read_text(encoding="utf-8"))["name"] == "mine"
     result = json.loads(call(skillc, "run", "mine:go_home", "--json", cwd=tmp_path))
-    assert result["status"] == "success"
+    assert result["status"] == "succeeded"
     assert result["sim_time_s"] > 0.1
     plan = json.loads(call(skillc, "plan", "clean_table", "--json", cwd=tmp_path))
     assert [step["skill"] for step in plan["plan"]] == ["Pick", "Wipe"]

@@ -70,7 +70,7 @@ def test_a_success_that_rests_on_an_assumption_is_strictly_none(
     ran = skillc("run", f".:{task}", *strict, "--json")
     assert ran.exit_code == code, ran.output
     result = json.loads(ran.stdout)
-    assert (result["status"], result["verified"]) == ("success", verified)
+    assert (result["status"], result["verified"]) == ("succeeded", verified)
 
 
 @pytest.mark.usefixtures("folder")

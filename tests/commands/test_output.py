@@ -77,7 +77,7 @@ def test_a_table_of_results_has_the_text_as_it_is(text: str, capsys: pytest.Capt
     step = StepResult(skill=text, implementation=text, arguments={"what": text}, source="a.skill:1", status="success")
     result = TaskResult(
         task=text,
-        status="failure",
+        status="failed",
         plan=(step,),
         robot=text,
         variation=text,

@@ -20,7 +20,7 @@ def test_robots_that_do_not_need_each_other_work_at_the_same_time() -> None:
     state = world({"carl": "c", "dora": "d"}, {"crate": "c", "box": "d"})
     depot = Depot(WorldModel(state))
     execution = carried_out("lab:a contain lab:crate and lab:b contain lab:box", state, depot)
-    assert execution.status is Status.SUCCESS, execution.failure
+    assert execution.status == "succeeded", execution.failure
     assert [step for step in depot.log if "carl" in step] == ["carl crate c", "carl c a", "carl crate a"]
     assert [step for step in depot.log if "dora" in step] == ["dora box d", "dora d b", "dora box b"]
     assert depot.now < 9.2, "two ways of 9 s each, side by side"
@@ -31,7 +31,7 @@ def test_a_thing_that_is_moved_away_meanwhile_is_looked_for_where_it_is_now() ->
     depot = Depot(model, {2.0: lambda world: world.commit([contain("d", "crate")], "somebody")})
     events: list[Event] = []
     execution = carried_out(MOVED, state, depot, events)
-    assert execution.status is Status.SUCCESS
+    assert execution.status == "succeeded"
     assert len(execution.attempts) == 2 and execution.attempts[0].status is Status.HALTED
     (replanned,) = [event for event in events if isinstance(event, Replanned)]
     assert "Load is no longer possible" in replanned.reason and "contain" in replanned.reason
@@ -42,7 +42,7 @@ def test_what_somebody_else_has_done_already_is_not_done_again() -> None:
     state = world({"carl": "c"}, {"crate": "a", "box": "a"})
     depot = Depot(WorldModel(state), {1.0: lambda world: world.commit([contain("b", "box")], "somebody")})
     execution = carried_out("lab:b contain lab:crate and lab:b contain lab:box", state, depot)
-    assert execution.status is Status.SUCCESS
+    assert execution.status == "succeeded"
     assert not any("box" in step for step in depot.log)
 
 
@@ -50,7 +50,7 @@ def test_a_goal_that_becomes_true_by_itself_ends_the_task() -> None:
     model, state = one_robot()
     depot = Depot(model, {1.0: lambda world: world.commit([contain("b", "crate")], "somebody")})
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.SUCCESS and execution.failure is None
+    assert execution.status == "succeeded" and execution.failure is None
     assert depot.now < 5.2 and not any("crate" in step for step in depot.log)
 
 
@@ -58,7 +58,7 @@ def test_a_step_that_failed_is_left_to_somebody_else() -> None:
     state = world({"carl": "a", "dora": "d"}, {"crate": "a"})
     depot = Depot(WorldModel(state), fails=lambda step, number: step.startswith("carl crate a"))
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.SUCCESS
+    assert execution.status == "succeeded"
     assert depot.log[0] == "carl crate a" and "dora crate a" in depot.log
 
 
@@ -66,7 +66,7 @@ def test_a_step_that_failed_is_done_in_another_way_where_there_is_one() -> None:
     model, state = one_robot()
     depot = Depot(model, fails=lambda step, number: "crate b" in step and number == 1)
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.SUCCESS and len(execution.attempts) == 2
+    assert execution.status == "succeeded" and len(execution.attempts) == 2
     calls = [node.name for each in execution.attempts for node in each.tree.nodes() if node.kind == "call"]
     assert [name for name in calls if "Unload" in name] == ["Unload[lower]", "Unload[tilt]"]
     (call,) = (node for node in execution.last.tree.nodes() if node.name == "Unload[tilt]")
@@ -79,7 +79,7 @@ def test_a_step_that_can_only_fail_again_is_not_repeated() -> None:
     model, state = one_robot()
     depot = Depot(model, fails=lambda step, number: "crate a" in step)
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.FAILURE and len(execution.attempts) == 1
+    assert execution.status == "failed" and len(execution.attempts) == 1
     assert depot.log == ["carl c a", "carl crate a"]
     assert execution.failure is not None and execution.failure.kind == "plan"
     assert execution.failure.message.replace(LAB, "lab:") == (
@@ -93,7 +93,7 @@ def test_when_all_ways_have_failed_each_is_listed_with_its_reason() -> None:
     model, state = one_robot()
     depot = Depot(model, fails=lambda step, number: "crate b" in step)
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.FAILURE and len(execution.attempts) == 2
+    assert execution.status == "failed" and len(execution.attempts) == 2
     assert execution.failure is not None
     assert all(f"Unload[{each}](" in execution.failure.message for each in ("lower", "tilt"))
 
@@ -103,11 +103,11 @@ def test_a_step_that_failed_is_tried_again_after_a_change_of_what_it_depends_on(
     away = {7.5: lambda world: world.commit([contain("d", "crate")], "somebody")}
     depot = Depot(model, away, fails=lambda step, number: "crate a" in step)
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.FAILURE and depot.log == ["carl c a", "carl crate a"]
+    assert execution.status == "failed" and depot.log == ["carl c a", "carl crate a"]
     away = {6.5: lambda world: world.commit([contain("d", "crate")], "somebody")}
     depot = Depot(WorldModel(state), away, fails=lambda step, number: "crate a" in step)
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.SUCCESS and "carl crate d" in depot.log
+    assert execution.status == "succeeded" and "carl crate d" in depot.log
 
 
 def test_a_change_elsewhere_is_no_reason_to_try_again() -> None:
@@ -115,7 +115,7 @@ def test_a_change_elsewhere_is_no_reason_to_try_again() -> None:
     elsewhere = {6.0: lambda world: world.commit([contain("b", "box")], "somebody")}
     depot = Depot(WorldModel(state), elsewhere, fails=lambda step, number: "crate a" in step)
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.FAILURE and depot.log == ["carl c a", "carl crate a"]
+    assert execution.status == "failed" and depot.log == ["carl c a", "carl crate a"]
 
 
 def test_a_cell_that_breaks_ends_the_task_at_once() -> None:
@@ -125,7 +125,7 @@ def test_a_cell_that_breaks_ends_the_task_at_once() -> None:
         raise OSError("the line is dead")
 
     execution = carried_out(MOVED, state, Depot(model, {1.0: breaks}))
-    assert execution.status is Status.FAILURE and len(execution.attempts) == 1
+    assert execution.status == "failed" and len(execution.attempts) == 1
     assert execution.failure is not None and "the line is dead" in execution.failure.message
 
 
@@ -133,12 +133,12 @@ def test_a_goal_that_has_become_unreachable_is_told_with_the_reason() -> None:
     model, state = one_robot()
     depot = Depot(model, {1.0: lambda world: world.commit([RemoveIndividual(iri("crate"))], "somebody")})
     execution = carried_out(MOVED, state, depot)
-    assert execution.status is Status.FAILURE
+    assert execution.status == "failed"
     assert execution.failure is not None and "lab:crate" in execution.failure.message.replace(LAB, "lab:")
 
 
 def test_a_goal_that_holds_already_needs_no_step() -> None:
     state = world({"carl": "c"}, {"crate": "b"})
     depot = Depot(WorldModel(state))
-    assert carried_out(MOVED, state, depot).status is Status.SUCCESS
+    assert carried_out(MOVED, state, depot).status == "succeeded"
     assert depot.log == []

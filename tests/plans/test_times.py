@@ -14,7 +14,6 @@ from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.schedule import Scheduled
-from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.changes import AddIndividual
 from skillc_runtime.world.state.model import WorldModel
 
@@ -68,5 +67,5 @@ def test_a_plan_is_over_when_its_times_say(name: str) -> None:
     assert isinstance(prepared, PreparedTask), prepared
     depot = Depot(WorldModel(state))
     execution = execute_task(prepared, library(), depot, [])  # type: ignore[arg-type]
-    assert execution.status is Status.SUCCESS, execution.failure
+    assert execution.status == "succeeded", execution.failure
     assert depot.now == pytest.approx(expected_s, abs=0.2), "as long as it was said to take"

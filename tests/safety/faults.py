@@ -191,7 +191,7 @@ def run(cell: SimulatedCell, scene: str, kind: str, phase: str) -> tuple[list[Ev
     execution = execute_task(
         prepared(cell, scene, f"{scene} {kind} {phase}"), LIBRARY, cell, (told.append,), interrupted=interrupted
     )
-    return told, execution.status.value
+    return told, execution.status
 
 
 def prepared(cell: SimulatedCell, scene: str, name: str) -> PreparedTask:

@@ -52,7 +52,7 @@ def test_a_primitive_that_breaks_leaves_a_stiff_hold(name: str, phase: str) -> N
     there = cell(scene)
     told, status = run(there, scene, name, phase)
     assert f"broke at {phase}" in reasons(told)
-    assert status == ("failure" if phase in ("start", "tick") else "halted")
+    assert status == ("failed" if phase in ("start", "tick") else "stopped")
     is_safe(there, scene)
 
 
@@ -73,7 +73,7 @@ def test_an_arm_that_takes_speeds_is_left_with_a_stiff_hold_as_well(name: str, p
     told, status = run(there, BY_SPEED, name, phase)
     assert there.arms[ARM[BY_SPEED]].interface == "velocity"
     assert f"broke at {phase}" in reasons(told)
-    assert status == ("halted" if phase == "halt" else "failure")
+    assert status == ("stopped" if phase == "halt" else "failed")
     is_safe(there, BY_SPEED)
 
 

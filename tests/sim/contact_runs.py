@@ -34,7 +34,7 @@ class Outcome:
 
     @property
     def succeeded(self) -> bool:
-        return self.execution.status.value == "success"
+        return self.execution.status == "succeeded"
 
     @property
     def why(self) -> str:

@@ -19,7 +19,6 @@ from skillc_runtime.backends.mujoco.variation import Variation, add_obstacles, d
 from skillc_runtime.evaluation.trials.disturbance import draw_disturbed_variation
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
-from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.labelled_text import format_fact
@@ -78,7 +77,7 @@ def stiff(facts: SceneSpec, seed: int) -> Variation:
 
 def test_a_pad_that_bounces_is_felt_and_the_wipe_fails() -> None:
     execution = wiped("clean_whiteboard", stiff)
-    assert execution.status is Status.FAILURE and execution.failure is not None
+    assert execution.status == "failed" and execution.failure is not None
     assert "contact with lab:Whiteboard-1 was lost for" in execution.failure.message
     after = execution.cell.world.snapshot()
     share = after.value(LAB + "Whiteboard-1", CONTACT_SHARE)
@@ -88,13 +87,13 @@ def test_a_pad_that_bounces_is_felt_and_the_wipe_fails() -> None:
 
 def test_a_pad_as_it_should_be_keeps_its_contact() -> None:
     execution = wiped("clean_whiteboard")
-    assert execution.status is Status.SUCCESS and execution.verified
+    assert execution.status == "succeeded" and execution.verified
     assert execution.cell.world.snapshot().value(LAB + "Whiteboard-1", CONTACT_SHARE) == pytest.approx(1.0, abs=0.02)
 
 
 def test_an_obstacle_is_not_taken_for_the_surface() -> None:
     execution = wiped("clean_desk", lambda facts, seed: add_obstacles(draw_variation(facts, seed), facts))
-    assert execution.status is Status.FAILURE
+    assert execution.status == "failed"
     assert execution.failure is not None and "lab:Desk-1.isClean is false" in execution.failure.message
     after = execution.cell.world.snapshot()
     coverage = after.value(LAB + "Desk-1", COVERAGE)
@@ -129,8 +128,8 @@ def test_a_part_that_is_let_go_in_the_air_is_not_said_to_be_placed() -> None:
     facts = [SetProperty(placing, name, value) for name, value in (*PLACING.items(), *IN_THE_AIR)]
     there = (AddIndividual(placing, (SKIROS + "PlacingPose",)), AddRelation(LAB + "Cell", HAS_A, placing), *facts)
     picked, placed = moved((PICK, "Place(arm: lab:Iiwa-1, object: lab:Eraser-1, to: lab:Cell)"), there)
-    assert picked.status is Status.SUCCESS and picked.verified, picked.failure
-    assert placed.status is Status.SUCCESS, placed.failure
+    assert picked.status == "succeeded" and picked.verified, picked.failure
+    assert placed.status == "succeeded", placed.failure
     assert placed.verified is False
     known = {format_fact(fact.fact): fact.known for fact in placed.facts}
     assert known["lab:Cell contain lab:Eraser-1"] == "assumed"
@@ -139,6 +138,6 @@ def test_a_part_that_is_let_go_in_the_air_is_not_said_to_be_placed() -> None:
 
 def test_a_part_that_slips_out_while_it_is_carried_fails_the_run() -> None:
     (picked,) = moved((PICK,), (SetProperty(LAB + "Eraser-1", WEIGHT, 7.0),))
-    assert picked.status is Status.FAILURE
+    assert picked.status == "failed"
     assert picked.failure is not None and "slips out of lab:Robotiq-1" in picked.failure.message
     assert not picked.cell.world.snapshot().holds(LAB + "Robotiq-1", CONTAIN, LAB + "Eraser-1")

@@ -13,7 +13,6 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
-from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.model import WorldModel
@@ -57,7 +56,7 @@ def test_pick_and_place_moves_the_object_and_the_world_model_knows(tmp_path: Pat
     assert isinstance(prepared, PreparedTask), prepared
     cell = SimulatedCell(WorldModel(state))
     execution = execute_task(prepared, outcome.value, cell)
-    assert execution.status is Status.SUCCESS, execution.failure
+    assert execution.status == "succeeded", execution.failure
     after = cell.world.snapshot()
     assert after.holds(LAB + "Cell", CONTAIN, LAB + "Eraser-1")
     assert not after.holds(LAB + "Robotiq-1", CONTAIN, LAB + "Eraser-1")

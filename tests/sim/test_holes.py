@@ -67,7 +67,7 @@ def test_all_that_is_to_be_wiped_is_wiped_and_no_hole_is_touched(changes: list[C
     execution = execute_task(prepared, library(), cell, [choices])
     wipings = find_wipings([execution.last.tree], choices, cell)
     result = summarise_run(execution, choices, library(), wipings)
-    assert result.status == "success", result.failure
+    assert result.status == "succeeded", result.failure
     assert result.wiping is not None
     assert result.wiping.coverage == 1.0
     assert result.wiping.contact_lost == 0.0

@@ -22,7 +22,6 @@ from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
-from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -68,7 +67,7 @@ def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int)
     choices = ChoiceListener()
     execution = execute_task(prepared, library(), cell, [choices])
     result = summarise_run(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
-    assert result.status == "success", result.failure
+    assert result.status == "succeeded", result.failure
     assert result.plan_optimal
     assert result.wiping is not None
     assert result.wiping.coverage >= 0.99
@@ -92,7 +91,7 @@ def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> No
 
     execution = execute_task(prepared, library(), cell, [choices], interrupted=interrupted)
     assert pushed == [True]
-    assert execution.status is Status.HALTED
+    assert execution.status == "stopped"
     assert at_rest(execution, ARMS[name])
 
 
@@ -108,7 +107,7 @@ def test_interrupted_while_driving_the_base_comes_to_rest() -> None:
 
     execution = execute_task(prepared, library(), cell, interrupted=interrupted)
     assert moving == [False]
-    assert execution.status is Status.HALTED
+    assert execution.status == "stopped"
     assert cell.is_at_rest()
 
 
@@ -135,6 +134,6 @@ def test_ctrl_c_halts_reports_and_exits_with_3(tmp_path: Path) -> None:
         process.kill()
     result = json.loads(output)
     assert process.returncode == 3
-    assert result["status"] == "halted"
+    assert result["status"] == "stopped"
     assert "interrupted" in result["failure"]
     assert (tmp_path / "report.html").is_file()

@@ -59,7 +59,7 @@ def names(calls: list[NodeOutcome]) -> list[str]:
 
 
 def check_quality(result: TaskResult) -> None:
-    assert result.status == "success", result.failure
+    assert result.status == "succeeded", result.failure
     assert {wiping.surface for wiping in result.wipings} == {"lab:Whiteboard-1", "lab:Table-1"}
     for wiping in result.wipings:
         assert wiping.coverage >= 0.99 and wiping.contact_lost <= 0.01

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import get_args
 
 import msgspec
 import numpy as np
@@ -171,7 +172,8 @@ def sample(cls: type) -> Event:
     for name, field in fields.items():
         kind = getattr(field.type, "__name__", str(field.type))
         if field.required:
-            made[name] = values.get(kind, () if "tuple" in str(field.type) else {})
+            several: object = () if "tuple" in str(field.type) else {}
+            made[name] = get_args(field.type)[0] if kind == "Literal" else values.get(kind, several)
     return cls(**made)  # type: ignore[no-any-return]
 
 

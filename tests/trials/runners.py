@@ -65,7 +65,7 @@ def good(seed: int, *works: Work) -> Trial:
     """Return a trial in which all is as it should be, but for the works that are given."""
     return Trial(
         seed=seed,
-        status="success",
+        status="succeeded",
         variation=f"reality {seed}",
         works=works or (wiping(),),
         coverage=1.0,

@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 from trials.runners import GOOD, good, wiped, wiping
 
-FAILURE = replace(good(1), status="failure", reason="nothing to push against", works=(), coverage=0.0)
+FAILURE = replace(good(1), status="failed", reason="nothing to push against", works=(), coverage=0.0)
 
 WORSE = {
     "coverage": ({"coverage": 0.999}, "coverage 99.9 %, wanted at least 100 %"),
@@ -78,7 +78,7 @@ def test_what_polishes_must_wipe_as_well() -> None:
 
 def test_a_fixture_that_is_blocked_is_not_said_to_be_done() -> None:
     (told,) = find_unmet_criteria(good(1, GOOD["inserting"]), "obstacle")
-    assert told.startswith("success, wanted a failure that says why: depth 100 % of the hole")
+    assert told.startswith("succeeded, wanted a failure that says why: depth 100 % of the hole")
     assert find_unmet_criteria(good(1), "obstacle") == ()
 
 
@@ -94,18 +94,18 @@ def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
 @pytest.mark.parametrize(
     ("disturbance", "trial", "said"),
     [
-        ("none", FAILURE, "failure: nothing to push against"),
+        ("none", FAILURE, "failed: nothing to push against"),
         ("none", replace(good(1), at_rest=False), "something still moved or pushed in the end"),
         ("none", replace(good(1), greatest_force_n=51.0), "a tool felt 51.0 N, the limit is 50 N"),
         ("none", replace(good(1), greatest_force_n=51.0, force_limit_n=None), None),
         ("missing", FAILURE, None),
-        ("missing", good(1), "success, wanted a failure that says why"),
-        ("missing", replace(FAILURE, reason=None), "failure, wanted a failure that says why"),
+        ("missing", good(1), "succeeded, wanted a failure that says why"),
+        ("missing", replace(FAILURE, reason=None), "failed, wanted a failure that says why"),
         ("missing", replace(FAILURE, status="crashed"), "crashed: nothing to push against"),
         ("push", replace(good(1), works=(wiping(coverage=0.9),)), None),
         ("push", replace(good(1), coverage=0.99), "coverage 99.0 %, wanted 100 % in the end"),
         ("push", replace(good(1), pushed=False), "there was no push: nothing is done along a path or in a search"),
-        ("push", FAILURE, "failure: nothing to push against"),
+        ("push", FAILURE, "failed: nothing to push against"),
         ("obstacle", FAILURE, None),
         ("obstacle", replace(FAILURE, greatest_force_n=60.0), "a tool felt 60.0 N, the limit is 50 N"),
     ],

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted
+from skillc_runtime.recording.events import FORMAT, EndState, Event, TaskEnded, TaskStarted
 from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.recording.history_builder import read_history
 from skillc_runtime.recording.writer import TraceWriter
@@ -17,6 +17,11 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 from tree.stage import PERIOD_S, Stage
 
+END_STATES: Mapping[Status, EndState] = {
+    Status.SUCCESS: "succeeded",
+    Status.FAILURE: "failed",
+    Status.HALTED: "stopped",
+}
 BEGIN = TaskStarted(time=0.0, format=FORMAT, task="play", library="stage")
 
 
@@ -29,7 +34,7 @@ def events_of(body: tree.Node, library: SkillLibrary, cell: Stage, ticks: int = 
             break
         cell.now += PERIOD_S
     run.halt("enough")
-    told.append(TaskEnded(time=cell.now, task="play", status=run.status.value, failure=run.failure))
+    told.append(TaskEnded(time=cell.now, task="play", status=END_STATES[run.status], failure=run.failure))
     return told
 
 

@@ -39,7 +39,7 @@ def test_the_folder_and_the_file_of_a_run_are_explained(run: Path) -> None:
 def test_json_has_the_run_or_the_answer(run: Path) -> None:
     story, answer = (json.loads(why(run, *each, "--json").stdout) for each in ((), ("Pick.gripper",)))
     (step,) = story["attempts"][0]["steps"]
-    assert (story["status"], step["number"], step["bindings"]["gripper"]["label"]) == ("failure", "1", "t:gripper")
+    assert (story["status"], step["number"], step["bindings"]["gripper"]["label"]) == ("failed", "1", "t:gripper")
     assert (answer["parameter"], answer["calls"]) == ("gripper", [step])
 
 

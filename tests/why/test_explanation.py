@@ -32,7 +32,7 @@ def told(story: RunHistory, question: str) -> str:
 
 def test_the_overview_numbers_the_steps_and_says_what_led_to_the_failure() -> None:
     lines = format_overview(picked(), "out").splitlines()
-    assert lines[0].startswith("play: failure after 0.0 s")
+    assert lines[0].startswith("play: failed after 0.0 s")
     assert lines[1].split()[:3] == ["1", "Pick[from_above]", "failure"]
     assert lines[2].strip() == "arm: t:arm, object: t:eraser, gripper: t:gripper, from: t:shelf"
     why = lines.index(next(line for line in lines if line.startswith("why: ")))

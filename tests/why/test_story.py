@@ -177,8 +177,8 @@ def test_a_recording_that_stops_has_no_status_and_says_what_ran() -> None:
 
 def test_the_end_of_a_task_is_that_of_its_story() -> None:
     failure = Failure(kind="plan", message="no way")
-    story = planned(TaskEnded(time=3.0, task="play", status="failure", failure=failure))
-    assert (story.status, story.failure, story.last) == ("failure", failure, 3.0)
+    story = planned(TaskEnded(time=3.0, task="play", status="failed", failure=failure))
+    assert (story.status, story.failure, story.last) == ("failed", failure, 3.0)
 
 
 def test_without_a_task_there_is_no_story() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Generic, TypeVar
@@ -22,7 +22,7 @@ from skillc_runtime.execution.plans.progress import measure_progress
 from skillc_runtime.execution.success_facts import collect_success_facts
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
+from skillc_runtime.recording.events import FORMAT, EndState, Listener, Replanned, TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, assumed_facts
 from skillc_runtime.recording.listeners import Listeners
@@ -30,6 +30,12 @@ from skillc_runtime.world.eval.conditions import evaluate
 
 MAX_ATTEMPTS = 4
 """How many plans are tried for one goal."""
+
+_END_STATES: Mapping[Status, EndState] = {
+    Status.SUCCESS: "succeeded",
+    Status.FAILURE: "failed",
+    Status.HALTED: "stopped",
+}
 
 CellT = TypeVar("CellT", bound=SteppedCell)
 
@@ -42,7 +48,7 @@ class Execution(Generic[CellT]):
     """
 
     attempts: tuple[AttemptResult, ...]
-    status: Status
+    status: EndState
     failure: Failure | None
     cell: CellT
     wall_time_s: float
@@ -82,9 +88,9 @@ def execute_task(
         emit(Replanned(time=cell.now, reason=attempts[-1].reason))
         attempts.append(run_attempt(following, context, attempts[-1].last_node))
     status, failure = _final_status(attempts[-1], following)
-    facts = _success_facts(attempts[-1], cell) if status is Status.SUCCESS else ()
+    facts = _success_facts(attempts[-1], cell) if status == "succeeded" else ()
     verified = _is_verified(status, facts)
-    emit(TaskEnded(time=cell.now, task=name, status=status.value, failure=failure, verified=verified, facts=facts))
+    emit(TaskEnded(time=cell.now, task=name, status=status, failure=failure, verified=verified, facts=facts))
     return Execution(tuple(attempts), status, failure, cell, perf_counter() - began, facts)
 
 
@@ -97,8 +103,8 @@ def _success_facts(last: AttemptResult, cell: SteppedCell) -> tuple[KnownFact, .
             return collect_success_facts(last.claims, cell.world)
 
 
-def _is_verified(status: Status, facts: tuple[KnownFact, ...]) -> bool | None:
-    return None if status is not Status.SUCCESS else not assumed_facts(facts)
+def _is_verified(status: EndState, facts: tuple[KnownFact, ...]) -> bool | None:
+    return None if status != "succeeded" else not assumed_facts(facts)
 
 
 def _next_attempt(attempts: Sequence[AttemptResult], context: RunContext) -> PreparedTask | NotStarted | None:
@@ -142,10 +148,10 @@ def _replan(assignment: Assignment, library: SkillLibrary, failures: FailedSteps
     return prepared
 
 
-def _final_status(last: AttemptResult, refusal: NotStarted | None) -> tuple[Status, Failure | None]:
-    """Return the status of the last attempt, or a failure if another plan was needed and there was none."""
+def _final_status(last: AttemptResult, refusal: NotStarted | None) -> tuple[EndState, Failure | None]:
+    """Return how the last attempt ended, or a failure if another plan was needed and there was none."""
     if refusal is None:
-        return last.status, last.failure
+        return _END_STATES[last.status], last.failure
     message = f"{last.reason}; no other plan was found: {refusal.reason}"
     source = last.failure.source if last.failure else None
-    return Status.FAILURE, Failure(kind="plan", message=message, source=source)
+    return "failed", Failure(kind="plan", message=message, source=source)

@@ -14,7 +14,10 @@ from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason,
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 4
+EndState: TypeAlias = Literal["succeeded", "failed", "stopped", "interrupted"]
+"""The states in which a task run ends; `interrupted` if its process or its machine died."""
+
+FORMAT = 5
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
@@ -141,13 +144,13 @@ class Resumed(_Event, tag="resumed", frozen=True, kw_only=True):
 
 
 class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
-    """A task ended; `facts` are those that its success rests on.
+    """A task ended in the state `status`; `facts` are those that its success rests on.
 
     `verified` is whether none of them is only assumed; None if the task did not succeed.
     """
 
     task: str
-    status: str
+    status: EndState
     failure: Failure | None = None
     verified: bool | None = None
     facts: tuple[KnownFact, ...] = ()

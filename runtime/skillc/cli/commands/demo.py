@@ -49,6 +49,6 @@ def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) 
     figure = out and write_comparison(out, [drawing for run in runs for drawing in run.drawings])
     if figure and not as_json:
         click.echo(f"side by side: {figure}")
-    if any(run.result.status != "success" for run in runs):
+    if any(run.result.status != "succeeded" for run in runs):
         return 3
     return 0 if all(run.written for run in runs) else 1

@@ -70,6 +70,6 @@ def command(
         print_json(ran.result)
     else:
         print_results([ran.result], out if ran.written else None)
-    if ran.result.status != "success" or (strict and not ran.result.verified):
+    if ran.result.status != "succeeded" or (strict and not ran.result.verified):
         return 3
     return 0 if ran.written else 1

@@ -6,6 +6,7 @@ from typing import Literal
 
 import msgspec
 
+from skillc_runtime.recording.events import EndState
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.world.state.labelled import LabelledValue
@@ -57,15 +58,16 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
-    """The result of a task. `plan_optimal` is None if nothing was planned; `failure` is why it did not succeed.
+    """The result of a task; one that did not start is `refused`, and `failure` is why it did not succeed.
 
-    `plan_quality` describes how good the plan is known to be, and for which problem. `facts` are those that a success
-    rests on; it is `verified` if none of them is only assumed. `plan` is the last plan; `replanned` is why each earlier
-    one was abandoned. `wipings` has one entry for each surface that was wiped, `wiping` is the first of them.
+    `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
+    which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
+    is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
+    was wiped, `wiping` is the first of them.
     """
 
     task: str
-    status: Literal["success", "failure", "halted", "refused"]
+    status: EndState | Literal["refused"]
     verified: bool | None = None
     facts: tuple[KnownFact, ...] = ()
     plan: tuple[StepResult, ...] = ()

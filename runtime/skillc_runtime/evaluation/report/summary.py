@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Literal
 
 import numpy as np
 from msgspec import structs
@@ -14,16 +13,9 @@ from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, Ta
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.execution.task_run import Execution
 from skillc_runtime.planning.plan import describe_quality
-from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
-
-STATUS_NAMES: Mapping[Status, Literal["success", "failure", "halted"]] = {
-    Status.SUCCESS: "success",
-    Status.FAILURE: "failure",
-    Status.HALTED: "halted",
-}
 
 
 def summarise_run(
@@ -41,7 +33,7 @@ def summarise_run(
     wall = execution.wall_time_s
     return TaskResult(
         task=last.prepared.assignment.name,
-        status=STATUS_NAMES[execution.status],
+        status=execution.status,
         verified=execution.verified,
         facts=execution.facts,
         plan=_make_steps(last.tree, choices, library),
@@ -127,9 +119,9 @@ def _describe_variation(cell: SimulatedCell) -> str:
 
 
 def _describe_failure(execution: Execution[SimulatedCell]) -> str | None:
-    """Return why a task failed, with the chain of failed calls, outermost first, or why it was halted."""
+    """Return why a task failed, with the chain of failed calls, outermost first, or why it was stopped."""
     failure = execution.failure
-    if failure is None or execution.status is Status.HALTED:
+    if failure is None or execution.status == "stopped":
         return failure.message if failure else None
     calls = " > ".join(f"{call.name} ({call.source})" for call in _failed_calls(execution.last.tree))
     return f"{failure.message}\n  in {calls}" if calls else failure.message

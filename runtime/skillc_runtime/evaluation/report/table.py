@@ -11,13 +11,14 @@ from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, Ta
 from skillc_runtime.recording.known_facts import assumed_facts, format_assumption, format_evidence, format_status
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
-STYLES = {"success": "bold green", "failure": "bold red", "refused": "bold red", "halted": "bold yellow"}
+END_STYLES = {"succeeded": "bold green", "failed": "bold red", "refused": "bold red"}
+STEP_STYLES = {"success": "bold green", "failure": "bold red", "halted": "bold yellow"}
 
 
 def render_table(result: TaskResult) -> RenderableType:
     """Return the table of one task: the plan with the chosen implementations, then the results."""
     words = format_status(result.status, result.verified)
-    title = Text.assemble((result.task, "bold"), "  ", (words, STYLES.get(words, STYLES["halted"])))
+    title = Text.assemble((result.task, "bold"), "  ", (words, END_STYLES.get(words, "bold yellow")))
     parts: list[RenderableType] = [title]
     parts += [Text(format_assumption(fact), style="yellow") for fact in assumed_facts(result.facts)]
     if result.failure:
@@ -36,7 +37,7 @@ def _render_plan(result: TaskResult) -> RenderableType:
         arguments = ", ".join(f"{name}: {format_value(value)}" for name, value in step.arguments.items())
         how = f"{step.implementation}: {format_choice_reason(step)}" if step.implementation else _describe_not_run(step)
         lines += [
-            Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STYLES.get(step.status, "")), how),
+            Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STEP_STYLES.get(step.status, "")), how),
             Padding(Text(arguments, style="dim"), (0, 0, 0, 4)),
         ]
     lines += [Text(f"  {each.skill:<25}{each.implementation}: {format_choice_reason(each)}") for each in result.choices]

@@ -7,9 +7,10 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_runtime.evaluation.measures.work import Work
+from skillc_runtime.recording.events import EndState
 
-Status: TypeAlias = Literal["success", "failure", "halted", "refused", "crashed"]
-"""How a task ended; `crashed` if its process ended without a result."""
+Status: TypeAlias = EndState | Literal["refused", "crashed"]
+"""How a task ended; `refused` if it did not start, `crashed` if its process ended without a result."""
 
 Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push"]
 """How a trial is disturbed: the work object is missing, an obstacle is in the way, or a person pushes the arm."""

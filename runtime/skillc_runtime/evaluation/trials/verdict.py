@@ -30,7 +30,7 @@ def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
             if trial.coverage < 1.0:
                 yield f"coverage {100 * trial.coverage:.1f} %, wanted 100 % in the end"
         case "missing":
-            if trial.status != "failure" or not trial.reason:
+            if trial.status != "failed" or not trial.reason:
                 yield f"{trial.status}, wanted a failure that says why"
         case "obstacle":
             yield from _false_claims(trial)
@@ -39,7 +39,7 @@ def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
 
 
 def _require_success(trial: Trial) -> Iterator[str]:
-    if trial.status != "success":
+    if trial.status != "succeeded":
         yield _describe_end(trial)
 
 
@@ -55,11 +55,11 @@ def _false_claims(trial: Trial) -> Iterator[str]:
     """Yield what a trial claims to have done although an obstacle was in the way."""
     fixed = [work for work in trial.works if isinstance(work, PressingWork | InsertingWork)]
     worked = [work for work in trial.works if isinstance(work, WipingWork | PolishingWork)]
-    if trial.status == "success" and worked and trial.coverage < 1.0:
-        yield f"success, wanted a failure that says why: coverage {100 * trial.coverage:.1f} %"
-    if trial.status == "success" and fixed:
+    if trial.status == "succeeded" and worked and trial.coverage < 1.0:
+        yield f"succeeded, wanted a failure that says why: coverage {100 * trial.coverage:.1f} %"
+    if trial.status == "succeeded" and fixed:
         claims = (_describe_unmet(value) for work in fixed for value in list_work_values(work))
-        yield f"success, wanted a failure that says why: {', '.join(claims)}"
+        yield f"succeeded, wanted a failure that says why: {', '.join(claims)}"
 
 
 def _describe_unmet(value: MetricValue) -> str:
