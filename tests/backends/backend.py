@@ -13,7 +13,7 @@ import numpy as np
 
 from simulation.cells import ARM, world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part_name
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.arm import Arm
 from skillc_runtime.motion.pose import Array

@@ -11,7 +11,7 @@ import numpy as np
 from simulation import cells
 from simulation.cells import ARM, LAB
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import box_geom_name
+from skillc_runtime.backends.simulation.names import box_geom_name
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import build_collision_model

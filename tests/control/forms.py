@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
-from skillc_runtime.backends.mujoco.arm_sensing import ArmSensing, LastLink, add_payload_mass, measure
-from skillc_runtime.backends.mujoco.coverage import add_dose
-from skillc_runtime.backends.mujoco.motors import update_servo_targets
 from skillc_runtime.backends.mujoco.wrist import low_pass
+from skillc_runtime.backends.simulation.arm_sensing import ArmSensing, LastLink, add_payload_mass, measure
+from skillc_runtime.backends.simulation.coverage import add_dose
+from skillc_runtime.backends.simulation.motors import update_servo_targets
 from skillc_runtime.control.command_validator import update_holding
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.limits import EXPECTED, SpeedLimit

@@ -8,7 +8,7 @@ import pytest
 from safety.test_faults import is_safe
 from simulation.cells import ARM, GRIPPER, LAB, SCENES, cell, run, world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part_name
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.safety import Workspace
 from skillc_runtime.motion.pose import Pose

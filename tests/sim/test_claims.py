@@ -14,8 +14,8 @@ from skillc_compiler.goals.parsing import parse_call
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.scene_spec import SceneSpec
-from skillc_runtime.backends.mujoco.variation import Variation, add_obstacles, draw_variation
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.variation import Variation, add_obstacles, draw_variation
 from skillc_runtime.evaluation.trials.disturbance import draw_disturbed_variation
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task

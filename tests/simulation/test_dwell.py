@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from skillc_runtime.backends.mujoco.recorder import COLUMNS
+from skillc_runtime.backends.simulation.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.metrics.lane_dwell import measure_lane_dwell
 from skillc_runtime.motion.lanes import plan_lanes

@@ -15,9 +15,9 @@ from menagerie import COLOUR, OURS, QUARTERS, SCALE, tetrahedron, write_collecti
 
 from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
-from skillc_runtime.backends.mujoco.model_builder import build_model, describe_model
-from skillc_runtime.backends.mujoco.scene_spec import SceneSpec, read_scene_spec
-from skillc_runtime.backends.mujoco.variation import draw_variation
+from skillc_runtime.backends.simulation.model_builder import build_model, describe_model
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.variation import draw_variation
 from skillc_runtime.film.look_cache import model_file
 from skillc_runtime.film.look_meshes import build_look_model
 from skillc_runtime.film.looks import Collection, Looks, LooksError, read_looks

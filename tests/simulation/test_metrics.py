@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from skillc_runtime.backends.mujoco.coverage import CoverageMap
-from skillc_runtime.backends.mujoco.recorder import COLUMNS
+from skillc_runtime.backends.simulation.coverage import CoverageMap
+from skillc_runtime.backends.simulation.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.metrics.wiping import WipingSetup, filter_high_pass, measure_wiping
 from skillc_runtime.motion.layout import Layout

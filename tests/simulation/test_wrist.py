@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from cells import ARM, GRIPPER, LAB, world
 
-from skillc_runtime.backends.mujoco.arm import Payload
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.arm import Payload
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel

@@ -184,7 +184,7 @@ def _run(
 
 def _model_with_meshes(cell: SimulatedCell, looks: str) -> Any:
     """Return the MuJoCo model of a cell with the meshes of that name. ServiceError if there are none."""
-    from skillc_runtime.backends.mujoco.model_builder import describe_model
+    from skillc_runtime.backends.simulation.model_builder import describe_model
     from skillc_runtime.film.look_meshes import build_look_model
     from skillc_runtime.film.looks import LooksError, read_looks
 

@@ -13,8 +13,8 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part_name
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.film.picture_files import FilmError, write_film, write_picture
 from skillc_runtime.film.props import make_props
 from skillc_runtime.film.rendering import CameraView, Picture, Quality, Renderer

@@ -11,7 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.names import part_name
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.film.look_cache import model_file
 from skillc_runtime.film.looks import Look, Looks, LooksError
 from skillc_runtime.motion.pose import Pose, exp, log, quaternion_from_rotation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, GripperSpec, SceneSpec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, GripperSpec, SceneSpec
 from skillc_runtime.world.state.data_sheet import sheet_of, text_of
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.world_state import WorldState

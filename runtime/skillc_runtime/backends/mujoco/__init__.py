@@ -1,4 +1,4 @@
-"""The simulated cell: a MuJoCo model built from the facts of a scene, its devices, recording and ground truth.
+"""The simulated cell with the physics of MuJoCo.
 
-Start with `cell`; `scene_spec` reads the facts, `model_builder` builds the model, `variation` draws how it differs.
+Start with `cell`; `simulation` beside this package builds the model and the devices.
 """

@@ -8,75 +8,40 @@ from __future__ import annotations
 
 from typing import Any
 
-from skillc_runtime.backends.mujoco.arm import Payload, SimulatedArm
 from skillc_runtime.backends.mujoco.grip import Grip, make_grip
-from skillc_runtime.backends.mujoco.names import part_name, weld_name
-from skillc_runtime.backends.mujoco.scene_spec import GripperSpec, ToolSpec
-from skillc_runtime.devices.gripper import working_face
-from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
+from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.names import weld_name
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
+from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
 """Fingers that have been slower than this for this time, at their goal or blocked, have arrived."""
 
-HANDLE, PAD = 4, 8
-"""Contact bits of handles and of the fingers' pads."""
 
-OPPOSING = -0.7
-"""Cosine below which two contact normals count as opposite sides."""
-
-
-class SimulatedGripper:
-    """One gripper of a simulated cell, implementing `Gripper`; contact is required for a grasp, a weld holds it."""
+class SimulatedGripper(ModelledGripper):
+    """One gripper of a simulated cell; contact is required for a grasp, a weld holds it."""
 
     def __init__(
         self,
         facts: GripperSpec,
         names: dict[str, str],
         tools: tuple[ToolSpec, ...],
-        arm: SimulatedArm,
+        arm: ModelledArm,
         model: Any,
         data: Any,
     ) -> None:
-        self._facts, self._names, self._arm, self._model, self._data = facts, names, arm, model, data
-        self._tools = {tool.individual: tool for tool in tools}
-        self._name = names[facts.individual]
-        self._actuator = model.actuator(part_name(self._name, "opening")).id
+        super().__init__(facts, names, tools, arm, model, data)
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
-        self.pads = frozenset(_pads(model, self._name))
-        self._set_opening(facts.first_opening_m)
-        self._still_since, self._holding, self._idle = 0.0, "", True
+        self._data.ctrl[self._actuator] = self._target = self._goal
+        self._still_since = 0.0
         self._grip: Grip | None = None
-
-    @property
-    def individual(self) -> str:
-        """The gripper's IRI."""
-        return self._facts.individual
-
-    @property
-    def max_opening_m(self) -> float:
-        """The greatest distance between the fingers in m."""
-        return self._facts.max_opening_m
-
-    @property
-    def max_force_n(self) -> float:
-        """The greatest grasping force in N."""
-        return self._facts.max_force_n
 
     @property
     def opening_m(self) -> float:
         """The measured distance between the fingers in m."""
         return float(self._length[0])
-
-    @property
-    def moving(self) -> bool:
-        """Whether the fingers still move, or were blocked just now."""
-        return not self._idle
-
-    @property
-    def holding(self) -> str | None:
-        """The IRI of the object that counts as held."""
-        return self._holding or None
 
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""
@@ -103,43 +68,6 @@ class SimulatedGripper:
             arrived = abs(self.opening_m - self._goal) < STILL_M_S
             self._idle = arrived or self._target == self._goal or self._is_at_force_limit()
 
-    def touches(self, thing: str) -> bool:
-        """Tell whether pads of at least two fingers touch an object from opposite sides."""
-        normals, _ = self._contacts_with(thing)
-        return any(one @ other < OPPOSING for one in normals for other in normals)
-
-    def attach(self, thing: str, in_tool_centre: Pose) -> None:
-        """Hold a touched object by a weld at its true pose; it becomes the arm's payload and tool centre point.
-
-        The arm assumes it at `in_tool_centre`. Raises RuntimeError if it is not touched from opposite sides.
-        """
-        if not self.touches(thing):
-            raise RuntimeError(f"the fingers do not touch {self._names[thing]} from both sides")
-        hand = self._model.body(part_name(self._name, "palm")).id
-        block = self._model.body(part_name(self._names[thing], "block")).id
-        truth = _pose(self._data, hand).inverse() @ _pose(self._data, block)
-        equality = self._model.equality(weld_name(self._name, self._names[thing])).id
-        force = abs(float(self._data.actuator_force[self._actuator]))
-        normals, friction = self._contacts_with(thing)
-        self._grip = make_grip(self._data, equality, hand, normals, friction, force)
-        row = self._model.eq_data[equality]
-        row[:3], row[3:6], row[6:10], row[10] = 0.0, truth.position, quaternion_from_rotation(truth.rotation), 1.0
-        self._data.eq_active[equality] = 1
-        self._holding, tool = thing, self._tools[thing]
-        self._set_grip_contact(thing, False)
-        centre = _pose(self._data, block).inverse().apply(self._data.subtree_com[block])
-        payload = Payload(tool.mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
-        self._arm.carry(payload, in_tool_centre @ working_face(tool.size))
-
-    def detach(self) -> None:
-        """Remove the weld; the arm's payload and tool centre point become those of the empty gripper."""
-        if not self._holding:
-            return
-        equality = self._model.equality(weld_name(self._name, self._names[self._holding])).id
-        self._set_grip_contact(self._holding, True)
-        self._data.eq_active[equality], self._holding, self._grip = 0, "", None
-        self._arm.carry_nothing()
-
     def slip_message(self, now: float) -> str | None:
         """Return a message if the held object slips, None while friction carries it.
 
@@ -158,55 +86,23 @@ class SimulatedGripper:
         self.detach()
         self.move(0.0, float(self._model.actuator_forcerange[self._actuator, 1]))
 
-    def move_with_base(self, motion: Pose) -> None:
-        """Move a held object with the base of the arm: new = motion @ old, in the world."""
-        if self._holding:
-            joint = self._model.joint(part_name(self._names[self._holding], "free"))
-            q = self._data.qpos[joint.qposadr[0] : joint.qposadr[0] + 7]
-            moved = motion @ Pose.of(q[:3], q[3:])
-            q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
+    def _hold(self, thing: str, in_palm: Pose) -> None:
+        """Activate the weld."""
+        equality = self._model.equality(weld_name(self._name, self._names[thing])).id
+        force = abs(float(self._data.actuator_force[self._actuator]))
+        normals, friction = self._contacts_with(thing)
+        self._grip = make_grip(self._data, equality, self._palm, normals, friction, force)
+        row, turn = self._model.eq_data[equality], quaternion_from_rotation(in_palm.rotation)
+        row[:3], row[3:6], row[6:10], row[10] = 0.0, in_palm.position, turn, 1.0
+        self._data.eq_active[equality] = 1
 
-    def _set_opening(self, opening_m: float) -> None:
-        """Set the opening at once: each joint of its tendon takes its share."""
-        tendon = int(self._model.actuator_trnid[self._actuator, 0])
-        first = int(self._model.tendon_adr[tendon])
-        span = slice(first, first + int(self._model.tendon_num[tendon]))
-        joints, shares = self._model.wrap_objid[span], self._model.wrap_prm[span]
-        self._data.qpos[self._model.jnt_qposadr[joints]] = opening_m / shares.sum()
-        self._data.ctrl[self._actuator] = self._goal = self._target = opening_m
-
-    def _set_grip_contact(self, thing: str, on: bool) -> None:
-        """Enable or disable contact of pads with an object: while a weld holds it, contact would only cost time."""
-        handle = self._model.geom(part_name(self._names[thing], "handle")).id
-        self._model.geom_contype[handle], self._model.geom_conaffinity[handle] = (HANDLE, PAD) if on else (0, 0)
-        if not on:
-            self.stop()
+    def _let_go(self, thing: str) -> None:
+        """Remove the weld."""
+        equality = self._model.equality(weld_name(self._name, self._names[thing])).id
+        self._data.eq_active[equality], self._grip = 0, None
 
     def _is_at_force_limit(self) -> bool:
         """Return whether the servo pushes with its greatest force."""
         return bool(
             abs(self._data.actuator_force[self._actuator]) > 0.95 * self._model.actuator_forcerange[self._actuator, 1]
         )
-
-    def _contacts_with(self, thing: str) -> tuple[list[Array], float]:
-        """Return the contact normals (3,), in the world, of pads on an object, and the least friction."""
-        contacts, handle = self._data.contact, self._model.geom(part_name(self._names[thing], "handle")).id
-        normals: list[Array] = []
-        frictions: list[float] = []
-        for index in range(self._data.ncon):
-            one, other = contacts.geom[index]
-            if {one, other} & self.pads and handle in (one, other):
-                normals.append(contacts.frame[index, :3] * (1.0 if one in self.pads else -1.0))
-                frictions.append(float(contacts.friction[index, 0]))
-        return normals, min(frictions, default=0.0)
-
-
-def _pads(model: Any, gripper: str) -> list[int]:
-    prefix = part_name(gripper, "")
-    return [
-        g for g in range(model.ngeom) if model.geom(g).name.startswith(prefix) and model.geom(g).name.endswith("_pad")
-    ]
-
-
-def _pose(data: Any, body: int) -> Pose:
-    return Pose(data.xpos[body].copy(), data.xmat[body].reshape(3, 3).copy())

@@ -8,9 +8,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.names import part_name, wrist_sensor_name
-from skillc_runtime.backends.mujoco.noise import Noise
-from skillc_runtime.motion.arrays import OutVector, Vector
+from skillc_runtime.backends.simulation.names import part_name, wrist_sensor_name
+from skillc_runtime.backends.simulation.noise import Noise
+from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array, Pose, skew
 
@@ -26,15 +26,24 @@ class Wrist:
     gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample.
     """
 
-    def __init__(self, model: Any, data: Any, gripper: str, time_constant_s: float, noise: Noise | None = None) -> None:
-        """Find the sensor of a gripper; `noise` is that of force, torque and acceleration (9,)."""
+    def __init__(
+        self,
+        model: Any,
+        data: Any,
+        gripper: str,
+        time_constant_s: float,
+        gain: OutMatrix,
+        readings: OutVector,
+        noise: Noise | None = None,
+    ) -> None:
+        """Find the sensor of a gripper, which writes `gain` and `readings`; `noise` is that of the readings (9,)."""
         first = model.sensor(wrist_sensor_name(gripper, "force")).adr[0]
         self._raw = data.sensordata[first : first + 9]
         self._share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
-        self.readings, self._started = np.zeros(9), False
+        self.gain, self.readings, self._started = gain, readings, False
         self._noise = noise
         self._hand_mass, self._hand_centre = _hand(model, part_name(gripper, "palm"))
-        self.gain, self._quiet = np.zeros((6, 9)), np.zeros(9)
+        self._quiet = np.zeros(9)
 
     def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
         """Set the tool centre point and a payload with its centre of mass (3,) in m, both in the sensor's frame."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
-from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
-from skillc_runtime.backends.mujoco.names import part_name
+from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
+from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import InsertingWork, Work
 from skillc_runtime.world.state.data_sheet import number_of

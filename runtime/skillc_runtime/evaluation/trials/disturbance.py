@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import assert_never
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.names import part_name
-from skillc_runtime.backends.mujoco.rng import rng_for
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec
-from skillc_runtime.backends.mujoco.variation import Variation, add_obstacles, draw_variation, make_all_absent
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.rng import rng_for
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
+from skillc_runtime.backends.simulation.variation import Variation, add_obstacles, draw_variation, make_all_absent
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import Activity

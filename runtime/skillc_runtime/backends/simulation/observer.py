@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.coverage import CoverageMap
-from skillc_runtime.backends.mujoco.names import contact_sensor_name, face_sensor_name, pressing_sensor_name
-from skillc_runtime.backends.mujoco.recorder import Recorder
-from skillc_runtime.backends.mujoco.scene_spec import ToolSpec
+from skillc_runtime.backends.simulation.coverage import CoverageMap
+from skillc_runtime.backends.simulation.names import contact_sensor_name, face_sensor_name, pressing_sensor_name
+from skillc_runtime.backends.simulation.recorder import Recorder
+from skillc_runtime.backends.simulation.scene_spec import ToolSpec
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation, draw_fixture
-from skillc_runtime.backends.mujoco.people import PersonVariation, draw_person
-from skillc_runtime.backends.mujoco.rng import rng_for
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
-from skillc_runtime.backends.mujoco.start_postures import draw_start
+from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation, draw_fixture
+from skillc_runtime.backends.simulation.people import PersonVariation, draw_person
+from skillc_runtime.backends.simulation.rng import rng_for
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
+from skillc_runtime.backends.simulation.start_postures import draw_start
 from skillc_runtime.motion.pose import Array, Pose, exp
 
 OBSTACLE_M = (0.03, 0.03, 0.012)

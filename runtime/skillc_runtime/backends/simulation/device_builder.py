@@ -8,9 +8,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
-from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
-from skillc_runtime.backends.mujoco.names import (
+from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
+from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation
+from skillc_runtime.backends.simulation.names import (
     box_geom_name,
     contact_sensor_name,
     face_sensor_name,
@@ -18,7 +18,7 @@ from skillc_runtime.backends.mujoco.names import (
     pressing_sensor_name,
     wrist_sensor_name,
 )
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, GripperSpec, ToolSpec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, GripperSpec, ToolSpec
 from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.world.state.data_sheet import SheetError

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_runtime.backends.mujoco.rng import rng_for
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
+from skillc_runtime.backends.simulation.rng import rng_for
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import build_collision_model

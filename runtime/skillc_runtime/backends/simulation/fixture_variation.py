@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
-from skillc_runtime.backends.mujoco.rng import rng_for
+from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
+from skillc_runtime.backends.simulation.rng import rng_for
 from skillc_runtime.motion.pose import Pose, exp
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 
-from skillc_runtime.backends.mujoco.friction import has_friction_range, read_friction_range
+from skillc_runtime.backends.simulation.friction import has_friction_range, read_friction_range
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import DataSheet, number_of, range_below, sheet_of

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.names import base_body_name
-from skillc_runtime.backends.mujoco.scene_spec import BaseSpec
+from skillc_runtime.backends.simulation.names import base_body_name
+from skillc_runtime.backends.simulation.scene_spec import BaseSpec
 from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 

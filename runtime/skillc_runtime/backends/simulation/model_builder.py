@@ -8,8 +8,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.device_builder import add_arm, add_fixture, add_pressing_sensor, add_tool
-from skillc_runtime.backends.mujoco.names import (
+from skillc_runtime.backends.simulation.device_builder import add_arm, add_fixture, add_pressing_sensor, add_tool
+from skillc_runtime.backends.simulation.names import (
     base_body_name,
     box_geom_name,
     hole_name,
@@ -17,8 +17,8 @@ from skillc_runtime.backends.mujoco.names import (
     part_name,
     weld_name,
 )
-from skillc_runtime.backends.mujoco.scene_spec import BaseSpec, SceneSpec, SurfaceSpec
-from skillc_runtime.backends.mujoco.variation import SurfaceVariation, Variation
+from skillc_runtime.backends.simulation.scene_spec import BaseSpec, SceneSpec, SurfaceSpec
+from skillc_runtime.backends.simulation.variation import SurfaceVariation, Variation
 from skillc_runtime.motion.layout import Hole
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.state.data_sheet import SheetError

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
-from skillc_runtime.backends.mujoco.arm import SimulatedArm
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec
+from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.gains import LawGains, UnknownController, read_gains
 from skillc_runtime.control.safety import SafetyLimits, Workspace
@@ -24,7 +24,7 @@ from skillc_runtime.world.state.terms import (
 )
 
 
-def make_driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> CompliantArmDriver:
+def make_driver(facts: ArmSpec, arm: ModelledArm, period_s: float) -> CompliantArmDriver:
     """Return the driver of an arm with the controller its facts name; SheetError if it or a gain is missing."""
     jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
@@ -37,7 +37,7 @@ def make_driver(facts: ArmSpec, arm: SimulatedArm, period_s: float) -> Compliant
     return CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
 
 
-def _switch_mode(facts: ArmSpec, arm: SimulatedArm, law: LawGains) -> None:
+def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
     """Switch the arm to the commands of the law; SheetError if it cannot, or has no force sensor that the law needs."""
     short = facts.sheet.state.vocabulary.short
     try:

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec
-from skillc_runtime.backends.mujoco.fixture_variation import FixtureVariation
-from skillc_runtime.backends.mujoco.names import part_name
+from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
+from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import SheetError
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from skillc_runtime.backends.mujoco.fixture_spec import FixtureSpec, read_fixtures
-from skillc_runtime.backends.mujoco.friction import read_friction_range
-from skillc_runtime.backends.mujoco.people import PersonSpec, read_people
+from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec, read_fixtures
+from skillc_runtime.backends.simulation.friction import read_friction_range
+from skillc_runtime.backends.simulation.people import PersonSpec, read_people
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.names import part_name
-from skillc_runtime.backends.mujoco.people import PersonSpec, PersonVariation
-from skillc_runtime.backends.mujoco.scene_spec import ArmSpec, SceneSpec
-from skillc_runtime.backends.mujoco.variation import Variation
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.people import PersonSpec, PersonVariation
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
+from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.motion.pose import Array
 

@@ -1,0 +1,238 @@
+"""An arm in the model of a cell: its measurements and its payload; a back-end moves it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.simulation.arm_sensing import (
+    BIAS,
+    CARRYING,
+    SPEED,
+    ArmSensing,
+    LastLink,
+    Q,
+    add_payload_mass,
+    measure,
+)
+from skillc_runtime.backends.simulation.motors import Joints, Motors, ServoGains, Servos, TorqueMotors
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.noise import Noise
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, Command, Mode
+from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.motion.pose import Array, Pose
+
+MASS_MATRIX_PERIOD_S = 0.01
+"""Period with which the mass matrix, which changes slowly, is computed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Payload:
+    """The assumed payload of an arm without its gripper: mass kg, centre of mass (3,) m in the last link's frame."""
+
+    mass_kg: float
+    centre: Array
+
+
+NO_PAYLOAD = Payload(0.0, np.zeros(3))
+
+
+class ModelledArm:
+    """One arm of a cell that is computed from a MuJoCo model, implementing `Arm`; subclasses move it.
+
+    It reads positions, motion axes and bias forces in `data`, so it is called after they have been computed. There is
+    one state, a read-only view of this object's buffers, updated by every call of `state`.
+    """
+
+    def __init__(
+        self,
+        facts: ArmSpec,
+        name: str,
+        gripper: str | None,
+        model: Any,
+        data: Any,
+        start: Array,
+        steps_per_command: int,
+        noise: Noise | None = None,
+    ) -> None:
+        """Place the joints at `start` (nv,) in rad; `noise` is that of the measured joint speeds."""
+        self._model, self._data = model, data
+        joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part_name(name, ""))]
+        first, count = int(model.jnt_dofadr[joints[0]]), len(joints)
+        q_first = int(model.jnt_qposadr[joints[0]])
+        actuator = _actuator_of(joints[0], model)
+        self._dofs = slice(first, first + count)
+        self._q, self._dq = data.qpos[q_first : q_first + count], data.qvel[self._dofs]
+        self._bias = data.qfrc_bias[self._dofs]
+        self._base = _root_body(model, model.jnt_bodyid[joints[0]], part_name(name, ""))
+        self._link = int(model.site_bodyid[model.site(part_name(name, "flange")).id])
+        self.limits = _limits(model, joints, actuator, facts)
+        self.fixed_tool = _fixed_tool(model, name, gripper)
+        self._hand = LastLink()
+        self._joints = np.zeros((4, count))
+        self._here = _blank(self._joints, self._hand.tool)
+        self._state = _read_only(self._here)
+        self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
+        self._weight, self._carrying, self._quiet = np.zeros(3), self._joints[CARRYING], np.zeros(count)
+        self._flange = _in_body(model.site(part_name(name, "flange")))
+        self._feels_force = facts.force_torque and gripper is not None
+        self._gain, self._readings = np.zeros((6, 9)), np.zeros(9)
+        self._sensing = self._make_sensing()
+        self._measure = bind(measure, self._sensing)
+        self._speed_noise = noise
+        self._configure(NO_PAYLOAD, self.fixed_tool)
+        self._q[:] = start
+        self._motors = self._make_motors(facts, slice(actuator, actuator + count), steps_per_command)
+
+    @property
+    def capabilities(self) -> Capabilities:
+        """The capabilities of the arm."""
+        return Capabilities(self._motors.modes, self._feels_force, self.limits)
+
+    @property
+    def interface(self) -> Mode:
+        """The kind of commands that the arm takes."""
+        return self._motors.mode
+
+    def switch(self, mode: Mode) -> None:
+        """Take commands of this kind, at rest until the first; ModeRefused if the arm does not offer it."""
+        self._motors.switch(mode)
+
+    @property
+    def base(self) -> Pose:
+        """The pose of the arm's base in the world."""
+        live = self._sensing.base
+        return Pose(live.position.copy(), live.rotation.copy())
+
+    def state(self) -> ArmState:
+        """Return the present state, in the arm's base frame."""
+        noise = self._speed_noise
+        self._measure(self._quiet if noise is None else noise.row())
+        if self._data.time >= self._next_mass_time:
+            self._update_mass_matrix()
+        return self._state
+
+    def command(self, command: Command) -> None:
+        """Take a command for the next step; TypeError for another kind than `interface`."""
+        self._motors.command(command)
+
+    def before_step(self) -> None:
+        """Set the actuators as commanded, or so that the arm holds still if commands have stopped."""
+        self._motors.before_step()
+
+    def carry(self, payload: Payload, tool_in_fixed: Pose) -> None:
+        """Configure a held object: its payload, and the tool centre point in the frame of the gripper's own."""
+        self._configure(payload, self.fixed_tool @ tool_in_fixed)
+
+    def carry_nothing(self) -> None:
+        """Configure the empty gripper."""
+        self._carrying[:] = 0.0
+        self._configure(NO_PAYLOAD, self.fixed_tool)
+
+    def _make_sensing(self) -> ArmSensing:
+        data, hand, here = self._data, self._hand, self._here
+        return ArmSensing(
+            joints=self._joints,
+            in_base=hand.in_base,
+            jacobian=here.jacobian,
+            wrench=here.wrench,
+            q=self._q,
+            dq=self._dq,
+            bias=self._bias,
+            on_link=hand.on_link,
+            motion_axes=data.cdof[self._dofs],
+            centre=data.subtree_com[self._model.body_rootid[self._link]],
+            link=_live_body(data, self._link),
+            base=_live_body(data, self._base),
+            weight=self._weight,
+            gain=self._gain,
+            readings=self._readings,
+        )
+
+    def _make_motors(self, facts: ArmSpec, actuators: slice, steps_per_command: int) -> Motors:
+        data, here, timestep = self._data, self._here, self._model.opt.timestep
+        joints = Joints(
+            data.ctrl[actuators], data.qfrc_applied[self._dofs], self._q, self._dq, self._bias,
+            here.bias, self._carrying, here.mass_matrix, self.limits.effort,
+        )  # fmt: skip
+        if not facts.has_servos:
+            return TorqueMotors(joints, timestep)
+        model = self._model
+        gains = ServoGains(model.actuator_gainprm[actuators, 0], -model.actuator_biasprm[actuators, 2])
+        return Servos(joints, facts.modes, timestep, gains, steps_per_command)
+
+    def _configure(self, payload: Payload, tool: Pose) -> None:
+        self.payload, self._next_mass_time = payload, 0.0
+        self._hand.configure(tool, self._flange.rotation, payload.centre)
+        np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
+
+    def _update_mass_matrix(self) -> None:
+        mujoco.mj_fullM(self._model, self._data, self._full_mass)
+        self._here.mass_matrix[:] = self._full_mass[self._dofs, self._dofs]
+        if self.payload.mass_kg > 0.0:
+            add_payload_mass(self._here.mass_matrix, self._hand.lever, self._here.jacobian, self.payload.mass_kg)
+        self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
+
+
+def _live_body(data: Any, body: int) -> Pose:
+    """Return the pose of a body in the world; its arrays change with the simulation."""
+    return Pose(data.xpos[body], data.xmat[body].reshape(3, 3))
+
+
+def _blank(joints: Array, tool: Pose) -> ArmState:
+    """Return a state whose q, dq and bias are rows of `joints`."""
+    count = joints.shape[1]
+    jacobian, mass = np.zeros((6, count)), np.zeros((count, count))
+    return ArmState(joints[Q], joints[SPEED], tool, jacobian, mass, joints[BIAS], np.zeros(6))
+
+
+def _read_only(state: ArmState) -> ArmState:
+    """Return read-only views of the same arrays."""
+    tool = Pose(*(_view(part) for part in (state.tool.position, state.tool.rotation)))
+    q, dq, jacobian, mass, bias, wrench = map(
+        _view, (state.q, state.dq, state.jacobian, state.mass_matrix, state.bias, state.wrench)
+    )
+    return ArmState(q, dq, tool, jacobian, mass, bias, wrench)
+
+
+def _view(array: Array) -> Array:
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def _actuator_of(joint: int, model: Any) -> int:
+    """Return the actuator of a joint; `actuator_trnid` of other actuators may be the index of a tendon."""
+    on_joints = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
+    return int(np.flatnonzero(on_joints & (model.actuator_trnid[:, 0] == joint))[0])
+
+
+def _root_body(model: Any, body: int, prefix: str) -> int:
+    """Return the outermost body of the arm that `body` belongs to."""
+    while model.body(model.body_parentid[body]).name.startswith(prefix):
+        body = int(model.body_parentid[body])
+    return int(body)
+
+
+def _fixed_tool(model: Any, name: str, gripper: str | None) -> Pose:
+    """Return the gripper's tool centre point, or the flange of an arm without gripper, in the last link's frame."""
+    flange = _in_body(model.site(part_name(name, "flange")))
+    return flange if gripper is None else flange @ _in_body(model.site(part_name(gripper, "tcp")))
+
+
+def _in_body(site: Any) -> Pose:
+    return Pose.of(site.pos, site.quat)
+
+
+def _limits(model: Any, joints: list[int], actuator: int, facts: ArmSpec) -> ArmLimits:
+    span = slice(actuator, actuator + len(joints))
+    force, control = model.actuator_forcerange[span, 1], model.actuator_ctrlrange[span, 1]
+    effort = force if facts.has_servos else control
+    sheet, count = facts.sheet, len(joints)
+    stated = sheet.has("jointAccelerations")
+    fastest = sheet.limits("jointAccelerations", count) if stated else np.full(count, np.inf)
+    return ArmLimits(model.jnt_range[joints].copy(), sheet.limits("jointSpeeds", count), effort.copy(), fastest)

@@ -1,0 +1,223 @@
+"""What cells that are computed from a MuJoCo model have in common: devices, controllers, world model, ground truth."""
+
+from __future__ import annotations
+
+import sys
+from abc import ABC, abstractmethod
+from collections.abc import Collection
+from typing import Any, Generic, TypeVar
+
+import mujoco
+
+from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.base import SimulatedBase
+from skillc_runtime.backends.simulation.button import SimulatedButton, make_buttons
+from skillc_runtime.backends.simulation.coverage import CoverageMap, SimulatedCamera
+from skillc_runtime.backends.simulation.driver_factory import make_driver
+from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.observer import SimulatedTruth, ToolObserver
+from skillc_runtime.backends.simulation.person import make_people
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DEVICE_STATE
+
+A = TypeVar("A", bound=ModelledArm)
+G = TypeVar("G", bound=ModelledGripper)
+
+
+class ModelledCell(ABC, Generic[A, G]):
+    """A cell in lock step, implementing `Cell` and `Backend`; subclasses make arms and grippers, and move everything.
+
+    `variation` is how reality differs from the facts of `scene`. Between calls of `advance` all measurements are of the
+    present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
+    """
+
+    def __init__(
+        self, world: WorldModel, scene: SceneSpec, variation: Variation, timestep_s: float, steps_per_command: int
+    ) -> None:
+        """Build the cell; controllers run every `steps_per_command` steps.
+
+        Raises SheetError or FrameError if facts are missing or contradict the models.
+        """
+        print_warnings()
+        self._world, self.scene, self.variation = world, scene, variation
+        self.model: Any = build_model(scene, variation, timestep_s)
+        self.data: Any = mujoco.MjData(self.model)
+        self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
+        self.arms, self._hands = self._make_arms()
+        self._grippers = {a.gripper.individual: self._hands[a.individual] for a in scene.arms if a.gripper}
+        names = scene.names
+        self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
+        self._compute_state()
+        self._drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
+        poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
+        self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
+        self._observers = {
+            tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
+        }
+        self.ground_truth: GroundTruth = SimulatedTruth(self._observers, poses)
+        self._camera = SimulatedCamera(self.coverage)
+        self.watchdog = HeartbeatWatchdog()
+        self._buttons = make_buttons(scene.fixtures, variation.fixtures, names, self.data)
+        self.people = make_people(scene, variation, self._drivers, self.data)
+        idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
+        world.commit(idle, "start of the cell", "reported")
+
+    @property
+    def now(self) -> float:
+        """The simulated time in s since the cell started."""
+        return float(self.data.time)
+
+    @property
+    def cell(self) -> ModelledCell[A, G]:
+        """The cell as skills see it."""
+        return self
+
+    @property
+    def clock(self) -> ModelledCell[A, G]:
+        """The clock of the cell."""
+        return self
+
+    @property
+    def broken(self) -> str | None:
+        """Why the cell cannot go on; None while it can."""
+        return None
+
+    def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
+        """Whether devices, all if None, neither move nor push."""
+        moving: dict[str, CompliantArmDriver | SimulatedBase] = {**self._drivers, **self._bases}
+        return all(each.at_rest for name, each in moving.items() if devices is None or name in devices)
+
+    @property
+    def period_s(self) -> float:
+        """The control period in s."""
+        return self._timestep * self._steps_per_command
+
+    @property
+    def world(self) -> WorldModel:
+        """The world model."""
+        return self._world
+
+    def arm(self, individual: str) -> CompliantArmDriver:
+        """Return an arm's driver; KeyError if the cell has no such arm."""
+        return self._drivers[individual]
+
+    def gripper(self, individual: str) -> G:
+        """Return a gripper; KeyError if the cell has no such gripper."""
+        return self._grippers[individual]
+
+    def base(self, individual: str) -> SimulatedBase:
+        """Return the mobile base of a robot; KeyError if it has none."""
+        return self._bases[individual]
+
+    def camera(self) -> SimulatedCamera:
+        """Return the camera that inspects surfaces."""
+        return self._camera
+
+    def button(self, individual: str) -> SimulatedButton:
+        """Return a button; KeyError if the cell has no such button."""
+        return self._buttons[individual]
+
+    def advance(self, seconds: float) -> None:
+        """Advance controllers and devices, step by step. ControlError if a controller cannot continue."""
+        for _ in range(round(seconds / self._timestep)):
+            self._advance_one()
+
+    def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
+        """Stop devices, all if None, and pushes, and restore releases; return what was not in order.
+
+        For the end of a run, however it ended; the result is empty after a regular end.
+        """
+        names, found = self.scene.names, []
+        for individual, arm in self._drivers.items():
+            if devices is not None and individual not in devices:
+                continue
+            if (fault := arm.take_fault()) is not None:
+                found.append(f"{names[individual]} had stopped: {fault}")
+            if arm.secure():
+                found.append(f"{names[individual]} was left yielding; it is held stiff again")
+        self._stop_devices(devices)
+        return tuple(found)
+
+    def close(self) -> None:
+        """Do nothing: a cell in lock step has no threads."""
+
+    @abstractmethod
+    def _make_arms(self) -> tuple[dict[str, A], dict[str, G]]:
+        """Return the arms, and the grippers by arm."""
+
+    @abstractmethod
+    def _compute_state(self) -> None:
+        """Compute what follows from the positions in `data`, at the start."""
+
+    @abstractmethod
+    def _move(self, now: float) -> None:
+        """Move everything by one step that begins at `now` s, and observe it."""
+
+    def _advance_one(self) -> None:
+        now = self.data.time
+        if self._step % self._steps_per_command == 0:
+            if self.watchdog.expired(now):
+                self._stop_all("the tree is not ticked any more")
+            for individual, one in self._drivers.items():
+                self._control(individual, one, now)
+        for gripper in self._grippers.values():
+            gripper.step(self._timestep)
+        for arm in self.arms.values():
+            arm.before_step()
+        for person in self.people:
+            person.step(now)
+        self._move(now)
+        self._step += 1
+
+    def _move_bases(self) -> None:
+        """Move bases, and what the arms on them hold, by one step."""
+        for robot, base in self._bases.items():
+            motion = base.step(self._timestep)
+            if motion is not None:
+                self._carry_along(robot, motion)
+
+    def _carry_along(self, robot: str, motion: Pose) -> None:
+        """Move objects held by the arms of a driving robot along with it."""
+        for arm in self.scene.arms:
+            if arm.robot == robot and arm.individual in self._hands:
+                self._hands[arm.individual].move_with_base(motion)
+
+    def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
+        """Run a control period of one arm; write to the world model, once, that it is broken."""
+        worked = arm.broken is None
+        try:
+            arm.step(now)
+        finally:
+            if worked and arm.broken is not None:
+                self._world.commit([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken, "reported")
+
+    def _stop_all(self, reason: str) -> None:
+        for arm in self._drivers.values():
+            arm.abort(reason)
+        self._stop_devices()
+
+    def _stop_devices(self, devices: Collection[str] | None = None) -> None:
+        """Stop grippers and bases, all if None."""
+        for name, gripper in self._grippers.items():
+            if gripper.moving and (devices is None or name in devices):
+                gripper.stop()
+        for name, base in self._bases.items():
+            if not base.at_rest and (devices is None or name in devices):
+                base.stop()
+
+
+def print_warnings() -> None:
+    """Print warnings of MuJoCo to stderr in this process; by default it writes MUJOCO_LOG.TXT."""
+    mujoco.set_mju_user_warning(_print_warning)
+
+
+def _print_warning(warning: str) -> None:
+    print(f"simulation: {warning}", file=sys.stderr)

@@ -1,0 +1,169 @@
+"""A gripper in the model of a cell: its fingers, what they touch, and what it holds; a back-end moves it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any
+
+from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
+from skillc_runtime.devices.gripper import working_face
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
+
+HANDLE, PAD = 4, 8
+"""Contact bits of handles and of the fingers' pads."""
+
+OPPOSING = -0.7
+"""Cosine below which two contact normals count as opposite sides."""
+
+
+class ModelledGripper(ABC):
+    """One gripper of a cell that is computed from a MuJoCo model, implementing `Gripper`; subclasses move it."""
+
+    def __init__(
+        self,
+        facts: GripperSpec,
+        names: dict[str, str],
+        tools: tuple[ToolSpec, ...],
+        arm: ModelledArm,
+        model: Any,
+        data: Any,
+    ) -> None:
+        self._facts, self._names, self._arm, self._model, self._data = facts, names, arm, model, data
+        self._tools = {tool.individual: tool for tool in tools}
+        self._name = names[facts.individual]
+        self._actuator = model.actuator(part_name(self._name, "opening")).id
+        self._palm = model.body(part_name(self._name, "palm")).id
+        self.pads = frozenset(_pads(model, self._name))
+        self._holding, self._idle, self._goal = "", True, facts.first_opening_m
+        self._set_fingers(facts.first_opening_m)
+
+    @property
+    def individual(self) -> str:
+        """The gripper's IRI."""
+        return self._facts.individual
+
+    @property
+    def max_opening_m(self) -> float:
+        """The greatest distance between the fingers in m."""
+        return self._facts.max_opening_m
+
+    @property
+    def max_force_n(self) -> float:
+        """The greatest grasping force in N."""
+        return self._facts.max_force_n
+
+    @property
+    @abstractmethod
+    def opening_m(self) -> float:
+        """The measured distance between the fingers in m."""
+
+    @property
+    def moving(self) -> bool:
+        """Whether the fingers still move, or were blocked just now."""
+        return not self._idle
+
+    @property
+    def holding(self) -> str | None:
+        """The IRI of the object that counts as held."""
+        return self._holding or None
+
+    @abstractmethod
+    def move(self, opening_m: float, force_n: float) -> None:
+        """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""
+
+    @abstractmethod
+    def stop(self) -> None:
+        """Stop the fingers at their present opening."""
+
+    @abstractmethod
+    def step(self, period_s: float) -> None:
+        """Advance the fingers by one step."""
+
+    def touches(self, thing: str) -> bool:
+        """Tell whether pads of at least two fingers touch an object from opposite sides."""
+        normals, _ = self._contacts_with(thing)
+        return any(one @ other < OPPOSING for one in normals for other in normals)
+
+    def attach(self, thing: str, in_tool_centre: Pose) -> None:
+        """Hold a touched object at its true pose; it becomes the arm's payload and tool centre point.
+
+        The arm assumes it at `in_tool_centre`. Raises RuntimeError if it is not touched from opposite sides.
+        """
+        if not self.touches(thing):
+            raise RuntimeError(f"the fingers do not touch {self._names[thing]} from both sides")
+        block = self._model.body(part_name(self._names[thing], "block")).id
+        self._hold(thing, self._pose(self._palm).inverse() @ self._pose(block))
+        self._holding, tool = thing, self._tools[thing]
+        self._set_grip_contact(thing, False)
+        centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
+        payload = Payload(tool.mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
+        self._arm.carry(payload, in_tool_centre @ working_face(tool.size))
+
+    def detach(self) -> None:
+        """Hold nothing; the arm's payload and tool centre point become those of the empty gripper."""
+        if not self._holding:
+            return
+        self._set_grip_contact(self._holding, True)
+        self._let_go(self._holding)
+        self._holding = ""
+        self._arm.carry_nothing()
+
+    def move_with_base(self, motion: Pose) -> None:
+        """Move a held object with the base of the arm: new = motion @ old, in the world."""
+        if self._holding:
+            q = self._free_joint(self._holding)
+            moved = motion @ Pose.of(q[:3], q[3:])
+            q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
+
+    @abstractmethod
+    def _hold(self, thing: str, in_palm: Pose) -> None:
+        """Fix an object to the palm, at its true pose there."""
+
+    @abstractmethod
+    def _let_go(self, thing: str) -> None:
+        """Release an object."""
+
+    def _set_fingers(self, opening_m: float) -> None:
+        """Set the opening at once: each joint of its tendon takes its share."""
+        tendon = int(self._model.actuator_trnid[self._actuator, 0])
+        first = int(self._model.tendon_adr[tendon])
+        span = slice(first, first + int(self._model.tendon_num[tendon]))
+        joints, shares = self._model.wrap_objid[span], self._model.wrap_prm[span]
+        self._data.qpos[self._model.jnt_qposadr[joints]] = opening_m / shares.sum()
+
+    def _set_grip_contact(self, thing: str, on: bool) -> None:
+        """Enable or disable contact of pads with an object: while it is held, contact would only cost time."""
+        handle = self._model.geom(part_name(self._names[thing], "handle")).id
+        self._model.geom_contype[handle], self._model.geom_conaffinity[handle] = (HANDLE, PAD) if on else (0, 0)
+        if not on:
+            self.stop()
+
+    def _contacts_with(self, thing: str) -> tuple[list[Array], float]:
+        """Return the contact normals (3,), in the world, of pads on an object, and the least friction."""
+        contacts, handle = self._data.contact, self._model.geom(part_name(self._names[thing], "handle")).id
+        normals: list[Array] = []
+        frictions: list[float] = []
+        for index in range(self._data.ncon):
+            one, other = contacts.geom[index]
+            if {one, other} & self.pads and handle in (one, other):
+                normals.append(contacts.frame[index, :3] * (1.0 if one in self.pads else -1.0))
+                frictions.append(float(contacts.friction[index, 0]))
+        return normals, min(frictions, default=0.0)
+
+    def _free_joint(self, thing: str) -> Array:
+        """Return the position (7,) of a free object, a view."""
+        first = int(self._model.joint(part_name(self._names[thing], "free")).qposadr[0])
+        position: Array = self._data.qpos[first : first + 7]
+        return position
+
+    def _pose(self, body: int) -> Pose:
+        return Pose(self._data.xpos[body].copy(), self._data.xmat[body].reshape(3, 3).copy())
+
+
+def _pads(model: Any, gripper: str) -> list[int]:
+    prefix = part_name(gripper, "")
+    return [
+        g for g in range(model.ngeom) if model.geom(g).name.startswith(prefix) and model.geom(g).name.endswith("_pad")
+    ]
