@@ -17,7 +17,7 @@ PAGE = ROOT / "docs/why.md"
 def test_the_lines_of_the_event_file_are_events(tmp_path: Path) -> None:
     (example,) = (block.text for block in blocks(PAGE) if block.language == "jsonl")
     (tmp_path / "events.jsonl").write_text(example, encoding="utf-8")
-    started, chosen = TraceReader(tmp_path / "events.jsonl")
+    started, chosen = TraceReader(tmp_path / "events.jsonl").events
     assert isinstance(started, TaskStarted)
     assert isinstance(chosen, ImplementationChosen) and chosen.bindings["force"] == Quantity(10.0, "N")
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import types
+import typing
+from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args, get_origin
 
 import msgspec
 import numpy as np
@@ -13,6 +17,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.recording import events
+from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import (
     Event,
     Highlight,
@@ -23,7 +28,8 @@ from skillc_runtime.recording.events import (
     WorldChanged,
 )
 from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.recording.reader import TraceReader
+from skillc_runtime.recording.publisher import Publisher
+from skillc_runtime.recording.reader import TraceError, TraceReader
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.state.changes import SetProperty
@@ -108,14 +114,15 @@ def test_a_listener_that_fails_is_told_no_more() -> None:
 def test_the_file_holds_what_was_told(tmp_path: Path) -> None:
     told: list[Event] = []
     with TraceWriter(tmp_path / "events.jsonl") as writer:
+        publish = Publisher("run", (writer,))
         run = TreeRun(
             sel(call("Kept", name="a", flag=FLAGS[0]), act("b")),
             Library().build(),
             Stage(world()),
-            (told.append, writer),
+            (told.append, publish),
         )
         run.tick()
-    assert list(TraceReader(tmp_path / "events.jsonl")) == told and told
+    assert list(TraceReader(tmp_path / "events.jsonl").events) == told and told
     assert writer.problem is None
 
 
@@ -123,10 +130,7 @@ def test_every_kind_of_event_survives_the_file(tmp_path: Path) -> None:
     kinds = [cls for cls in vars(events).values() if isinstance(cls, type) and issubclass(cls, events._Event)]
     samples = [sample(cls) for cls in kinds if cls is not events._Event]
     assert len(samples) >= 10
-    with TraceWriter(tmp_path / "events.jsonl") as writer:
-        for event in samples:
-            writer(event)
-    assert list(TraceReader(tmp_path / "events.jsonl")) == samples
+    assert list(TraceReader(written(tmp_path / "events.jsonl", samples)).events) == samples
 
 
 def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
@@ -146,10 +150,7 @@ def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
         NodeEnded(time=1.0, node=1, name="A", status="failure", failed_call=context, source=here),
         WorldChanged(time=1.0, origin="A", changes=changes, known="sensed"),
     ]
-    with TraceWriter(tmp_path / "events.jsonl") as writer:
-        for event in samples:
-            writer(event)
-    assert list(TraceReader(tmp_path / "events.jsonl")) == samples
+    assert list(TraceReader(written(tmp_path / "events.jsonl", samples)).events) == samples
 
 
 def test_a_failure_has_the_values_that_its_message_names() -> None:
@@ -164,31 +165,76 @@ def test_a_failure_has_the_values_that_its_message_names() -> None:
     assert str(SkillFailure("{braces} stay")) == "{braces} stay"
 
 
-def sample(cls: type) -> Event:
-    """Make an event with some value in each field."""
-    values = {"float": 1.5, "int": events.FORMAT, "str": "text", "Position": Position("a.skill", 1, 2)}
-    fields = {field.name: field for field in msgspec.structs.fields(cls)}
-    made = {}
-    for name, field in fields.items():
-        kind = getattr(field.type, "__name__", str(field.type))
-        if field.required:
-            several: object = () if "tuple" in str(field.type) else {}
-            made[name] = get_args(field.type)[0] if kind == "Literal" else values.get(kind, several)
-    return cls(**made)  # type: ignore[no-any-return]
+def written(path: Path, events: Sequence[Event]) -> Path:
+    """Write a recording to a file and return it."""
+    with TraceWriter(path) as writer:
+        publish = Publisher("run", (writer,))
+        for event in events:
+            publish(event)
+    assert writer.problem is None
+    return path
+
+
+def sample(cls: type) -> Any:
+    """Make an event, or a part of one, with some value in each required field."""
+    return cls(**{field.name: value(field.type) for field in msgspec.structs.fields(cls) if field.required})
+
+
+def value(kind: Any) -> Any:
+    """Make a value of a type."""
+    plain = {float: 1.5, int: events.FORMAT, str: "text", tuple: (), dict: {}}
+    match get_origin(kind):
+        case typing.Literal:
+            return get_args(kind)[0]
+        case typing.Union | types.UnionType:
+            return value(get_args(kind)[0])
+        case origin:
+            known = origin or kind
+            return plain[known] if known in plain else sample(known)
 
 
 def test_a_last_line_cut_short_is_left_out(tmp_path: Path) -> None:
-    path = tmp_path / "events.jsonl"
-    with TraceWriter(path) as writer:
-        writer(Note(time=1.0, message="one"))
-        writer(Note(time=2.0, message="two"))
+    path = written(tmp_path / "events.jsonl", [Note(time=1.0, message="one"), Note(time=2.0, message="two")])
     path.write_bytes(path.read_bytes()[:-5])
-    assert list(TraceReader(path)) == [Note(time=1.0, message="one")]
+    reader = TraceReader(path)
+    assert list(reader.events) == [Note(time=1.0, message="one")] and reader.is_truncated
+
+
+def test_events_are_numbered_and_a_line_that_is_missing_or_of_another_run_is_an_error(tmp_path: Path) -> None:
+    events = [Note(time=0.5 * number, message="all is well") for number in range(4)]
+    path = written(tmp_path / "events.jsonl", events)
+    envelopes = list(TraceReader(path))
+    assert [(each.run, each.sequence, each.cell_time_s) for each in envelopes] == [
+        ("run", number + 1, 0.5 * number) for number in range(4)
+    ]
+    assert all(one.wall_time_ns <= other.wall_time_ns for one, other in pairwise(envelopes))
+    first, second, *others = path.read_bytes().splitlines(keepends=True)
+    path.write_bytes(b"".join((first, *others)))
+    with pytest.raises(TraceError, match=r":2: event 2 of run is expected here, not event 3 of run$"):
+        list(TraceReader(path))
+    path.write_bytes(first + second.replace(b'"run":"run"', b'"run":"other"'))
+    with pytest.raises(TraceError, match=r":2: event 2 of run is expected here, not event 2 of other$"):
+        list(TraceReader(path))
+
+
+def test_a_recorder_that_raises_is_removed_and_the_others_go_on() -> None:
+    calls: list[Envelope] = []
+    kept: list[Envelope] = []
+
+    def broken(envelope: Envelope) -> None:
+        calls.append(envelope)
+        raise OSError("no space")
+
+    publish = Publisher("run", (broken, kept.append))
+    for number in range(3):
+        publish(Note(time=float(number), message="hm"))
+    assert len(calls) == 1 and [each.sequence for each in kept] == [1, 2, 3]
+    assert len(publish.problems) == 1 and "OSError: no space" in publish.problems[0]
 
 
 def test_a_full_disk_does_not_stop_the_run() -> None:
     writer = TraceWriter(Path("/dev/full"))
-    run = TreeRun(seq(act("a"), act("b")), Library().build(), Stage(world()), (writer,))
+    run = TreeRun(seq(act("a"), act("b")), Library().build(), Stage(world()), (Publisher("run", (writer,)),))
     assert run.tick() is Status.SUCCESS
     writer.close()
     assert writer.problem is not None and "No space left" in writer.problem and run.listener_problems == ()

@@ -9,9 +9,11 @@ from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import FORMAT, EndState, Event, TaskEnded, TaskStarted
+from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted
 from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.publisher import Publisher
+from skillc_runtime.recording.states import EndState
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -53,8 +55,9 @@ def written(folder: Path, events: Sequence[Event]) -> Path:
     """Write a recording."""
     folder.mkdir(exist_ok=True)
     with TraceWriter(folder / "events.jsonl") as writer:
+        publish = Publisher("run", (writer,))
         for event in events:
-            writer(event)
+            publish(event)
     assert writer.problem is None
     return folder
 

@@ -16,6 +16,7 @@ from tree.stage import Stage
 from why.stories import events_of, written
 from world.lab import iri
 
+NOTE = b'{"run":"x","sequence":1,"wall_time_ns":0,"event":{"type":"note","time":0.0,"message":"hm"}}\n'
 PICK = call("Pick", arm=Individual(iri("arm")), object=Individual(iri("eraser")))
 
 
@@ -71,9 +72,10 @@ def test_a_run_that_was_cut_short_is_explained_as_far_as_it_goes(run: Path) -> N
         (b'{"hello": 1}\n', ":1: this is not an event of skillc"),
         (b'["task-started"]\n', ":1: this is not an event of skillc"),
         (b"\xff\xfe\x00\n", ":1: this is not an event of skillc"),
-        (b'{"type":"note","time":0.0,"message":"hm"}\n{"type":"moon"}\n', ":2: this is not an event of skillc"),
-        (b'{"type":"task-started","format":99,"run":"x"}\n', ":1: a newer skillc wrote this (format 99"),
-        (b'{"type":"task-started","time":0.0,"format":3,"task":"x"}\n', ":1: an older skillc wrote this (format 3"),
+        (b'%s{"type":"moon"}\n' % NOTE, ":2: this is not an event of skillc"),
+        (NOTE + NOTE, ":2: event 2 of x is expected here, not event 1 of x"),
+        (b'{"event":{"type":"task-started","format":99},"run":"x"}\n', ":1: a newer skillc wrote this (format 99"),
+        (b'{"type":"task-started","time":0.0,"format":4,"task":"x"}\n', ":1: an older skillc wrote this (format 4"),
     ],
 )
 def test_a_file_that_is_no_recording_is_refused(tmp_path: Path, content: bytes, message: str) -> None:

@@ -25,7 +25,7 @@ def read_run(run: Path, reporter: Reporter) -> RunHistory:
         raise ServiceError(f"{path} {found.is_what}")
     reader = TraceReader(path)
     try:
-        story = read_history(reader)
+        story = read_history(reader.events)
     except TraceError as error:
         raise ServiceError(str(error)) from error
     except OSError as error:

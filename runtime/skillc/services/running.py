@@ -27,7 +27,9 @@ from skillc_runtime.film.film import Film, FilmFiles, Moment
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError
 from skillc_runtime.planning.planners import Planners
+from skillc_runtime.recording.envelope import make_run_id
 from skillc_runtime.recording.events import Event
+from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -162,8 +164,8 @@ def _run(
             film.sample()
 
     with monitor.interruption() as interrupted:
-        with _trace(options.out, reporter) as trace:
-            listeners = (choices, monitor) if trace is None else (choices, monitor, trace)
+        with _publisher(task.assignment.name, options.out, reporter) as publisher:
+            listeners = (choices, monitor) if publisher is None else (choices, monitor, publisher)
             execution = execute_task(prepared, task.library, cell, listeners, after_tick, interrupted)
         trees = [attempt.tree for attempt in execution.attempts]
         wipings = find_wipings(trees, choices, cell)
@@ -205,7 +207,7 @@ def _write_film(film: Film, folder: Path, wanted: Sequence[Moment], reporter: Re
 
 
 @contextmanager
-def _trace(folder: Path | None, reporter: Reporter) -> Iterator[TraceWriter | None]:
+def _publisher(task: str, folder: Path | None, reporter: Reporter) -> Iterator[Publisher | None]:
     if folder is None:
         yield None
         return
@@ -213,6 +215,6 @@ def _trace(folder: Path | None, reporter: Reporter) -> Iterator[TraceWriter | No
         folder.mkdir(parents=True, exist_ok=True)
         trace = TraceWriter(folder / "events.jsonl")
     with trace:
-        yield trace
+        yield Publisher(make_run_id(task), (trace,))
     if trace.problem is not None:
         reporter.say(f"warning: {trace.problem}")

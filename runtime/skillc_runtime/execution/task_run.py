@@ -22,10 +22,11 @@ from skillc_runtime.execution.plans.progress import measure_progress
 from skillc_runtime.execution.success_facts import collect_success_facts
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import FORMAT, EndState, Listener, Replanned, TaskEnded, TaskStarted
+from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, assumed_facts
 from skillc_runtime.recording.listeners import Listeners
+from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.eval.conditions import evaluate
 
 MAX_ATTEMPTS = 4

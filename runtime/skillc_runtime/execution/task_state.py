@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, get_args
+from typing import get_args
 
 from skillc_runtime.recording.commands import Command
-
-EndState: TypeAlias = Literal["succeeded", "failed", "stopped", "interrupted"]
-State: TypeAlias = Literal["queued", "planning", "planned", "running", "pausing", "paused", "stopping"] | EndState
-"""`queued`: waits for devices; `planned`: waits for approval; `interrupted`: the process or the machine died."""
+from skillc_runtime.recording.states import EndState, State
 
 ENDS: frozenset[str] = frozenset(get_args(EndState))
 

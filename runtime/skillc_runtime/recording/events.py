@@ -7,15 +7,16 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc_model.conditions import Condition
+from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
+from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
-
-EndState: TypeAlias = Literal["succeeded", "failed", "stopped", "interrupted"]
-"""The states in which a task run ends; `interrupted` if its process or its machine died."""
 
 FORMAT = 5
 """Raised with every change of the events or their meaning. Readers accept this format only."""
@@ -28,13 +29,37 @@ class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
-    """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events."""
+    """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
+
+    The objective is a `goal`, with what the plan minimises, or a `body` to run as it is. `scene` and `seed` are those
+    of the cell; `scene` is empty if the world came from elsewhere, for example from a store.
+    """
 
     format: int
     task: str
     library: str = ""
     hash: str = ""
+    scene: str = ""
+    seed: int = 0
+    goal: Condition | None = None
+    minimise: Literal["", "work", "makespan"] = ""
+    body: Node | None = None
     source: Position | None = None
+
+
+class StateChanged(_Event, tag="state-changed", frozen=True, kw_only=True):
+    """The task run is in another state, and why; its end is a `TaskEnded`."""
+
+    state: State
+    reason: str = ""
+
+
+class Requested(_Event, tag="requested", frozen=True, kw_only=True):
+    """A command was requested and took effect in a tick of the cell's loop; `refused` is why it changed nothing."""
+
+    command: Command
+    tick: int
+    refused: str = ""
 
 
 class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
@@ -43,6 +68,37 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
     skill: str
     arguments: dict[str, LabelledValue]
     source: Position | None = None
+
+
+class PartLeftOut(msgspec.Struct, frozen=True):
+    """A part of a planning problem that was left out; see `LeftOut` in `planning.plan`."""
+
+    kind: Literal["individuals", "skills", "steps"]
+    why: str
+    harmless: bool
+
+
+class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):
+    """A plan as the planner found it, with its steps in order; the fields are those of `Solved` in `planning.plan`."""
+
+    planner: str
+    optimal: str
+    duration_s: float
+    steps: tuple[PlanStep, ...]
+    left_out: tuple[PartLeftOut, ...] = ()
+    at_least_s: float | None = None
+    assumptions: tuple[str, ...] = ()
+
+
+class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
+    """The answer of a planner took effect in a tick of the cell's loop: a plan, or why there is none.
+
+    Neither if there was nothing to plan and the body that was given passed its checks.
+    """
+
+    tick: int
+    plan: ArrivedPlan | None = None
+    refused: str = ""
 
 
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
@@ -158,6 +214,9 @@ class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
 
 Event: TypeAlias = (
     TaskStarted
+    | StateChanged
+    | Requested
+    | PlanArrived
     | PlanMade
     | Replanned
     | NodeStarted

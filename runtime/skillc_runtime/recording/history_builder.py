@@ -55,6 +55,8 @@ class _HistoryBuilder:
                 self._record_changes(event)
             case events.TaskEnded():
                 self._ended = event
+            case events.StateChanged() | events.Requested() | events.PlanArrived():
+                pass
             case events.Note() | events.Paused() | events.Resumed():
                 pass
             case _:

@@ -1,4 +1,4 @@
-"""Reads the events of a recording one by one, so its size does not matter."""
+"""Reads the envelopes of a recording one by one, so its size does not matter."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import BinaryIO
 
 import msgspec
 
+from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import FORMAT, Event, TaskStarted
 
 MAX_LINE_BYTES = 1 << 24
@@ -22,7 +23,14 @@ class _Start(msgspec.Struct):
     format: int = 1
 
 
-_DECODER = msgspec.json.Decoder(Event)
+class _FirstLine(msgspec.Struct):
+    """The first line of a file: since format 5 an envelope with the first event, before that the event itself."""
+
+    event: _Start
+
+
+_DECODER = msgspec.json.Decoder(Envelope)
+_FIRST_LINE = msgspec.json.Decoder(_FirstLine)
 _START = msgspec.json.Decoder(_Start)
 
 
@@ -31,7 +39,7 @@ class TraceError(ValueError):
 
 
 class TraceReader:
-    """Yields the events of a file; TraceError at a line that is not an event, OSError if it cannot be read.
+    """Yields the envelopes of a file; TraceError at a line that is not the next one of the run, OSError if unreadable.
 
     An incomplete last line, which a crash may leave, is skipped and sets `is_truncated`.
     """
@@ -40,34 +48,53 @@ class TraceReader:
         self.path = path
         self.is_truncated = False
 
-    def __iter__(self) -> Iterator[Event]:
+    def __iter__(self) -> Iterator[Envelope]:
         self.is_truncated = False
+        run: str | None = None
         with self.path.open("rb") as file:
             for number, line in enumerate(_read_lines(file), start=1):
                 if line.endswith(b"\n"):
-                    yield self._decode(line, number)
+                    envelope = self._decode(line, number, run)
+                    run = envelope.run
+                    yield envelope
                 elif len(line) == MAX_LINE_BYTES:
                     raise TraceError(f"{self.path}:{number}: this is not an event: the line has no end")
                 else:
                     self.is_truncated = True
 
-    def _decode(self, line: bytes, number: int) -> Event:
+    @property
+    def events(self) -> Iterator[Event]:
+        """The events without their envelopes; raises the same errors."""
+        return (envelope.event for envelope in self)
+
+    def _decode(self, line: bytes, number: int, run: str | None) -> Envelope:
         if number == 1:
             self._check_format(line)
         try:
-            event: Event = _DECODER.decode(line)
+            envelope = _DECODER.decode(line)
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
             raise TraceError(f"{self.path}:{number}: this is not an event of skillc: {error}") from error
-        return event
+        if envelope.sequence != number or envelope.run != (run or envelope.run):
+            found = f"event {envelope.sequence} of {envelope.run}"
+            raise TraceError(f"{self.path}:{number}: event {number} of {run or 'a run'} is expected here, not {found}")
+        return envelope
 
     def _check_format(self, line: bytes) -> None:
         """Raise TraceError if the first line declares another format."""
-        with suppress(msgspec.DecodeError, UnicodeDecodeError):
-            start = _START.decode(line)
-            if start.type == TaskStarted.__struct_config__.tag and start.format != FORMAT:
-                version = "a newer" if start.format > FORMAT else "an older"
-                reads = f"format {start.format}; this one reads format {FORMAT}"
-                raise TraceError(f"{self.path}:1: {version} skillc wrote this ({reads})")
+        start = _read_start(line)
+        if start is not None and start.type == TaskStarted.__struct_config__.tag and start.format != FORMAT:
+            version = "a newer" if start.format > FORMAT else "an older"
+            reads = f"format {start.format}; this one reads format {FORMAT}"
+            raise TraceError(f"{self.path}:1: {version} skillc wrote this ({reads})")
+
+
+def _read_start(line: bytes) -> _Start | None:
+    """Return the first event of a file of any format; None if the line has none."""
+    with suppress(msgspec.DecodeError, UnicodeDecodeError):
+        return _FIRST_LINE.decode(line).event
+    with suppress(msgspec.DecodeError, UnicodeDecodeError):
+        return _START.decode(line)
+    return None
 
 
 def _read_lines(file: BinaryIO) -> Iterator[bytes]:

@@ -1,4 +1,4 @@
-"""Writes events to a file as JSON Lines; each is flushed when it happens."""
+"""Writes the envelopes of a run to a file as JSON Lines; each is flushed when it happens."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from types import TracebackType
 
 import msgspec
 
-from skillc_runtime.recording.events import Event
+from skillc_runtime.recording.envelope import Envelope
 
 
 class TraceWriter:
-    """A listener that appends every event to a file and flushes it; use it in a `with` statement.
+    """A recorder that appends every envelope to a file and flushes it; use it in a `with` statement.
 
     A write error never stops the robot: the writer stops writing and stores the reason in `problem`.
     """
@@ -23,11 +23,11 @@ class TraceWriter:
         self._encoder = msgspec.json.Encoder()
         self._file = path.open("wb")
 
-    def __call__(self, event: Event) -> None:
+    def __call__(self, envelope: Envelope) -> None:
         if self.problem is not None or self._file.closed:
             return
         try:
-            self._file.write(self._encoder.encode(event) + b"\n")
+            self._file.write(self._encoder.encode(envelope) + b"\n")
             self._file.flush()
         except OSError as error:
             self._give_up(error)

@@ -6,9 +6,9 @@ from typing import Literal
 
 import msgspec
 
-from skillc_runtime.recording.events import EndState
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.known_facts import KnownFact
+from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.labelled import LabelledValue
 
 

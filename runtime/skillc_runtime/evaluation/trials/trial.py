@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_runtime.evaluation.measures.work import Work
-from skillc_runtime.recording.events import EndState
+from skillc_runtime.recording.states import EndState
 
 Status: TypeAlias = EndState | Literal["refused", "crashed"]
 """How a task ended; `refused` if it did not start, `crashed` if its process ended without a result."""

@@ -1,0 +1,11 @@
+"""The states of a task run."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+EndState: TypeAlias = Literal["succeeded", "failed", "stopped", "interrupted"]
+"""The states in which a task run ends; `interrupted` if its process or its machine died."""
+
+State: TypeAlias = Literal["queued", "planning", "planned", "running", "pausing", "paused", "stopping"] | EndState
+"""The states of a task run; `queued` if it waits for devices, `planned` if its plan waits for approval."""
