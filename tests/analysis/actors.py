@@ -26,14 +26,18 @@ class Chance:
     notes: list[str] = field(default_factory=list)
     watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
 
+    def camera(self) -> Chance:
+        """Return what primitives look at: the cell itself, of which a run shows them only the devices."""
+        return self
+
 
 class Actor(Primitive):
     """Runs some ticks, then succeeds or fails; its effects are written by the engine."""
 
     def __init__(self, cell: Chance, **parameters: object) -> None:
         super().__init__(cell)  # type: ignore[arg-type]
-        self.chance, self.parameters = cell, parameters
-        self.left = cell.random.randint(1, 3)
+        self.chance, self.parameters = cell.camera(), parameters
+        self.left = self.chance.random.randint(1, 3)
 
     def start(self) -> None:
         if self.chance.random.random() < 0.1:

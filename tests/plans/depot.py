@@ -69,6 +69,10 @@ class Depot:
     watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
     log: list[str] = field(default_factory=list)
 
+    def camera(self) -> Depot:
+        """Return what primitives look at: the depot itself, of which a run shows them only the devices."""
+        return self
+
     def is_at_rest(self) -> bool:
         """Tell that nothing here moves."""
         return True
@@ -89,7 +93,7 @@ class Scripted(Primitive):
 
     def __init__(self, cell: Depot, *, robot: str, **others: str) -> None:
         super().__init__(cell)  # type: ignore[arg-type]
-        self._depot = cell
+        self._depot = cell.camera()
         named = {name: value.removeprefix(LAB) for name, value in others.items()}
         words = (named[key] for key in ("crate", "from", "to") if key in named)
         self._name = " ".join((robot.removeprefix(LAB), *words))

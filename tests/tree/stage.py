@@ -60,14 +60,22 @@ class Script:
 
 @dataclass
 class Stage:
-    """A cell whose clock the test moves; `log` is what primitives were told, `scripts` what they shall do in turn."""
+    """A cell whose clock the test moves; `log` is what primitives were told, `scripts` what they shall do in turn.
+
+    `away` are the primitives that do not come into contact when they approach.
+    """
 
     world: WorldModel
     scripts: dict[str, list[Script]] = field(default_factory=dict)
     now: float = 0.0
     log: list[tuple[float, str, str]] = field(default_factory=list)
     starts: dict[str, int] = field(default_factory=dict)
+    away: set[str] = field(default_factory=set)
     watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
+
+    def camera(self) -> Stage:
+        """Return what scripted primitives look at: the stage itself, of which a run shows them only the devices."""
+        return self
 
     def next_script(self, name: str) -> Script:
         """Return what the next run under this name does; the scripts repeat, without any it succeeds at once."""
@@ -90,9 +98,9 @@ class Scripted(Primitive):
 
     def __init__(self, cell: Stage, *, name: str, **rest: object) -> None:
         super().__init__(cell)  # type: ignore[arg-type]
-        self.stage = cell
+        self.stage = cell.camera()
         self.name = name
-        self.script = cell.next_script(name)
+        self.script = self.stage.next_script(name)
         self.left = self.script.ticks
 
     def start(self) -> None:
@@ -120,6 +128,13 @@ class Scripted(Primitive):
 
     def pause(self) -> None:
         self.stage.tell("pause", self.name)
+
+    def withdraw(self) -> None:
+        self.stage.tell("withdraw", self.name)
+
+    def approach(self) -> bool:
+        self.stage.tell("approach", self.name)
+        return self.name not in self.stage.away
 
     def resume(self) -> None:
         self.stage.tell("resume", self.name)
@@ -178,6 +193,11 @@ def world() -> WorldModel:
     flags = [change for iri in FLAGS for change in (AddIndividual(iri, (FLAG,)), SetProperty(iri, ON, True))]
     devices = [AddIndividual(iri, (DEVICE,)) for iri in DEVICES]
     return WorldModel(WorldState.empty(VOCABULARY).with_changes([*flags, *devices]))
+
+
+def stage(**scripts: Script) -> Stage:
+    """Return a stage on which each name does the same at every start."""
+    return Stage(world(), {name: [script] for name, script in scripts.items()})
 
 
 class Library:

@@ -7,7 +7,6 @@ import itertools
 import pytest
 
 from skillc_model import tree
-from skillc_model.conditions import Literal
 from skillc_model.skills import Compound, Skill
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
@@ -27,16 +26,12 @@ from tree.stage import (
     here,
     par,
     seq,
+    stage,
     with_,
     world,
 )
 
 LONG = Script(ticks=1000)
-
-
-def stage(**scripts: Script) -> Stage:
-    """Return a stage on which each name does the same at every start."""
-    return Stage(world(), {name: [script] for name, script in scripts.items()})
 
 
 def finish(run: TreeRun, stage: Stage, ticks: int = 20) -> Status:
@@ -90,36 +85,7 @@ def test_what_failed_by_itself_is_halted_then_undone() -> None:
     assert cell.said("halt", "release") == ["halt b", "release b"]
 
 
-def test_pause_and_resume_reach_what_runs_and_time_stands_still() -> None:
-    cell = stage(a=Script(ticks=2), b=LONG)
-    timed = tree.Timeout(seconds=Literal(1.0), child=act("b"), source=here())
-    run = TreeRun(par("all", act("a"), timed), Library().build(), cell)
-    run.tick()
-    run.tick()
-    run.pause()
-    run.pause()
-    cell.now += 100.0
-    assert run.tick() is Status.RUNNING and run.paused
-    run.resume()
-    run.resume()
-    assert cell.said("pause", "resume") == ["pause b", "resume b"]
-    assert run.tick() is Status.RUNNING
-    cell.now += 1.0
-    assert run.tick() is Status.FAILURE
-    assert run.failure is not None and run.failure.kind == "timeout"
-
-
-def test_a_paused_run_can_be_halted() -> None:
-    cell = stage(a=LONG)
-    run = TreeRun(act("a"), Library().build(), cell)
-    run.tick()
-    run.pause()
-    run.halt("enough")
-    run.resume()
-    assert run.status is Status.HALTED and cell.said() == ["start a", "tick a", "pause a", "halt a"]
-
-
-FAULTS = ("start", "tick", "halt", "release", "pause", "resume")
+FAULTS = ("start", "tick", "halt", "release", "pause", "withdraw", "approach", "resume")
 
 
 class Faulty(Scripted):
@@ -144,6 +110,13 @@ class Faulty(Scripted):
     def pause(self) -> None:
         self._fault("pause")
 
+    def withdraw(self) -> None:
+        self._fault("withdraw")
+
+    def approach(self) -> bool:
+        self._fault("approach")
+        return True
+
     def resume(self) -> None:
         self._fault("resume")
 
@@ -164,9 +137,11 @@ def test_scopes_are_undone_whatever_raises(where: str, kind: str, exit_by: str, 
     body = with_(names["inner"], call("Use", name=names["body"], device=DEVICES[0]))
     run = TreeRun(with_(names["outer"], body), Library("tree.test_lifecycle:Faulty").build(), cell, locks=locks)
     run.tick()
-    if where in ("pause", "resume"):
+    if where in ("pause", "withdraw", "approach", "resume"):
         run.pause()
+        run.withdraw()
         run.resume()
+        run.tick()
     if exit_by == "halt":
         run.halt("enough")
     finish(run, cell)

@@ -25,7 +25,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
 
 NAMES = ("bad-python-target", "missing-python", "wrong-python-parameters", "not-a-primitive")
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
-CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "resume": 0, "release": 0}
+CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "withdraw": 0, "approach": 0, "resume": 0, "release": 0}
 """The methods of a primitive that are called, with the number of arguments."""
 _Reader: TypeAlias = Callable[[str, str], TargetInfo]
 _TARGET = re.compile(r"([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*):([A-Za-z_]\w*)")

@@ -48,6 +48,12 @@ class MotionControl:
         return (task.joints or task.tool.reference_generator).at_rest(task.now)
 
     @property
+    def stationary(self) -> bool:
+        """Whether the reference stands still: its motion has ended and no overlay is left, or they are paused."""
+        task = self._task
+        return (task.joints or task.tool.reference_generator).stationary(task.now)
+
+    @property
     def tracking_error_message(self) -> str | None:
         """A message about the error of the arm along stiff axes; None if it is small."""
         task = self._task

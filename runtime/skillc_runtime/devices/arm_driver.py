@@ -107,6 +107,11 @@ class ArmMeasurements(Protocol):
         """The joints (nv,) in rad."""
         ...
 
+    @property
+    def still(self) -> bool:
+        """Whether all joints are at rest."""
+        ...
+
     def at_joints(self, q: Array) -> bool:
         """Tell whether the joints are at q (nv,) in rad."""
         ...
@@ -135,6 +140,11 @@ class MotionInterface(Protocol):
     @property
     def done(self) -> bool:
         """Whether the reference without overlays is at rest."""
+        ...
+
+    @property
+    def stationary(self) -> bool:
+        """Whether the reference stands still: its motion has ended and no overlay is left, or they are paused."""
         ...
 
     @property

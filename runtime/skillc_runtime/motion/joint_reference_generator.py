@@ -56,6 +56,10 @@ class JointReferenceGenerator:
         """Tell whether the reference is at rest."""
         return self.done(now)
 
+    def stationary(self, now: float) -> bool:
+        """Tell whether the reference stands still: at the end of the motion, or paused."""
+        return self._time.at(now)[1] == 0.0 or self.done(now)
+
     def pause(self, now: float) -> None:
         """Slow down to a standstill along the motion."""
         self._time = self._time.towards(0.0, now)

@@ -93,6 +93,11 @@ class ReferenceGenerator:
         """Tell whether the reference is at rest: the motion has ended and no overlay is left."""
         return self.done(now) and not self._overlays
 
+    def stationary(self, now: float) -> bool:
+        """Tell whether the reference stands still: at the end of the motion, or paused."""
+        stands = self._time.at(now)[1] == 0.0 or self.done(now)
+        return stands and (not self._overlays or self._overlay_time.at(now)[1] == 0.0)
+
     def pause(self, now: float) -> None:
         """Slow down to a standstill along the motion."""
         self._time, self._overlay_time = self._time.towards(0.0, now), self._overlay_time.towards(0.0, now)

@@ -50,6 +50,10 @@ class Primitive:
     Individuals are passed as IRIs, quantities in SI units, unset optional parameters as None. Any method may raise
     SkillFailure; raised by `start` it means that another implementation may be tried.
 
+    The time of the cell, `cell.now`, stands still while the run is paused. A pause concerns primitives that run, and
+    scoped ones until they are released. It begins with `pause`; if it lasts longer than a force may be kept, `withdraw`
+    follows and, at the end, `approach`; it ends with `resume` or `halt`.
+
     `activity` says what it does, for measures and disturbances. `highlights` are the moments worth a picture: of
     which parameter, and the word for what is seen then.
 
@@ -76,7 +80,14 @@ class Primitive:
         """Stop safely at once; called once after `start`, unless it raised SkillFailure or `tick` returned SUCCESS."""
 
     def pause(self) -> None:
-        """Stop moving until `resume`."""
+        """Stop moving until `resume`, but go on pressing."""
+
+    def withdraw(self) -> None:
+        """Let go of what is touched; called while paused, perhaps more than once."""
+
+    def approach(self) -> bool:
+        """Touch again what was touched before `withdraw`; called in each tick until it returns true."""
+        return True
 
     def resume(self) -> None:
         """Continue after `pause`."""

@@ -17,7 +17,16 @@ class PrimitiveError(Exception):
     """A primitive's class cannot be imported or has other parameters; the message says what to change."""
 
 
-METHOD_ARGUMENTS = {"start": (), "tick": (), "halt": ("why",), "pause": (), "resume": (), "release": ()}
+METHOD_ARGUMENTS = {
+    "start": (),
+    "tick": (),
+    "halt": ("why",),
+    "pause": (),
+    "withdraw": (),
+    "approach": (),
+    "resume": (),
+    "release": (),
+}
 """The methods of a primitive that are called, with placeholders for their arguments."""
 
 

@@ -207,7 +207,7 @@ def _build_body(
         case Primitive(python=python):
             cls = import_matching_primitive(python, implementation.parameters)
             names = [p.name for p in implementation.parameters if p.direction != "out"]
-            make = partial(cls, context.cell, **{name: frame.get(name) for name in names})
+            make = partial(cls, context.run_cell, **{name: frame.get(name) for name in names})
             undo = scope.undo if skill.scoped else None
             return PrimitiveNode(context, implementation.source, python.partition(":")[2], make, undo)
         case _:

@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.cell import Cell
+from skillc_runtime.execution.tree.active_primitives import ActivePrimitives
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
+from skillc_runtime.execution.tree.run_cell import RunCell
 from skillc_runtime.recording.events import Listener, Note
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.world_state import WorldState
@@ -19,10 +21,26 @@ class TreeContext:
 
     `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
-    calls back where the run pauses; None if it never does.
+    calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
+    that a pause concerns.
     """
 
-    __slots__ = ("_snapshot", "cell", "emit", "gate", "last_id", "library", "locks", "now", "paused_s", "state", "time")
+    __slots__ = (
+        "_own_offset",
+        "_snapshot",
+        "_stopped",
+        "active",
+        "cell",
+        "emit",
+        "gate",
+        "last_id",
+        "library",
+        "locks",
+        "now",
+        "run_cell",
+        "state",
+        "time",
+    )
 
     def __init__(
         self,
@@ -38,7 +56,9 @@ class TreeContext:
         self.emit = emit
         self.locks = locks
         self.gate = gate
-        self.paused_s = 0.0
+        self.run_cell = RunCell(cell)
+        self.active = ActivePrimitives()
+        self._stopped, self._own_offset = False, 0.0
         self.time = self.now = 0.0
         self.state: WorldState
         self.last_id = ids
@@ -53,8 +73,17 @@ class TreeContext:
     def begin_tick(self) -> None:
         """Read the clock and take the newest snapshot."""
         self.time = now = self.cell.now
-        self.now = now - self.paused_s
+        if not self._stopped:
+            self.now = self.run_cell.now = now - self._own_offset
         self.state = self._snapshot()
+
+    def stop_own_time(self) -> None:
+        """Let the run's own time stand still from this tick on."""
+        self._stopped = True
+
+    def resume_own_time(self) -> None:
+        """Let the run's own time go on from this tick on."""
+        self._stopped, self._own_offset = False, self.time - self.now
 
     def refresh_state(self) -> None:
         """Take the newest snapshot, after a write to the world."""

@@ -86,18 +86,6 @@ class Node:
         for child in reversed(self.children):
             child.halt(reason)
 
-    def pause(self) -> None:
-        """Pause all running descendants."""
-        for child in self.children:
-            if child.status is RUNNING:
-                child.pause()
-
-    def resume(self) -> None:
-        """Resume all running descendants."""
-        for child in self.children:
-            if child.status is RUNNING:
-                child.resume()
-
     def remains_satisfied(self) -> bool:
         """Whether the node has succeeded and its result is still valid in the current world."""
         return self.status is SUCCESS

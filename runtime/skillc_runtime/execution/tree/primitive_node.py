@@ -25,7 +25,8 @@ class PrimitiveNode(Node):
     After `start` was called, the primitive is halted exactly once, when the parent is halted or the primitive raises,
     except if `start` refused (`refused_to_start`) or `tick` succeeded. A scoped skill passes `undo`: its primitive is
     released exactly once unless `start` refused, immediately if it does not succeed, else by `undo`. After the release
-    `undo_posts` undoes the changes written by the posts.
+    `undo_posts` undoes the changes written by the posts. From its start until it ends, or is released, a pause of the
+    run concerns it.
     """
 
     kind: ClassVar[str] = "primitive"
@@ -57,6 +58,7 @@ class PrimitiveNode(Node):
                 self._undo.discard(self.release)
             return self.fail(self._failure(str(refusal), refusal.values))
         self.refused_to_start = False
+        self.context.active.add(primitive)
         return self.tick()
 
     def tick(self) -> Status:
@@ -73,6 +75,7 @@ class PrimitiveNode(Node):
     def stop(self, reason: str) -> None:
         if self._running and self._primitive is not None:
             self._running = False
+            self.context.active.discard(self._primitive)
             try:
                 self._primitive.halt(reason)
             except FOREIGN_ERRORS as error:  # the other nodes must be halted too
@@ -88,22 +91,17 @@ class PrimitiveNode(Node):
     def release(self) -> None:
         """Release the primitive, then undo the changes written by its posts; called by the undo stack."""
         assert self._primitive is not None, "release before start"
+        self.context.active.discard(self._primitive)
         self._primitive.release()
         if self.undo_posts is not None:
             self.undo_posts()
-
-    def pause(self) -> None:
-        if self._running and self._primitive is not None:
-            self._primitive.pause()
-
-    def resume(self) -> None:
-        if self._running and self._primitive is not None:
-            self._primitive.resume()
 
     def _on_finished(self, status: Status) -> Status:
         if status is SUCCESS:
             assert self._primitive is not None, "finished before start"
             self._running = False
+            if self._undo is None:
+                self.context.active.discard(self._primitive)
             self.outputs = dict(self._primitive.outputs)
             return self.succeed()
         if status is FAILURE:

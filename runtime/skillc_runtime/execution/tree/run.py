@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
@@ -18,10 +18,11 @@ from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
+from skillc_runtime.execution.tree.pause import Pause
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import Listener, Paused, Resumed
+from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.node_outcome import NodeOutcome
@@ -63,15 +64,25 @@ class TreeRun:
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
         self._root = build_node(body, self._context, LexicalScope(self._undo, failures=failures))
         self._path = ActivePath(self._root)
-        self._paused_at: float | None = None
+        self._pause = Pause(self._context)
         self._devices = FactMonitor(cell)
         self.status = Status.IDLE
         self.failure: Failure | None = None
 
     @property
     def paused(self) -> bool:
-        """Whether the run is paused."""
-        return self._paused_at is not None
+        """Whether the run is paused; also while withdrawn tools approach."""
+        return self._pause.phase != "none"
+
+    @property
+    def withdrawn(self) -> bool:
+        """Whether the tools of a paused run were taken off, and have not been brought back yet."""
+        return self._pause.phase in ("withdrawn", "approaching")
+
+    @property
+    def is_still(self) -> bool:
+        """Whether the devices that the run has used have come to rest; pushes may go on."""
+        return self._context.run_cell.is_still
 
     @property
     def last_node(self) -> int:
@@ -101,12 +112,13 @@ class TreeRun:
     def tick(self) -> Status:
         """Read the clock, take a snapshot of the world and tick the tree once; return the status.
 
-        While paused, only the heartbeat of the watchdog is sent.
+        While paused, it only sends the heartbeat, looks for faults of arms, and lets withdrawn tools approach.
         """
         if self.status not in _ALIVE:
             return self.status
-        if self._paused_at is not None:
-            return self._tick_paused()
+        if self.paused:
+            self._guard(self._tick_paused)
+            return self.status
         try:
             self._context.begin_tick()
             self._send_heartbeat()
@@ -149,27 +161,17 @@ class TreeRun:
             self.status, self.failure = Status.FAILURE, self._contradiction_failure(contradiction)
 
     def pause(self) -> None:
-        """Pause all running nodes and the run's own time."""
-        if self.status is not RUNNING or self.paused:
-            return
-        self._paused_at = self._context.cell.now
-        self._emit(Paused)
-        try:
-            self._root.pause()
-        except FOREIGN_ERRORS as error:  # the task's boundary: it reports, halts and ends
-            self.abort(error)
+        """Pause the active primitives and the run's own time; withdraw tools that approach again after a pause."""
+        if self.status is RUNNING:
+            self._guard(self._pause.begin)
+
+    def withdraw(self) -> None:
+        """Take the tools of a paused run off what they press on."""
+        self._guard(self._pause.withdraw)
 
     def resume(self) -> None:
-        """Continue after `pause`."""
-        if self._paused_at is None or self.status is not RUNNING:
-            return
-        self._context.paused_s += self._context.cell.now - self._paused_at
-        self._paused_at = None
-        self._emit(Resumed)
-        try:
-            self._root.resume()
-        except FOREIGN_ERRORS as error:  # the task's boundary: it reports, halts and ends
-            self.abort(error)
+        """Continue after `pause`; if tools were withdrawn, as soon as they are in contact again."""
+        self._guard(self._pause.end)
 
     def _send_heartbeat(self) -> None:
         cell = self._context.cell
@@ -191,13 +193,17 @@ class TreeRun:
     def _contradiction_failure(self, contradiction: str) -> Failure:
         return Failure(kind="contradiction", message=contradiction, source=self._root.source)
 
-    def _tick_paused(self) -> Status:
-        """Send the heartbeat while paused."""
+    def _tick_paused(self) -> None:
+        self._context.begin_tick()
+        self._send_heartbeat()
+        self._pause.tick()
+
+    def _guard(self, work: Callable[[], None]) -> None:
+        """Do something that calls primitives; an error fails the run."""
         try:
-            self._send_heartbeat()
-        except WatchdogTimeout as silence:
-            self.abort(silence)
-        return self.status
+            work()
+        except FOREIGN_ERRORS as error:  # the task's boundary: it reports, halts and ends
+            self.abort(error)
 
     def _start(self) -> Status:
         self.status = RUNNING
@@ -209,13 +215,8 @@ class TreeRun:
         if self._stop_listening is not None:
             self._stop_listening()
         self._context.cell.watchdog.retire(self)
-        self.status, self.failure, self._paused_at = status, failure, None
+        self.status, self.failure, self._pause.phase = status, failure, "none"
         return status
-
-    def _emit(self, event: type[Paused | Resumed]) -> None:
-        self._context.begin_tick()
-        if self._context.emit is not None:
-            self._context.emit(event(time=self._context.time))
 
     def _emit_world_change(self, event: ChangeEvent) -> None:
         self._listeners(make_change_event(event, self._context.time))

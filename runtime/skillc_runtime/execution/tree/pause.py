@@ -1,0 +1,75 @@
+"""The pause of a run: its own time stands still, tools are withdrawn if it lasts, and touch again before it ends."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.recording.events import Paused, Resumed
+
+APPROACH_S = 30.0
+"""How long, at the end of a pause, withdrawn tools may take until they are in contact again, in s of the cell."""
+
+PausePhase: TypeAlias = Literal["none", "kept", "withdrawn", "approaching"]
+"""kept: paused, tools go on pressing; withdrawn: they were taken off; approaching: they are to touch again."""
+
+
+class Pause:
+    """Pauses the active primitives of a run; `phase` is how far. Every method may raise what a primitive raises."""
+
+    def __init__(self, context: TreeContext) -> None:
+        self.phase: PausePhase = "none"
+        self._context = context
+        self._approach_by = 0.0
+
+    def begin(self) -> None:
+        """Pause; if tools approach again already, withdraw them."""
+        if self.phase == "none":
+            self.phase = "kept"
+            self._emit(Paused)
+            self._context.stop_own_time()
+            self._context.active.pause()
+        elif self.phase == "approaching":
+            self.phase = "withdrawn"
+            self._context.active.withdraw()
+
+    def withdraw(self) -> None:
+        """Take the tools off what they press on, unless that was done."""
+        if self.phase == "kept":
+            self.phase = "withdrawn"
+            self._context.active.withdraw()
+
+    def end(self) -> None:
+        """Go on, at once or, if tools were withdrawn, as soon as they are in contact again."""
+        if self.phase == "kept":
+            self._go_on()
+        elif self.phase == "withdrawn":
+            self.phase, self._approach_by = "approaching", self._context.cell.now + APPROACH_S
+
+    def tick(self) -> None:
+        """Look for faults of arms, and let withdrawn tools approach if the pause is to end."""
+        fault = self._context.run_cell.take_fault()
+        if fault is not None:
+            raise SkillFailure(fault)
+        if self.phase == "approaching":
+            self._approach()
+
+    def _approach(self) -> None:
+        waiting = self._context.active.approach()
+        if waiting is None:
+            self._go_on()
+        elif self._context.time > self._approach_by:
+            name = type(waiting).__name__
+            raise SkillFailure(f"{name} was not in contact again within {APPROACH_S:g} s of the end of the pause")
+
+    def _go_on(self) -> None:
+        self.phase = "none"
+        self._emit(Resumed)
+        self._context.resume_own_time()
+        self._context.active.resume()
+
+    def _emit(self, event: type[Paused | Resumed]) -> None:
+        self._context.begin_tick()
+        if self._context.emit is not None:
+            self._context.emit(event(time=self._context.time))

@@ -1,0 +1,72 @@
+"""The cell as the primitives of one run see it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from skillc_runtime.devices.arm_driver import ArmDriver
+from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.devices.cell import Cell, Watchdog
+from skillc_runtime.devices.gripper import Gripper
+from skillc_runtime.devices.sensors import Button, Camera
+
+if TYPE_CHECKING:
+    from skillc_runtime.world.state.model import WorldModel
+
+
+class RunCell:
+    """A view of a cell with the members of `Cell` only.
+
+    `now` is the run's own time in s, which stands still while the run is paused. `arms`, `grippers` and `bases` are
+    those that primitives of the run have asked for.
+    """
+
+    def __init__(self, cell: Cell) -> None:
+        self._cell = cell
+        self.now = cell.now
+        self.arms: dict[str, ArmDriver] = {}
+        self.grippers: dict[str, Gripper] = {}
+        self.bases: dict[str, MobileBase] = {}
+
+    @property
+    def world(self) -> WorldModel:
+        """The world model."""
+        return self._cell.world
+
+    @property
+    def watchdog(self) -> Watchdog:
+        """The watchdog of the cell."""
+        return self._cell.watchdog
+
+    @property
+    def is_still(self) -> bool:
+        """Whether the devices that primitives have asked for have come to rest; pushes may go on."""
+        return (
+            all(arm.motion.stationary and arm.measured.still for arm in self.arms.values())
+            and not any(gripper.moving for gripper in self.grippers.values())
+            and all(base.at_rest for base in self.bases.values())
+        )
+
+    def take_fault(self) -> str | None:
+        """Return why one of these arms stopped by itself, once; None if none did."""
+        return next((fault for arm in self.arms.values() if (fault := arm.take_fault()) is not None), None)
+
+    def arm(self, individual: str) -> ArmDriver:
+        """Return an arm's driver; KeyError if the cell has no such arm."""
+        return self.arms.setdefault(individual, self._cell.arm(individual))
+
+    def gripper(self, individual: str) -> Gripper:
+        """Return a gripper; KeyError if the cell has no such gripper."""
+        return self.grippers.setdefault(individual, self._cell.gripper(individual))
+
+    def base(self, individual: str) -> MobileBase:
+        """Return the mobile base of a robot; KeyError if it has none."""
+        return self.bases.setdefault(individual, self._cell.base(individual))
+
+    def camera(self) -> Camera:
+        """Return the camera that inspects surfaces."""
+        return self._cell.camera()
+
+    def button(self, individual: str) -> Button:
+        """Return a button; KeyError if the cell has no such button."""
+        return self._cell.button(individual)
