@@ -9,6 +9,8 @@ from typing import Literal, assert_never
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_model.tree import Node
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import arrange_plan, step_numbers
@@ -16,7 +18,7 @@ from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.schedule import Scheduled
-from skillc_runtime.planning.solve import solve
+from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -69,15 +71,21 @@ class NotStarted:
 
 
 def prepare_task(
-    assignment: Assignment, library: SkillLibrary, without: Sequence[Step] = (), planners: Planners | None = None
+    assignment: Assignment,
+    library: SkillLibrary,
+    without: Sequence[Step] = (),
+    planners: Planners | None = None,
+    cancel: CancelToken | None = None,
 ) -> PreparedTask | NotStarted:
     """Plan if there is a goal, and check everything that would keep the body from running, before anything moves.
 
-    The plan has none of the steps in `without`. `planners` defaults to those that are installed.
+    The plan has none of the steps in `without`. `planners` defaults to those that are installed; they search until
+    `cancel` ends them, by default for DEADLINE_S.
     """
     match assignment.objective:
         case AchieveGoal() as objective:
-            prepared = _prepare_plan(assignment, objective, library, without, planners or find_planners())
+            search = _Search(planners or find_planners(), cancel or CancelToken(DEADLINE_S))
+            prepared = _prepare_plan(assignment, objective, library, without, search)
         case ExecuteBody(body):
             prepared = PreparedTask(assignment, body, None)
         case _:
@@ -88,10 +96,46 @@ def prepare_task(
     return NotStarted("\n".join(map(str, refusals))) if refusals else prepared
 
 
-def _prepare_plan(
-    assignment: Assignment, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], planners: Planners
+def replan_task(
+    assignment: Assignment,
+    library: SkillLibrary,
+    failures: FailedSteps,
+    planners: Planners | None = None,
+    cancel: CancelToken | None = None,
 ) -> PreparedTask | NotStarted:
-    result = _plan(assignment.state, objective, library, without, planners)
+    """Plan without the steps that failed; if there is no such plan, without those that can only fail again.
+
+    Without failures this is `prepare_task`.
+    """
+    cancel = cancel or CancelToken(DEADLINE_S)
+    prepared = prepare_task(assignment, library, failures.steps, planners, cancel)
+    if isinstance(prepared, PreparedTask) or not failures.steps:
+        return prepared
+    without: tuple[Step, ...] = ()
+    while True:
+        prepared = prepare_task(assignment, library, without, planners, cancel)
+        if isinstance(prepared, NotStarted) or prepared.planned is None:
+            break
+        repeated = failures.find_repeated(prepared.planned.steps, assignment.state)
+        if not repeated:
+            return prepared
+        without = (*without, *repeated)
+    if without:
+        message = "all remaining alternatives have failed, and nothing that they depend on has changed"
+        return NotStarted(f"{message}: {failures.describe()}")
+    return prepared
+
+
+@dataclass(frozen=True, slots=True)
+class _Search:
+    planners: Planners
+    cancel: CancelToken
+
+
+def _prepare_plan(
+    assignment: Assignment, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
+) -> PreparedTask | NotStarted:
+    result = _plan(assignment.state, objective, library, without, search)
     if not isinstance(result, Solved):
         return NotStarted(result.message)
     arrangement = arrange_plan(result.plan, library, assignment.state)
@@ -100,13 +144,14 @@ def _prepare_plan(
 
 
 def _plan(
-    state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], planners: Planners
+    state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
 ) -> PlanResult:
+    planners, seconds = search.planners, search.cancel.remaining_s
     match objective.minimise:
         case "work":
-            return solve(library, state, objective.goal, planners.for_work, without=without)
+            return solve(library, state, objective.goal, planners.for_work, seconds, without)
         case "makespan":
-            result = minimise_makespan(library, state, objective.goal, planners, without=without)
+            result = minimise_makespan(library, state, objective.goal, planners, seconds, without)
             return result.as_solved() if isinstance(result, Scheduled) else result
         case _:
             assert_never(objective.minimise)

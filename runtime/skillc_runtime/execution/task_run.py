@@ -10,17 +10,15 @@ from typing import Generic, TypeVar
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import (
     AchieveGoal,
-    Assignment,
     ExecuteBody,
     NotStarted,
     PreparedTask,
-    prepare_task,
+    replan_task,
 )
 from skillc_runtime.execution.attempt import AttemptResult, RunContext, SteppedCell, run_attempt
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.progress import measure_progress
 from skillc_runtime.execution.success_facts import collect_success_facts
-from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
@@ -121,7 +119,7 @@ def _next_attempt(attempts: Sequence[AttemptResult], context: RunContext) -> Pre
         return None
     if len(attempts) == MAX_ATTEMPTS:
         return NotStarted(f"the task was tried {MAX_ATTEMPTS} times")
-    return _replan(replace(assignment, state=state), context.library, context.failures)
+    return replan_task(replace(assignment, state=state), context.library, context.failures)
 
 
 def _has_failed_step(last: AttemptResult, failures: FailedSteps) -> bool:
@@ -130,23 +128,6 @@ def _has_failed_step(last: AttemptResult, failures: FailedSteps) -> bool:
     if planned is None:
         return True
     return any(step in failures.steps for step in measure_progress(planned.steps, last.tree).with_status("failure"))
-
-
-def _replan(assignment: Assignment, library: SkillLibrary, failures: FailedSteps) -> PreparedTask | NotStarted:
-    """Plan without the steps that failed; if there is no such plan, without those that can only fail again."""
-    prepared = prepare_task(assignment, library, failures.steps)
-    if isinstance(prepared, PreparedTask) or not failures.steps:
-        return prepared
-    without: tuple[Step, ...] = ()
-    while isinstance(prepared := prepare_task(assignment, library, without), PreparedTask) and prepared.planned:
-        repeated = failures.find_repeated(prepared.planned.steps, assignment.state)
-        if not repeated:
-            return prepared
-        without = (*without, *repeated)
-    if without:
-        message = "all remaining alternatives have failed, and nothing that they depend on has changed"
-        return NotStarted(f"{message}: {failures.describe()}")
-    return prepared
 
 
 def _final_status(last: AttemptResult, refusal: NotStarted | None) -> tuple[EndState, Failure | None]:

@@ -43,7 +43,7 @@ class VersionedMap(Generic[K, V]):
             yield from self._base.items()
             return
         yield from (entry for entry in self._base.items() if entry[0] not in recent)
-        yield from (entry for entry in recent.items() if entry[1] is not empty)
+        yield from (entry for entry in recent.items() if entry[1] != empty)
 
     def with_changes(self, changes: Mapping[K, V]) -> VersionedMap[K, V]:
         """Return the next version; this one does not change."""
@@ -51,7 +51,7 @@ class VersionedMap(Generic[K, V]):
         if len(recent) <= 16 + 2 * isqrt(len(self._base)):
             return VersionedMap(self._empty, self._base, recent)
         merged = {**self._base, **recent}
-        return VersionedMap(self._empty, {key: value for key, value in merged.items() if value is not self._empty})
+        return VersionedMap(self._empty, {key: value for key, value in merged.items() if value != self._empty})
 
 
 class VersionedSet:

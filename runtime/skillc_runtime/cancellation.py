@@ -1,0 +1,54 @@
+"""Ends work that takes too long or is no longer wanted: one token is passed down to all that works on a request."""
+
+from __future__ import annotations
+
+import time
+from math import inf
+
+
+class Cancelled(Exception):
+    """The work was cancelled or ran out of time; the message is the reason."""
+
+
+class CancelToken:
+    """Says when work has to end: when its time is up, or when somebody calls `cancel`.
+
+    Any thread and any signal handler may cancel it. A pickled copy keeps the deadline; cancelling one of the two then
+    does not cancel the other.
+    """
+
+    def __init__(self, seconds: float = inf, whole: CancelToken | None = None) -> None:
+        """Allow `seconds` of wall-clock time from now on; as a part of `whole`, not more than that allows."""
+        self._end = time.monotonic() + seconds
+        self._why: str | None = None
+        self._whole = whole
+
+    def limited(self, seconds: float) -> CancelToken:
+        """Return the token of a part of the work: it ends after `seconds`, and not later than this one."""
+        return CancelToken(min(seconds, self.remaining_s), self)
+
+    def cancel(self, why: str) -> None:
+        """End the work; the first reason counts."""
+        if self._why is None:
+            self._why = why
+
+    @property
+    def cancelled_because(self) -> str | None:
+        """The reason that `cancel` was called with; None if it was not called."""
+        return self._why if self._why is not None or self._whole is None else self._whole.cancelled_because
+
+    @property
+    def remaining_s(self) -> float:
+        """The time that is left in s: 0 after the deadline and after `cancel`, infinite without a deadline."""
+        return 0.0 if self.cancelled_because is not None else max(self._end - time.monotonic(), 0.0)
+
+    @property
+    def reason(self) -> str | None:
+        """Why the work has to end now; None while it may go on."""
+        why = self.cancelled_because
+        return why if why is not None or time.monotonic() < self._end else "its time is up"
+
+    def check(self) -> None:
+        """Raise Cancelled if the work has to end now."""
+        if (reason := self.reason) is not None:
+            raise Cancelled(reason)

@@ -1,0 +1,149 @@
+"""Planning beside a loop that must not wait for it: in a process that can be killed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from skillc_model.skills import SkillLibrary
+from skillc_model.tree import Node
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.execution.assignment import (
+    AchieveGoal,
+    Assignment,
+    NotStarted,
+    PlannedSteps,
+    PreparedTask,
+    replan_task,
+)
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.plans.plan_body import build_plan_body
+from skillc_runtime.execution.selection.preflight import preflight
+from skillc_runtime.execution.worker_process import (
+    DEFAULT_START,
+    POLL_S,
+    Died,
+    StartMethod,
+    WorkerProcess,
+    WorkerResult,
+)
+from skillc_runtime.planning.arrangement import arrange_plan
+from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.solve import DEADLINE_S
+from skillc_runtime.planning.validation import PlanError, validate
+from skillc_runtime.world.state.world_state import WorldState
+
+GRACE_S = 2.0
+"""How long after its deadline a worker may take to answer that it found no plan in time, before it is killed."""
+
+Answer: TypeAlias = PreparedTask | NotStarted
+
+
+class PlanningJob:
+    """The planning of one assignment in a worker process: to be polled until there is an answer, or killed.
+
+    The answer equals that of `replan_task` in this process. If the worker dies, or does not end in time, the answer is
+    `NotStarted` with the reason. At the end of a `with` statement the worker is killed if it still runs.
+    """
+
+    def __init__(
+        self,
+        assignment: Assignment,
+        library: SkillLibrary,
+        failures: FailedSteps | None = None,
+        planners: Planners | None = None,
+        cancel: CancelToken | None = None,
+        deadline_s: float = DEADLINE_S,
+        start: StartMethod = DEFAULT_START,
+    ) -> None:
+        """Start planning without the steps in `failures`, for up to `deadline_s` or until it is cancelled.
+
+        OSError if no process can be started.
+        """
+        self._assignment, self._cancel = assignment, cancel or CancelToken()
+        self._answer: Answer | None = None
+        self._deadline = CancelToken(deadline_s + GRACE_S)
+        task = _PlanningTask(
+            assignment, library, failures or FailedSteps(library), planners, self._cancel.limited(deadline_s)
+        )
+        self._worker = WorkerProcess(task, start)
+
+    def __enter__(self) -> PlanningJob:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.kill()
+
+    def poll(self) -> Answer | None:
+        """Return the answer if there is one, else None; it never waits, unless a worker has to be ended now."""
+        return self.wait(0.0)
+
+    def wait(self, seconds: float) -> Answer | None:
+        """Wait for the answer for up to `seconds`; None if there is none yet."""
+        end = CancelToken(seconds)
+        self._look(0.0)
+        while self._answer is None and end.remaining_s > 0.0:
+            self._look(min(end.remaining_s, POLL_S))
+        return self._answer
+
+    def kill(self, why: str = "it was cancelled") -> None:
+        """End the worker and the planners that it runs within a few seconds, if there is no answer yet."""
+        if self._answer is None:
+            self._worker.kill()
+            self._answer = NotStarted(f"planning was stopped: {why}")
+
+    def _look(self, seconds: float) -> None:
+        """Wait for up to `seconds` for a result; end the worker if it may not go on."""
+        if self._answer is None and (result := self._worker.wait(seconds)) is not None:
+            self._answer = self._interpret(result)
+        elif (why := self._cancel.reason or self._deadline.reason) is not None:
+            self.kill(why)
+
+    def _interpret(self, result: WorkerResult) -> Answer:
+        if isinstance(result, Died):
+            return NotStarted(f"planning failed: {result.why}")
+        if isinstance(result.value, NotStarted):
+            return result.value
+        planned: _Planned = result.value
+        return PreparedTask(self._assignment, planned.body, planned.steps)
+
+
+def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: WorldState) -> str | None:
+    """Return why a body that was prepared for an earlier version of the world cannot run in `now`; None if it can.
+
+    The steps of a plan must still be possible, lead to the goal, and depend on each other as they did.
+    """
+    objective, planned = prepared.assignment.objective, prepared.planned
+    if planned is not None and isinstance(objective, AchieveGoal) and now is not prepared.assignment.state:
+        plan = planned.solved.plan
+        try:
+            validate(plan, library, now, objective.goal)
+            arrangement = arrange_plan(plan, library, now)
+        except PlanError as reason:
+            return str(reason)
+        if build_plan_body(plan, arrangement, library) != prepared.body:
+            return "its steps now depend on each other in another way"
+    return "\n".join(map(str, preflight(prepared.body, library, now))) or None
+
+
+@dataclass(frozen=True, slots=True)
+class _Planned:
+    """A prepared task without its assignment, which the parent has."""
+
+    body: Node
+    steps: PlannedSteps | None
+
+
+@dataclass(frozen=True, slots=True)
+class _PlanningTask:
+    """What the worker does."""
+
+    assignment: Assignment
+    library: SkillLibrary
+    failures: FailedSteps
+    planners: Planners | None
+    cancel: CancelToken
+
+    def __call__(self) -> _Planned | NotStarted:
+        answer = replan_task(self.assignment, self.library, self.failures, self.planners, self.cancel)
+        return answer if isinstance(answer, NotStarted) else _Planned(answer.body, answer.planned)

@@ -1,0 +1,139 @@
+"""Worker processes: they share nothing that could be destroyed, and nobody waits for one for ever."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import warnings
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from skillc_runtime.execution.worker_process import Died, Returned, StartMethod, WorkerProcess
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveIndividual, RemoveRelation
+from skillc_runtime.world.state.world_state import WorldState
+from world.lab import VOCABULARY, iri
+
+STARTS = pytest.mark.parametrize("start", ["fork", "spawn"])
+
+
+def numbers(count: int) -> bytes:
+    return bytes(count)
+
+
+def ignore_termination(ready: Path) -> None:
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    ready.touch()
+    signal.pause()
+
+
+def interrupt_group() -> str:
+    os.kill(os.getpid(), signal.SIGINT)
+    os.kill(os.getpid(), signal.SIGHUP)
+    return "still here"
+
+
+@STARTS
+def test_a_result_of_any_size_arrives_whole(start: StartMethod) -> None:
+    worker = WorkerProcess(partial(numbers, 3_000_000), start)
+    assert worker.wait(60.0) == Returned(bytes(3_000_000)) == worker.poll()
+
+
+@STARTS
+def test_signals_of_the_terminal_are_left_to_the_parent(start: StartMethod) -> None:
+    assert WorkerProcess(interrupt_group, start).wait(60.0) == Returned("still here")
+
+
+def test_a_worker_that_ignores_the_request_to_end_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("skillc_runtime.execution.worker_process.CLEANUP_S", 0.2)
+    worker = WorkerProcess(partial(ignore_termination, tmp_path / "ready"))
+    while not (tmp_path / "ready").exists():
+        assert worker.wait(0.01) is None
+    worker.kill()
+    assert worker.poll() == Died("it was killed")
+    with pytest.raises(ProcessLookupError):
+        os.kill(worker.pid, 0)
+
+
+def test_what_cannot_be_sent_back_is_said() -> None:
+    result = WorkerProcess(threading.Lock).wait(60.0)
+    assert isinstance(result, Died) and "cannot pickle" in result.why
+
+
+def test_a_fork_beside_other_threads_works_without_a_warning() -> None:
+    release, results = threading.Event(), []
+    other = threading.Thread(target=release.wait)
+    other.start()
+
+    def run() -> None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            results.append(WorkerProcess(partial(numbers, 3), "fork").wait(60.0))
+
+    from_thread = threading.Thread(target=run)
+    from_thread.start()
+    from_thread.join(60.0)
+    release.set()
+    other.join(60.0)
+    assert results == [Returned(bytes(3))]
+
+
+SHARING = """
+import atexit, gc, sys
+from skillc_runtime.execution.worker_process import WorkerProcess
+
+class Cycle:
+    def __init__(self):
+        self.me = self
+    def __del__(self):
+        print("collected", flush=True)
+
+def work():
+    gc.collect()
+    print("in the worker")
+    return 1
+
+gc.disable()
+Cycle()
+atexit.register(print, "at exit")
+buffered = open(sys.argv[1], "w")
+buffered.write("from the parent\\n")
+print("before the worker")
+print(WorkerProcess(work, "fork").wait(60.0))
+buffered.close()
+"""
+
+
+def test_a_fork_writes_and_destroys_nothing_of_its_parent(tmp_path: Path) -> None:
+    command = (sys.executable, "-c", SHARING, str(tmp_path / "file"))
+    said = subprocess.run(command, capture_output=True, text=True, timeout=60.0)
+    assert said.stderr == ""
+    assert sorted(said.stdout.splitlines()) == sorted(
+        ["before the worker", "in the worker", "Returned(value=1)", "at exit", "collected"]
+    )
+    assert (tmp_path / "file").read_text() == "from the parent\n"
+
+
+def facts(state: WorldState) -> tuple[object, ...]:
+    links = {iri: sorted(index.pairs()) for iri, index in state.facts.items()}
+    classes = {iri: sorted(types) for iri, types in state.direct.items()}
+    return links, classes, sorted(state.individuals)
+
+
+def test_a_world_that_was_sent_to_a_worker_changes_like_the_original() -> None:
+    changes: list[list[Change]] = [
+        [AddIndividual(iri(name), (iri("Location"),)) for name in ("hall", "room")],
+        [AddRelation(iri("hall"), iri("contain"), iri("room"))],
+        [RemoveRelation(iri("hall"), iri("contain"), iri("room"))],
+        [RemoveIndividual(iri("hall"))],
+    ]
+    state, sent = WorldState.empty(VOCABULARY), pickle.loads(pickle.dumps(WorldState.empty(VOCABULARY)))
+    for each in changes:
+        state, sent = state.with_changes(each), pickle.loads(pickle.dumps(sent.with_changes(each)))
+        assert facts(sent) == facts(state)
+    assert iri("hall") not in dict(sent.direct.items())
