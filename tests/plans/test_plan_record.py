@@ -1,0 +1,59 @@
+"""A plan survives its recording: what is restored runs and describes itself as before."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import msgspec
+import pytest
+
+from plans.depot import goal, library, world
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.plans.plan_body import build_plan_body
+from skillc_runtime.execution.plans.plan_record import record_plan, restore_plan
+from skillc_runtime.planning.arrangement import arrange_plan
+from skillc_runtime.planning.plan import LeftOut, Solved, describe_quality
+from skillc_runtime.recording.events import ArrivedPlan
+
+STATE = world({"ann": "a", "bob": "b"}, {"crate": "a", "box": "b"})
+TEXT = "lab:c contain lab:crate and lab:d contain lab:box"
+
+
+def planned() -> tuple[PreparedTask, Solved]:
+    prepared = prepare_task(Assignment("carry", STATE, AchieveGoal(goal(TEXT, STATE))), library())
+    assert isinstance(prepared, PreparedTask) and prepared.planned is not None, prepared
+    return prepared, prepared.planned.solved
+
+
+def through_a_file(solved: Solved) -> Solved:
+    content = msgspec.json.encode(record_plan(solved, library()))
+    return restore_plan(msgspec.json.decode(content, type=ArrivedPlan))
+
+
+def test_the_same_body_is_built_of_a_plan_that_was_recorded() -> None:
+    prepared, solved = planned()
+    restored = through_a_file(solved)
+    assert restored.plan == solved.plan and len(solved.plan.steps) > 2
+    arrangement = arrange_plan(restored.plan, library(), STATE)
+    assert build_plan_body(restored.plan, arrangement, library()) == prepared.body
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"optimal": "proven"}, "proved optimal"),
+        (
+            {
+                "optimal": "optimal for the filtered problem",
+                "left_out": (LeftOut({"a", "b"}, "far away", False), LeftOut(("c",), "not movable", True, "skills")),
+                "at_least_s": 3.5,
+            },
+            "optimal for the part of the scene that was planned with, any plan takes at least 3.5 s",
+        ),
+    ],
+)
+def test_a_recorded_plan_describes_its_quality_as_before(changes: dict[str, object], words: str) -> None:
+    solved = replace(planned()[1], assumptions=("Go takes 5 s",), **changes)  # type: ignore[arg-type]
+    restored = through_a_file(solved)
+    assert describe_quality(restored.optimal, restored.left_out, restored.at_least_s) == words
+    assert (restored.planner, restored.assumptions) == (solved.planner, solved.assumptions)
