@@ -11,7 +11,6 @@ from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.backends.mujoco.wrist import low_pass
 from skillc_runtime.backends.simulation.arm_sensing import ArmSensing, LastLink, add_payload_mass, measure
-from skillc_runtime.backends.simulation.coverage import add_dose
 from skillc_runtime.backends.simulation.motors import update_servo_targets
 from skillc_runtime.control.command_validator import update_holding
 from skillc_runtime.control.controllers import make_controllers
@@ -21,6 +20,7 @@ from skillc_runtime.control.safety import distance_outside, tool_speed
 from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import command_values
 from skillc_runtime.motion.arc import arc_through
+from skillc_runtime.motion.coverage import add_dose
 from skillc_runtime.motion.overlays import Circle, Lissajous
 from skillc_runtime.motion.path import join_segments, path_through
 from skillc_runtime.motion.pose import Pose, exp

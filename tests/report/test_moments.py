@@ -13,9 +13,8 @@ from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled import LabelledIri
 
 HERE = Position(path="press.skill", line=1, column=1)
-CELL: Any = SimpleNamespace(
-    scene=SimpleNamespace(arms=(SimpleNamespace(individual="http://lab#Arm"),), names={"http://lab#Arm": "lab:Arm"})
-)
+STATE: Any = SimpleNamespace(instances=lambda _: {"http://lab#Arm"})
+TRUTH: Any = SimpleNamespace()
 
 
 def call(number: int, status: str, started: float | None, ended: float | None, *below: NodeOutcome) -> NodeOutcome:
@@ -45,7 +44,7 @@ CHOICES = {
 
 def test_what_was_waited_for_is_seen_when_it_came() -> None:
     tree = call(1, "success", 0.0, 9.0, call(2, "success", 3.0, 4.0), call(3, "success", 5.0, 6.0))
-    assert find_moments((), [tree], CHOICES, CELL) == (
+    assert find_moments((), [tree], CHOICES, STATE, TRUTH) == (
         Moment("lab:Button pressed", 4.0, "http://lab#Arm"),
         Moment("lab:Hole found", 5.0, "http://lab#Arm"),
         Moment("lab:Hole filled", 6.0, "http://lab#Arm"),
@@ -54,4 +53,4 @@ def test_what_was_waited_for_is_seen_when_it_came() -> None:
 
 def test_what_did_not_come_is_not_to_be_seen() -> None:
     tree = call(1, "failure", 0.0, 9.0, call(2, "failure", 3.0, 4.0), call(3, "idle", None, None))
-    assert find_moments((), [tree], CHOICES, CELL) == ()
+    assert find_moments((), [tree], CHOICES, STATE, TRUTH) == ()

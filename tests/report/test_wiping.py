@@ -17,12 +17,15 @@ from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue, Quantity
-from skillc_runtime.world.state.terms import SURFACE, TOOL
+from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 
 HERE = Position("wash.skill", 1, 1)
-CLASSES = {"http://lab#Window": SURFACE, "http://lab#Sponge": TOOL, "http://lab#Arm": ""}
-STATE = SimpleNamespace(individuals=CLASSES, is_a=lambda individual, cls: CLASSES[individual] == cls)
-CELL: Any = SimpleNamespace(world=SimpleNamespace(snapshot=lambda: STATE), arms={"http://lab#Arm": None})
+CLASSES = {"http://lab#Window": SURFACE, "http://lab#Sponge": TOOL, "http://lab#Arm": ARM_DEVICE}
+STATE: Any = SimpleNamespace(
+    individuals=CLASSES,
+    is_a=lambda individual, cls: CLASSES[individual] == cls,
+    instances=lambda cls: {each for each, own in CLASSES.items() if own == cls},
+)
 
 
 def iri(name: str) -> LabelledIri:
@@ -59,12 +62,12 @@ TREE = call(1, 6.0, call(2, 2.0), call(3, 5.0))
 
 def test_a_surface_is_wiped_where_a_tool_is_pressed_and_led_along_a_path() -> None:
     wiping = Wiping("http://lab#Window", "http://lab#Arm", "http://lab#Sponge", 7.5, 1.0, ((2.0, 5.0),))
-    assert find_wipings([TREE], choices("press", "follow-path"), CELL) == (wiping,)
+    assert find_wipings([TREE], choices("press", "follow-path"), STATE) == (wiping,)
 
 
 def test_nothing_is_wiped_where_nothing_is_pressed_or_led() -> None:
-    assert find_wipings([TREE], choices("", "follow-path"), CELL) == ()
-    assert find_wipings([TREE], choices("press", ""), CELL) == ()
+    assert find_wipings([TREE], choices("", "follow-path"), STATE) == ()
+    assert find_wipings([TREE], choices("press", ""), STATE) == ()
 
 
 def test_only_primitives_know_the_names_of_shipped_skills() -> None:

@@ -16,7 +16,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, add_obstacles, draw_variation
-from skillc_runtime.evaluation.trials.disturbance import draw_disturbed_variation
+from skillc_runtime.evaluation.trials.trial_cell import draw_disturbed_variation
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import Execution, execute_task
 from skillc_runtime.scene.load import load_scene

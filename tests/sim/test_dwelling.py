@@ -50,7 +50,8 @@ def wiped(name: str) -> WipingResult:
     assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed=1), ChoiceListener()
     execution = execute_task(prepared, library, cell, [choices])
-    result = summarise_run(execution, choices, library, find_wipings([execution.last.tree], choices, cell))
+    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
+    result = summarise_run(execution, choices, library, wipings, cell)
     assert result.wiping is not None, result.failure
     return result.wiping
 

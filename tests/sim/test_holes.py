@@ -65,8 +65,8 @@ def test_all_that_is_to_be_wiped_is_wiped_and_no_hole_is_touched(changes: list[C
     assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed), ChoiceListener()
     execution = execute_task(prepared, library(), cell, [choices])
-    wipings = find_wipings([execution.last.tree], choices, cell)
-    result = summarise_run(execution, choices, library(), wipings)
+    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
+    result = summarise_run(execution, choices, library(), wipings, cell)
     assert result.status == "succeeded", result.failure
     assert result.wiping is not None
     assert result.wiping.coverage == 1.0

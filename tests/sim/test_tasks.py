@@ -66,7 +66,8 @@ def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int)
     prepared, cell = start(name, seed)
     choices = ChoiceListener()
     execution = execute_task(prepared, library(), cell, [choices])
-    result = summarise_run(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
+    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
+    result = summarise_run(execution, choices, library(), wipings, cell)
     assert result.status == "succeeded", result.failure
     assert result.plan_optimal
     assert result.wiping is not None

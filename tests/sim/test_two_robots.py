@@ -41,7 +41,8 @@ def run(name: str) -> tuple[TaskResult, dict[str, list[NodeOutcome]]]:
     assert isinstance(prepared, PreparedTask), prepared
     cell, choices = SimulatedCell(WorldModel(state), seed=4), ChoiceListener()
     execution = execute_task(prepared, library(), cell, [choices])
-    result = summarise_run(execution, choices, library(), find_wipings([execution.last.tree], choices, cell))
+    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
+    result = summarise_run(execution, choices, library(), wipings, cell)
     steps: dict[str, list[NodeOutcome]] = {}
     for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
         arm = choices[call.id].bindings["arm"]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from skillc_runtime.backends.simulation.coverage import CoverageMap
+from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Pose, exp
 

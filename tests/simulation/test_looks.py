@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from menagerie import COLOUR, OURS, QUARTERS, SCALE, tetrahedron, write_collecti
 
 from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
+from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.model_builder import build_model, describe_model
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import draw_variation
@@ -38,7 +40,12 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def seen(scene: str) -> tuple[SceneSpec, Looks]:
     state = load_scene(catalogue.scene_path(scene), vocabulary())
     facts = read_scene_spec(state)
-    return facts, read_looks(state, facts, "menagerie")
+    return facts, read_looks(state, prefixes(facts), "menagerie")
+
+
+def prefixes(facts: SceneSpec) -> Mapping[str, str]:
+    reality = draw_variation(facts, 3)
+    return ModelDrawing(facts, reality, build_model(facts, reality), None).prefixes
 
 
 def folder_of(cache: Path, collection: Collection) -> Path:
@@ -142,10 +149,9 @@ def test_a_missing_mesh_is_named(cache: Path) -> None:
 def test_looks_that_there_are_not_are_told_with_those_there_are() -> None:
     state = load_scene(catalogue.scene_path("iiwa_table"), vocabulary())
     with pytest.raises(LooksError, match="no looks menagery; there are primitive, menagerie"):
-        read_looks(state, read_scene_spec(state), "menagery")
-    bare = replace(read_scene_spec(state), arms=())
+        read_looks(state, prefixes(read_scene_spec(state)), "menagery")
     with pytest.raises(LooksError, match="menagerie has no model of any device in this scene"):
-        read_looks(state, bare, "menagerie")
+        read_looks(state, {}, "menagerie")
 
 
 def test_what_cannot_be_fetched_is_told_with_what_to_put_where(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:

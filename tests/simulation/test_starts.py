@@ -8,13 +8,13 @@ from cells import vocabulary, world
 
 from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation import start_postures as starts
-from skillc_runtime.backends.simulation.rng import rng_for
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.backends.simulation.start_postures import draw_start
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import build_collision_model
 from skillc_runtime.collision.scenery import read_scenery
+from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_documents, sheet_documents
 

@@ -14,6 +14,7 @@ from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -168,15 +169,17 @@ def _run(
             listeners = (choices, monitor) if publisher is None else (choices, monitor, publisher)
             execution = execute_task(prepared, task.library, cell, listeners, after_tick, interrupted)
         trees = [attempt.tree for attempt in execution.attempts]
-        wipings = find_wipings(trees, choices, cell)
-        result = summarise_run(execution, choices, task.library, wipings)
+        state, truth = cell.world.snapshot(), cell.ground_truth
+        wipings = find_wipings(trees, choices, state)
+        result = summarise_run(execution, choices, task.library, wipings, cell)
         if options.out is None or film is None:
             return RunResult(result)
         monitor.say("writing the report")
-        drawings = tuple(make_wiping_drawing(wiping, cell) for wiping in wipings)
+        drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in wipings)
         try:
             with writing_to(options.out):
-                filmed = _write_film(film, options.out, find_moments(wipings, trees, choices, cell), reporter)
+                moments = find_moments(wipings, trees, choices, state, truth)
+                filmed = _write_film(film, options.out, moments, reporter)
                 write_report(options.out, result, execution, drawings, filmed)
         except ServiceError as error:
             reporter.say(f"error: {error}")
@@ -184,15 +187,14 @@ def _run(
     return RunResult(result, drawings)
 
 
-def _model_with_meshes(cell: SimulatedCell, looks: str) -> Any:
+def _model_with_meshes(simulation: Simulation, looks: str) -> Any:
     """Return the MuJoCo model of a cell with the meshes of that name. ServiceError if there are none."""
-    from skillc_runtime.backends.simulation.model_builder import describe_model
     from skillc_runtime.film.look_meshes import build_look_model
     from skillc_runtime.film.looks import LooksError, read_looks
 
     try:
-        wanted = read_looks(cell.world.snapshot(), cell.scene, looks)
-        return build_look_model(describe_model(cell.scene, cell.variation), wanted)
+        wanted = read_looks(simulation.cell.world.snapshot(), simulation.drawing.prefixes, looks)
+        return build_look_model(simulation.drawing.describe_model(), wanted)
     except LooksError as error:
         raise ServiceError(str(error)) from error
 

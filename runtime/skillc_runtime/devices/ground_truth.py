@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
 
 
@@ -91,8 +92,29 @@ def join_recordings(intervals: Sequence[Recording]) -> Recording:
     return intervals[0] if len(intervals) == 1 else Recording(np.concatenate([each.rows for each in intervals]))
 
 
+@dataclass(frozen=True, slots=True)
+class Guidance:
+    """How a person guided a tool: the intended place (3,) of its centre point, m in the world, and forces (n,) in N.
+
+    There is a force for each simulation step in which they guided it.
+    """
+
+    place: Array
+    forces: Array
+
+
 class GroundTruth(Protocol):
     """The true state of a cell; objects are named by IRI. `Cell` does not offer it, so primitives have no access."""
+
+    @property
+    def seed(self) -> int:
+        """The seed of the differences between reality and world model."""
+        ...
+
+    @property
+    def variation(self) -> str:
+        """How reality differed from the world model at the start, as text; empty if it did not."""
+        ...
 
     def recording(self, tool: str) -> Recording:
         """Return the recording of a tool while it was held; KeyError if the cell has no such tool."""
@@ -104,4 +126,33 @@ class GroundTruth(Protocol):
 
     def surface_pose(self, surface: str) -> Pose:
         """Return the true pose of a surface in the world; KeyError if the cell has no such surface."""
+        ...
+
+    def is_present(self, surface: str) -> bool:
+        """Whether a surface really is there; KeyError if the cell has no such surface."""
+        ...
+
+    def coverage(self, surface: str) -> CoverageMap:
+        """Return where and how long tools have worked on a surface; KeyError if the cell has no such surface."""
+        ...
+
+    def fixture_pose(self, fixture: str) -> Pose:
+        """Return the true pose of a fixture in the world; KeyError if the cell has no such fixture."""
+        ...
+
+    def face_position(self, tool: str) -> Array:
+        """Return where the middle (3,) of a tool's working face is, in m in the world; KeyError for an unknown tool."""
+        ...
+
+    def pressing(self, button: str) -> Array:
+        """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if switched, else 0.
+
+        The force is the normal one on its cap, whatever the frame.
+
+        KeyError if the cell has no such button.
+        """
+        ...
+
+    def guidances(self) -> Sequence[Guidance]:
+        """Return how people guided tools by hand, in order of IRI; people who guided none are left out."""
         ...

@@ -12,13 +12,14 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.devices.simulation import Drawing, Posture, Simulation
 from skillc_runtime.film.picture_files import FilmError, write_film, write_picture
 from skillc_runtime.film.props import make_props
 from skillc_runtime.film.rendering import CameraView, Picture, Quality, Renderer
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER, SURFACE
+from skillc_runtime.world.state.world_state import WorldState
 
 FILM = "film.mp4"
 FRAMES_PER_S = 12
@@ -82,20 +83,22 @@ class Film:
     One camera follows each arm, and one its hand; all are shown side by side.
     """
 
-    def __init__(self, cell: SimulatedCell, drawn: mujoco.MjModel | None = None) -> None:
+    def __init__(self, simulation: Simulation, drawn: mujoco.MjModel | None = None) -> None:
         """Film a cell; `drawn` is the model to render, with the same joints, if it is not that of the cell."""
-        self._cell, self._drawn = cell, cell.model if drawn is None else drawn
-        self._frames: list[tuple[Array, Array, Array]] = []
-        self._arms = {arm.individual: _camera_target(cell, arm) for arm in cell.scene.arms}
-        places = ((cell.ground_truth.surface_pose(each.individual), each) for each in cell.scene.surfaces)
-        present = ((pose, each) for pose, each in places if cell.variation.of(each.individual).present)
-        self._props = tuple(prop for pose, each in present for prop in make_props(pose, each.size))
+        self._clock, self._drawing = simulation.clock, simulation.drawing
+        self._drawn = self._drawing.model if drawn is None else drawn
+        self._frames: list[Posture] = []
+        state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
+        self._arms = {arm: _camera_target(self._drawing, state, arm) for arm in sorted(state.instances(ARM_DEVICE))}
+        present = filter(truth.is_present, sorted(state.instances(SURFACE)))
+        self._props = tuple(
+            prop for each in present for prop in make_props(truth.surface_pose(each), size(state, each))
+        )
 
     def sample(self) -> None:
         """Sample a frame if one is due."""
-        if self._cell.now * FRAMES_PER_S / SPEED_UP >= len(self._frames):
-            data = self._cell.data
-            self._frames.append((data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy()))
+        if self._clock.now * FRAMES_PER_S / SPEED_UP >= len(self._frames):
+            self._frames.append(self._drawing.posture())
 
     def write(self, directory: Path, moments: Sequence[Moment] = ()) -> FilmFiles:
         """Render all frames to film.mp4, and stills of some moments to PNG.
@@ -116,7 +119,7 @@ class Film:
 
     def pictures(self) -> Iterator[Picture]:
         """Render the frames, each (HEIGHT, WIDTH times the number of arms, 3)."""
-        with self._drawing(WIDTH, HEIGHT, "film") as (renderer, data):
+        with self._renderer(WIDTH, HEIGHT, "film") as (renderer, data):
             for frame in self._frames:
                 self._show(data, frame)
                 pictures = [
@@ -128,33 +131,46 @@ class Film:
         """Render close views of some moments, each (STILL_HEIGHT, STILL_WIDTH, 3)."""
         if not moments:
             return
-        with self._drawing(STILL_WIDTH, STILL_HEIGHT, "still") as (renderer, data):
+        with self._renderer(STILL_WIDTH, STILL_HEIGHT, "still") as (renderer, data):
             for moment in moments:
                 at = min(round(moment.time * FRAMES_PER_S / SPEED_UP), len(self._frames) - 1)
                 self._show(data, self._frames[at])
                 yield renderer.picture(data, (_hand_view(data, self._arms[moment.arm], CLOSER_M),))
 
     @contextmanager
-    def _drawing(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:
+    def _renderer(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:
         renderer = Renderer(self._drawn, width, height, self._props, quality)
         try:
             yield renderer, mujoco.MjData(self._drawn)
         finally:
             renderer.close()
 
-    def _show(self, data: Any, frame: tuple[Array, Array, Array]) -> None:
-        data.qpos[:], data.mocap_pos[:], data.mocap_quat[:] = frame
+    def _show(self, data: Any, frame: Posture) -> None:
+        _apply_posture(data, frame)
         mujoco.mj_forward(self._drawn, data)
 
 
-def _camera_target(cell: SimulatedCell, arm: ArmSpec) -> CameraTarget:
-    model, own = cell.model, part_name(cell.scene.names[arm.individual], "")
+def _camera_target(drawing: Drawing, state: WorldState, arm: str) -> CameraTarget:
+    model, own, grippers = drawing.model, drawing.prefixes[arm], sorted(state.objects(arm, HAS_GRIPPER))
     joint = next(each for each in range(model.njnt) if model.joint(each).name.startswith(own))
     body = int(model.body_parentid[model.jnt_bodyid[joint]])
-    hand = int(model.site(part_name(cell.scene.names[arm.individual], "flange")).bodyid[0])
-    if arm.gripper is not None:
-        hand = int(model.body(part_name(cell.scene.names[arm.gripper.individual], "palm")).id)
-    return CameraTarget(body, hand, cell.data.xmat[body].reshape(3, 3).T @ arm.base.rotation[:, 0])
+    hand = int(model.site(f"{own}flange").bodyid[0])
+    if grippers:
+        hand = int(model.body(f"{drawing.prefixes[grippers[0]]}palm").id)
+    return CameraTarget(body, hand, _rotation(drawing, body).T @ pose(state, arm).rotation[:, 0])
+
+
+def _apply_posture(data: Any, posture: Posture) -> None:
+    data.qpos[:] = posture.joints
+    data.mocap_pos[:], data.mocap_quat[:] = posture.base_positions, posture.base_quaternions
+
+
+def _rotation(drawing: Drawing, body: int) -> Array:
+    """Return the present rotation (3, 3) of a body in the world."""
+    data = mujoco.MjData(drawing.model)
+    _apply_posture(data, drawing.posture())
+    mujoco.mj_kinematics(drawing.model, data)
+    return np.asarray(data.xmat[body].reshape(3, 3))
 
 
 def _arm_view(data: Any, arm: CameraTarget) -> CameraView:

@@ -11,7 +11,6 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.film.look_cache import model_file
 from skillc_runtime.film.looks import Look, Looks, LooksError
 from skillc_runtime.motion.pose import Pose, exp, log, quaternion_from_rotation
@@ -39,13 +38,12 @@ def _dress(spec: Any, look: Look, file: Path) -> None:
     model = _compiled(theirs, look.model)
     ours = mujoco.MjModel.from_xml_path(str(look.own))
     turn = _turn(ours, model, look)
-    own = part_name(look.device, "")
-    for geom in [geom for geom in spec.geoms if geom.parent.name.startswith(own)]:
+    for geom in [geom for geom in spec.geoms if geom.parent.name.startswith(look.prefix)]:
         spec.delete(geom)
     links, data = _links(ours, at_rest=True), _placed(model, at_rest=True)
     for geom in _meshes_of(model):
         link = _link_of(model, int(model.geom_bodyid[geom]))
-        body = spec.body(part_name(look.device, ours.body(_bodies(ours)[link]).name))
+        body = spec.body(look.prefix + ours.body(_bodies(ours)[link]).name)
         _add_mesh(spec, body, look, theirs, model, geom, links[link].inverse() @ turn @ _authored(model, data, geom))
 
 
@@ -128,7 +126,7 @@ def _authored(model: Any, data: Any, geom: int) -> Pose:
 def _add_mesh(spec: Any, body: Any, look: Look, theirs: Any, model: Any, geom: int, pose: Pose) -> None:
     """Add a mesh of a look to a body of the scene, without mass and contact, in its colour."""
     mesh = theirs.mesh(model.mesh(int(model.geom_dataid[geom])).name)
-    name = part_name(look.device, f"look/{mesh.name or Path(mesh.file).stem}")
+    name = f"{look.prefix}look/{mesh.name or Path(mesh.file).stem}"
     if spec.mesh(name) is None:
         file = Path(theirs.modelfiledir, theirs.meshdir, mesh.file)
         added = spec.add_mesh(name=name, file=str(file), scale=mesh.scale, refpos=mesh.refpos, refquat=mesh.refquat)

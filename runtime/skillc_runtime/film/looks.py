@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, GripperSpec, SceneSpec
 from skillc_runtime.world.state.data_sheet import sheet_of, text_of
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.world_state import WorldState
@@ -30,9 +30,10 @@ class Collection:
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """A device by its name in the simulation, its own model, and the path of its look in a collection."""
+    """A device by its name, the prefix of its parts in a scene's model, its own model, its look in a collection."""
 
     device: str
+    prefix: str
     own: Path
     model: str
 
@@ -45,8 +46,8 @@ class Looks:
     looks: tuple[Look, ...]
 
 
-def read_looks(state: WorldState, scene: SceneSpec, name: str) -> Looks:
-    """Return the looks of a scene's devices in a collection.
+def read_looks(state: WorldState, prefixes: Mapping[str, str], name: str) -> Looks:
+    """Return the looks of a scene's devices in a collection; `prefixes` of their parts in the model are by IRI.
 
     Raises LooksError if there is no collection of this name, or it has no model of any device of this scene.
     """
@@ -54,22 +55,18 @@ def read_looks(state: WorldState, scene: SceneSpec, name: str) -> Looks:
     if name not in collections:
         raise LooksError(f"there are no looks {name}; there are {', '.join(('primitive', *sorted(collections)))}")
     found = collections[name]
-    looks = tuple(look for device in _devices(scene) for look in _looks_of(state, scene, device, found))
+    looks = tuple(look for device in prefixes for look in _looks_of(state, device, prefixes[device], found))
     if not looks:
         raise LooksError(f"{name} has no model of any device in this scene")
     return Looks(Collection(name, text_of(state, found, REPOSITORY), text_of(state, found, COMMIT)), looks)
 
 
-def _devices(scene: SceneSpec) -> list[ArmSpec | GripperSpec]:
-    return [*scene.arms, *(arm.gripper for arm in scene.arms if arm.gripper is not None)]
-
-
-def _looks_of(state: WorldState, scene: SceneSpec, device: ArmSpec | GripperSpec, collection: str) -> list[Look]:
+def _looks_of(state: WorldState, device: str, prefix: str, collection: str) -> list[Look]:
     """Return the look of one device in a collection: one, or none."""
+    sheet, name = sheet_of(state, device), state.vocabulary.short(device)
     there = [
         look
-        for look in sorted(state.objects(sheet_of(state, device.individual).individual, HAS_LOOK))
+        for look in sorted(state.objects(sheet.individual, HAS_LOOK))
         if state.holds(look, IN_COLLECTION, collection)
     ]
-    name = scene.names[device.individual]
-    return [Look(name, device.model, text_of(state, look, LOOK_MODEL)) for look in there[:1]]
+    return [Look(name, prefix, sheet.model, text_of(state, look, LOOK_MODEL)) for look in there[:1]]

@@ -12,18 +12,22 @@ import mujoco
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.base import SimulatedBase
 from skillc_runtime.backends.simulation.button import SimulatedButton, make_buttons
-from skillc_runtime.backends.simulation.coverage import CoverageMap, SimulatedCamera
+from skillc_runtime.backends.simulation.camera import SimulatedCamera
+from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.model_builder import build_model
-from skillc_runtime.backends.simulation.observer import SimulatedTruth, ToolObserver
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE
@@ -33,7 +37,7 @@ G = TypeVar("G", bound=ModelledGripper)
 
 
 class ModelledCell(ABC, Generic[A, G]):
-    """A cell in lock step, implementing `Cell` and `Backend`; subclasses make arms and grippers, and move everything.
+    """A cell in lock step, implementing `Cell` and `Simulation`; subclasses make arms and grippers, and move all of it.
 
     `variation` is how reality differs from the facts of `scene`. Between calls of `advance` all measurements are of the
     present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
@@ -62,11 +66,14 @@ class ModelledCell(ABC, Generic[A, G]):
         self._observers = {
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
         }
-        self.ground_truth: GroundTruth = SimulatedTruth(self._observers, poses)
         self._camera = SimulatedCamera(self.coverage)
         self.watchdog = HeartbeatWatchdog()
         self._buttons = make_buttons(scene.fixtures, variation.fixtures, names, self.data)
         self.people = make_people(scene, variation, self._drivers, self.data)
+        self.ground_truth: GroundTruth = SimulatedTruth(
+            scene, variation, self._observers, self.coverage, self._buttons, self.people, self.data
+        )
+        self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
         world.commit(idle, "start of the cell", "reported")
 
@@ -145,6 +152,11 @@ class ModelledCell(ABC, Generic[A, G]):
                 found.append(f"{names[individual]} was left yielding; it is held stiff again")
         self._stop_devices(devices)
         return tuple(found)
+
+    def push_hand(self, arm: str, force_n: Array) -> None:
+        """Push the hand of an arm with a force (3,) in N in the world from now on; 0 ends it. KeyError without hand."""
+        palm = part_name(self.scene.names[self._hands[arm].individual], "palm")
+        self.data.body(palm).xfrc_applied[:3] = force_n
 
     def close(self) -> None:
         """Do nothing: a cell in lock step has no threads."""

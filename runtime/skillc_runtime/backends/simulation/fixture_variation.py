@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
-from skillc_runtime.backends.simulation.rng import rng_for
+from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Pose, exp
 
 

@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from skillc_runtime.backends.simulation.rng import rng_for
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array
 
 BLOCK: Final = 1000

@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.simulation.coverage import CoverageMap
 from skillc_runtime.backends.simulation.names import contact_sensor_name, face_sensor_name, pressing_sensor_name
 from skillc_runtime.backends.simulation.recorder import Recorder
 from skillc_runtime.backends.simulation.scene_spec import ToolSpec
 from skillc_runtime.devices.arm_driver import ArmDriver
-from skillc_runtime.devices.ground_truth import Recording
-from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
+from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.motion.pose import Array, rotation_from_quaternion
 
 STEPS_PER_UPDATE = 10
 """Number of steps between samples of coverage and reference: 100 Hz with steps of 1 ms."""
@@ -88,22 +87,3 @@ def _pressing(
             first = int(model.sensor(sensor).adr[0])
             found.append((surface, data.sensordata[first : first + 3]))
     return found
-
-
-class SimulatedTruth:
-    """Implements `GroundTruth` with the observers of tools and the true poses of surfaces."""
-
-    def __init__(self, observers: Mapping[str, ToolObserver], surfaces: Mapping[str, Pose]) -> None:
-        self._observers, self._surfaces = observers, surfaces
-
-    def recording(self, tool: str) -> Recording:
-        """Return the recording of a tool while it was held; KeyError if the cell has no such tool."""
-        return self._observers[tool].recorder.recording()
-
-    def peak_force_n(self, tool: str) -> float:
-        """Return the greatest force on a tool while it was held; KeyError if the cell has no such tool."""
-        return self._observers[tool].peak_force.newton
-
-    def surface_pose(self, surface: str) -> Pose:
-        """Return the true pose of a surface in the world; KeyError if the cell has no such surface."""
-        return self._surfaces[surface]

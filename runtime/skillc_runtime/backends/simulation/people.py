@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skillc_runtime.backends.simulation.rng import rng_for
+from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import number_of, range_below

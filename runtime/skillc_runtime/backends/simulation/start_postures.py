@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_runtime.backends.simulation.rng import rng_for
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import build_collision_model
 from skillc_runtime.collision.scenery import read_scenery
+from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array
 
 MAX_DRAWS = 100

@@ -9,9 +9,9 @@ import numpy as np
 
 from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation, draw_fixture
 from skillc_runtime.backends.simulation.people import PersonVariation, draw_person
-from skillc_runtime.backends.simulation.rng import rng_for
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
 from skillc_runtime.backends.simulation.start_postures import draw_start
+from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array, Pose, exp
 
 OBSTACLE_M = (0.03, 0.03, 0.012)
@@ -48,6 +48,13 @@ class SurfaceVariation:
         tilt = exp(np.array([*self.tilt_rad, 0.0]))
         return believed @ Pose(np.array([0.0, 0.0, self.offset_m]), tilt)
 
+    @property
+    def description(self) -> str:
+        """The differences as text."""
+        x, y = np.degrees(self.tilt_rad)
+        offset = f"{self.offset_m * 1e3:+.1f} mm along its normal"
+        return f"{offset}, tilted {x:+.1f} and {y:+.1f} deg, friction {self.friction:.2f}"
+
 
 @dataclass(frozen=True, slots=True)
 class Variation:
@@ -78,6 +85,13 @@ class Variation:
     def pad_stiffness(self, tool: ToolSpec) -> float:
         """Return the true stiffness of the working face of a tool in N/m."""
         return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual])
+
+    def describe(self, names: Mapping[str, str]) -> str:
+        """Return the differences as text; `names` are the short names of individuals."""
+        surfaces = (f"{names[each.surface]} {each.description}" for each in self.surfaces)
+        fixtures = (f"{names[each.fixture]} {each.description}" for each in self.fixtures)
+        people = (f"{names[each.person]} {each.description}" for each in self.people)
+        return "; ".join((*surfaces, *fixtures, *people))
 
 
 def draw_variation(scene: SceneSpec, seed: int) -> Variation:

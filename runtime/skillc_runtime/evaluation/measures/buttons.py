@@ -10,7 +10,7 @@ from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import PressingWork, Work
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import number_of
-from skillc_runtime.world.state.terms import PRESS_FORCE
+from skillc_runtime.world.state.terms import BUTTON, PRESS_FORCE
 
 HELD_S = 0.1
 """The held force is the greatest mean force over this time."""
@@ -18,18 +18,16 @@ HELD_S = 0.1
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield the pressing of each button on which a force acted."""
-    cell = evidence.cell
-    for fixture in cell.scene.fixtures:
-        if fixture.switch_travel_m is None:
-            continue
-        pressing = cell.button(fixture.individual).pressing
+    state = evidence.state
+    for button in sorted(state.instances(BUTTON)):
+        pressing = evidence.truth.pressing(button)
         if len(pressing):
             yield PressingWork(
-                button=cell.scene.names[fixture.individual],
-                required_n=number_of(cell.world.snapshot(), fixture.individual, PRESS_FORCE),
+                button=state.vocabulary.short(button),
+                required_n=number_of(state, button, PRESS_FORCE),
                 held_n=compute_held_force_n(pressing),
                 greatest_n=float(pressing[:, 1].max()),
-                duration_share=evidence.duration_share(fixture.individual),
+                duration_share=evidence.duration_share(button),
             )
 
 

@@ -7,19 +7,21 @@ from dataclasses import dataclass
 
 from skillc_model.conditions import Literal
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
 class RunEvidence:
-    """The cell after a run, its trees with the chosen implementations, and the wipings with their results."""
+    """The world model and the truth after a run, its trees with the chosen implementations, and the rated wipings."""
 
     library: SkillLibrary
-    cell: SimulatedCell
+    state: WorldState
+    truth: GroundTruth
     trees: tuple[NodeOutcome, ...]
     choices: Mapping[int, ImplementationChosen]
     wipings: tuple[tuple[Wiping, WipingResult], ...]

@@ -14,16 +14,15 @@ from skillc_runtime.world.state.terms import IS_TAUGHT, TAUGHT_POSE
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield the teaching of each pose, compared with the nearest intended position of a person."""
-    cell, state = evidence.cell, evidence.cell.world.snapshot()
-    leaders = [person for person in cell.people if person.forces]
+    state, guidances = evidence.state, evidence.truth.guidances()
     for taught in sorted(state.instances(TAUGHT_POSE)):
-        if leaders and state.value(taught, IS_TAUGHT) is True:
+        if guidances and state.value(taught, IS_TAUGHT) is True:
             place = pose(state, taught).position
-            errors_m = [float(np.linalg.norm(place - person.place)) for person in leaders]
+            errors_m = [float(np.linalg.norm(place - each.place)) for each in guidances]
             nearest = int(np.argmin(errors_m))
-            forces = np.array(leaders[nearest].forces)
+            forces = guidances[nearest].forces
             yield TeachingWork(
-                pose=cell.scene.names[taught],
+                pose=state.vocabulary.short(taught),
                 position_error_m=errors_m[nearest],
                 greatest_n=float(forces.max()),
                 mean_n=float(forces.mean()),

@@ -21,25 +21,22 @@ MIN_AMPLITUDE_M = 1e-3
 
 def measure(evidence: RunEvidence) -> Iterator[Work]:
     """Yield the work on each surface along which a pressed tool followed a path."""
-    state = evidence.cell.world.snapshot()
     for wiping, result in evidence.wipings:
         yield (
             _measure_polishing(evidence, wiping, result)
-            if state.is_a(wiping.surface, POLISHABLE_SURFACE)
+            if evidence.state.is_a(wiping.surface, POLISHABLE_SURFACE)
             else WipingWork(wiping=result)
         )
 
 
 def _measure_polishing(evidence: RunEvidence, wiping: Wiping, result: WipingResult) -> PolishingWork:
-    cell = evidence.cell
-    commanded, measured = measure_overlay_amplitudes(
-        cell.ground_truth.recording(wiping.tool).between(wiping.start, wiping.end)
-    )
-    seconds = number_of(cell.world.snapshot(), wiping.surface, POLISH_TIME)
+    truth = evidence.truth
+    commanded, measured = measure_overlay_amplitudes(truth.recording(wiping.tool).between(wiping.start, wiping.end))
+    seconds = number_of(evidence.state, wiping.surface, POLISH_TIME)
     oscillated = commanded > MIN_AMPLITUDE_M
     return PolishingWork(
         wiping=result,
-        polished_share=cell.camera().rubbed_share(wiping.surface, seconds),
+        polished_share=truth.coverage(wiping.surface).rubbed_share(seconds),
         overlay_amplitude_m=measured if oscillated else None,
         commanded_amplitude_m=commanded if oscillated else None,
     )

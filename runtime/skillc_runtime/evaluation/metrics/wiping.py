@@ -8,9 +8,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from skillc_runtime.backends.simulation.coverage import CoverageMap
 from skillc_runtime.devices.ground_truth import Recording, join_recordings
 from skillc_runtime.evaluation.metrics.lane_dwell import LaneDwell, measure_lane_dwell
+from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 

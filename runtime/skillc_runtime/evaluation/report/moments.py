@@ -10,12 +10,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.devices.ground_truth import GroundTruth, Recording
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.world.state.terms import ARM_DEVICE
+from skillc_runtime.world.state.world_state import WorldState
 
 GRASPED_S = 0.3
 """How long after a tool is first held the still of its grasp is taken."""
@@ -25,17 +26,18 @@ def find_moments(
     wipings: Sequence[Wiping],
     trees: Iterable[NodeOutcome],
     choices: Mapping[int, ImplementationChosen],
-    cell: SimulatedCell,
+    state: WorldState,
+    truth: GroundTruth,
 ) -> tuple[Moment, ...]:
     """Return the moments of all wipings whose arm is known, and the highlights of all calls in the trees."""
-    wiped = (each for wiping in wipings if wiping.arm for each in _find_wiping_moments(wiping, cell))
+    wiped = (each for wiping in wipings if wiping.arm for each in _find_wiping_moments(wiping, state, truth))
     calls = ((node, choices[node.id]) for tree in trees for node in tree.nodes() if node.id in choices)
-    return (*wiped, *(each for node, choice in calls for each in _find_highlights(node, choice, cell)))
+    return (*wiped, *(each for node, choice in calls for each in _find_highlights(node, choice, state)))
 
 
-def _find_highlights(node: NodeOutcome, choice: ImplementationChosen, cell: SimulatedCell) -> Iterator[Moment]:
+def _find_highlights(node: NodeOutcome, choice: ImplementationChosen, state: WorldState) -> Iterator[Moment]:
     """Yield the moments of a call's highlights, if an arm executed it."""
-    arms = {arm.individual for arm in cell.scene.arms}
+    arms = state.instances(ARM_DEVICE)
     arm = next((each for each in choice.individuals if each in arms), None)
     if arm is None:
         return
@@ -46,8 +48,8 @@ def _find_highlights(node: NodeOutcome, choice: ImplementationChosen, cell: Simu
             yield Moment(f"{highlight.what.label} {highlight.word}", time, arm)
 
 
-def _find_wiping_moments(wiping: Wiping, cell: SimulatedCell) -> Iterator[Moment]:
-    name, recording = cell.world.snapshot().vocabulary.short(wiping.surface), cell.ground_truth.recording(wiping.tool)
+def _find_wiping_moments(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Iterator[Moment]:
+    name, recording = state.vocabulary.short(wiping.surface), truth.recording(wiping.tool)
     yield Moment(f"{name} grasp", float(recording.time[0]) + GRASPED_S, wiping.arm)
     yield Moment(f"{name} contact", _find_contact_s(recording.between(wiping.began, wiping.end)), wiping.arm)
     yield Moment(f"{name} corner", _find_corner_s(recording.between(wiping.start, wiping.end)), wiping.arm)

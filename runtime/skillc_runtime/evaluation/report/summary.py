@@ -3,34 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
-import numpy as np
 from msgspec import structs
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.execution.task_run import Execution
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
+from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_ARM
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def summarise_run(
-    execution: Execution[SimulatedCell],
+    execution: Execution[Any],
     choices: Mapping[int, ImplementationChosen],
     library: SkillLibrary,
     wipings: Sequence[Wiping],
+    simulation: Simulation,
 ) -> TaskResult:
     """Return the result of a task for reports, tables and JSON; `wipings` are those that were found in it."""
-    cell, last = execution.cell, execution.last
+    state, truth, last = simulation.cell.world.snapshot(), simulation.ground_truth, execution.last
     solved = last.prepared.planned.solved if last.prepared.planned else None
-    judged = tuple(rate_wiping(wiping, cell) for wiping in wipings)
-    short = cell.world.snapshot().vocabulary.short
-    robots = sorted({short(arm.robot or arm.individual) for arm in cell.scene.arms})
-    wall = execution.wall_time_s
+    judged = tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
+    now, wall = simulation.clock.now, execution.wall_time_s
     return TaskResult(
         task=last.prepared.assignment.name,
         status=execution.status,
@@ -41,13 +41,13 @@ def summarise_run(
         plan_optimal=None if solved is None else solved.optimal == "proven",
         plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         planner="" if solved is None else solved.planner,
-        robot=", ".join(robots),
-        controller=", ".join(_controllers(cell)),
-        sim_time_s=cell.now,
+        robot=", ".join(_robots(state)),
+        controller=", ".join(_controllers(state)),
+        sim_time_s=now,
         wall_time_s=wall,
-        real_time_factor=cell.now / wall if wall else 0.0,
-        seed=cell.variation.seed,
-        variation=_describe_variation(cell),
+        real_time_factor=now / wall if wall else 0.0,
+        seed=truth.seed,
+        variation=truth.variation,
         wiping=judged[0] if judged else None,
         wipings=judged,
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
@@ -99,26 +99,18 @@ def _make_choices(choices: Mapping[int, ImplementationChosen], library: SkillLib
     return tuple(found[key] for key in sorted(found))
 
 
-def _controllers(cell: SimulatedCell) -> list[str]:
-    state = cell.world.snapshot()
-    found = (state.value(arm.individual, COMPLIANT_CONTROLLER) for arm in cell.scene.arms)
+def _robots(state: WorldState) -> list[str]:
+    """Return the short names of the robots that have arms, and of arms without a robot."""
+    robots = {min(state.subjects(HAS_ARM, arm), default=arm) for arm in state.instances(ARM_DEVICE)}
+    return sorted(map(state.vocabulary.short, robots))
+
+
+def _controllers(state: WorldState) -> list[str]:
+    found = (state.value(arm, COMPLIANT_CONTROLLER) for arm in state.instances(ARM_DEVICE))
     return sorted({str(controller) for controller in found if controller is not None})
 
 
-def _describe_variation(cell: SimulatedCell) -> str:
-    """Describe how reality differs from the world model at the start."""
-    names = cell.scene.names
-    surfaces = (
-        f"{names[one.surface]} {one.offset_m * 1e3:+.1f} mm along its normal, tilted "
-        f"{np.degrees(one.tilt_rad[0]):+.1f} and {np.degrees(one.tilt_rad[1]):+.1f} deg, friction {one.friction:.2f}"
-        for one in cell.variation.surfaces
-    )
-    fixtures = (f"{names[one.fixture]} {one.description}" for one in cell.variation.fixtures)
-    people = (f"{names[one.person]} {one.description}" for one in cell.variation.people)
-    return "; ".join((*surfaces, *fixtures, *people))
-
-
-def _describe_failure(execution: Execution[SimulatedCell]) -> str | None:
+def _describe_failure(execution: Execution[Any]) -> str | None:
     """Return why a task failed, with the chain of failed calls, outermost first, or why it was stopped."""
     failure = execution.failure
     if failure is None or execution.status == "stopped":

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
 
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.metrics.wiping import Stroke, WipingSetup, measure_wiping
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
@@ -14,8 +14,10 @@ from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.space.surfaces import least_force_n, surface_layout
 from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.terms import SURFACE, TOOL
+from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
+from skillc_runtime.world.state.world_state import WorldState
 
 FORCE = "force"
 """The name of the force parameter, in N, of primitives that press."""
@@ -46,15 +48,15 @@ class Wiping:
         return self.strokes[-1][1]
 
 
-def find_wipings(trees: Iterable[NodeOutcome], choices: ChoiceListener, cell: SimulatedCell) -> tuple[Wiping, ...]:
+def find_wipings(trees: Iterable[NodeOutcome], choices: ChoiceListener, state: WorldState) -> tuple[Wiping, ...]:
     """Return for each surface the last call with it and a tool in which paths were followed under pressure."""
-    state, found = cell.world.snapshot(), dict[str, Wiping]()
+    arms, found = state.instances(ARM_DEVICE), dict[str, Wiping]()
     for node in (node for tree in trees for node in tree.nodes()):
         choice = choices.get(node.id)
         individuals = [each for each in choice.individuals if each in state.individuals] if choice else []
         surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
         tools = [each for each in individuals if state.is_a(each, TOOL)]
-        arm = next((each for each in individuals if each in cell.arms), "")
+        arm = next((each for each in individuals if each in arms), "")
         forces = [choice.bindings.get(FORCE) for choice, _ in _find_activities(node, choices, "press")]
         pressed = [force.value for force in forces if isinstance(force, Quantity)]
         strokes = tuple(sorted(_find_strokes(node, choices)))
@@ -63,22 +65,25 @@ def find_wipings(trees: Iterable[NodeOutcome], choices: ChoiceListener, cell: Si
     return tuple(found.values())
 
 
-def wiping_setup(wiping: Wiping, cell: SimulatedCell) -> WipingSetup:
+def wiping_setup(wiping: Wiping, state: WorldState, truth: GroundTruth) -> WipingSetup:
     """Return the true setup of a wiping, from the ground truth."""
-    surface = next(each for each in cell.scene.surfaces if each.individual == wiping.surface)
-    tool = size(cell.world.snapshot(), wiping.tool)[:2]
+    surface = wiping.surface
     return WipingSetup(
-        cell.ground_truth.surface_pose(surface.individual), surface.layout, tool, wiping.force_n, surface.least_n
+        surface=truth.surface_pose(surface),
+        layout=surface_layout(state, surface),
+        tool=size(state, wiping.tool)[:2],
+        force_command_n=wiping.force_n,
+        least_n=least_force_n(state, surface),
     )
 
 
-def rate_wiping(wiping: Wiping, cell: SimulatedCell) -> WipingResult:
+def rate_wiping(wiping: Wiping, state: WorldState, truth: GroundTruth) -> WipingResult:
     """Return the quality of a wiping."""
-    recording = cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end)
-    metrics = measure_wiping(recording, wiping.strokes, wiping_setup(wiping, cell))
+    recording = truth.recording(wiping.tool).between(wiping.began, wiping.end)
+    metrics = measure_wiping(recording, wiping.strokes, wiping_setup(wiping, state, truth))
     dwell = metrics.lane_dwell
     return WipingResult(
-        surface=cell.world.snapshot().vocabulary.short(wiping.surface),
+        surface=state.vocabulary.short(wiping.surface),
         coverage=metrics.coverage,
         force_command_n=metrics.force_command_n,
         force_mean_n=metrics.force_mean_n,

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.devices.ground_truth import Recording, join_recordings
+from skillc_runtime.devices.ground_truth import GroundTruth, Recording, join_recordings
 from skillc_runtime.evaluation.metrics.lane_dwell import DWELL_SHARE, find_lane_velocity
 from skillc_runtime.evaluation.metrics.wiping import measure_coverage
 from skillc_runtime.evaluation.report.wiping import Wiping, wiping_setup
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.world_state import WorldState
 
 DECIMATION = 5
 """One of this many simulation steps is rows_drawn."""
@@ -52,12 +52,10 @@ class WipingDrawing:
         return DWELL_SHARE * float(np.nanmax(self.lane_speed, initial=0.0))
 
 
-def make_wiping_drawing(wiping: Wiping, cell: SimulatedCell) -> WipingDrawing:
+def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -> WipingDrawing:
     """Return the drawing of one wiping."""
-    recording, setup = (
-        cell.ground_truth.recording(wiping.tool).between(wiping.began, wiping.end),
-        wiping_setup(wiping, cell),
-    )
+    recording = truth.recording(wiping.tool).between(wiping.began, wiping.end)
+    setup = wiping_setup(wiping, state, truth)
     windows, frame = [recording.between(*stroke) for stroke in wiping.strokes], setup.surface.inverse()
     window, rows_drawn = join_recordings(windows), _join_strokes(windows)
     covered = measure_coverage(window, setup)
@@ -65,7 +63,7 @@ def make_wiping_drawing(wiping: Wiping, cell: SimulatedCell) -> WipingDrawing:
     def on_surface(points: Array) -> Array:
         return np.asarray(1e3 * (points @ frame.rotation.T + frame.position)[:, :2])
 
-    short = cell.world.snapshot().vocabulary.short
+    short = state.vocabulary.short
     return WipingDrawing(
         surface=short(wiping.surface),
         robot=short(wiping.arm),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report import page
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
@@ -22,7 +22,7 @@ FIGURE = "wiping"
 def write_report(
     directory: Path,
     result: TaskResult,
-    execution: Execution[SimulatedCell],
+    execution: Execution[Any],
     drawings: Sequence[WipingDrawing],
     filmed: FilmFiles | None,
 ) -> None:

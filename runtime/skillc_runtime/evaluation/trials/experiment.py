@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from math import inf
 from pathlib import Path
 
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.measures import buttons, poses, sockets, surfaces
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
-from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, draw_disturbed_variation
+from skillc_runtime.evaluation.trials.disturbance import PushableCell, PushDisturbance
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial_cell import make_trial_cell
 from skillc_runtime.execution.assignment import (
     AchieveGoal,
     Assignment,
@@ -32,10 +32,10 @@ from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known_facts import assumed_facts
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.state.data_sheet import SheetError, number_of
+from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import CONTACT_FORCE_LIMIT
+from skillc_runtime.world.state.terms import ARM_DEVICE, CONTACT_FORCE_LIMIT, SURFACE, TOOL
 from skillc_runtime.world.state.world_state import WorldState
 
 MEASURES = (surfaces.measure, buttons.measure, sockets.measure, poses.measure)
@@ -67,32 +67,31 @@ class TrialRunner:
         if isinstance(self._prepared, NotStarted):
             return Trial(seed=seed, status="refused", reason=self._prepared.reason)
         try:
-            cell = SimulatedCell(
-                WorldModel(self._state), seed, reality=partial(draw_disturbed_variation, self._disturbance)
-            )
+            cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
         return self._run(self._prepared, cell)
 
-    def _run(self, prepared: PreparedTask, cell: SimulatedCell) -> Trial:
+    def _run(self, prepared: PreparedTask, cell: PushableCell) -> Trial:
         choices, push = ChoiceListener(), PushDisturbance(cell)
         disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
         execution = execute_task(prepared, self._library, cell, (choices, *disturbances), push.update)
         trees = tuple(attempt.tree for attempt in execution.attempts)
-        wipings = find_wipings(trees, choices, cell)
-        result = summarise_run(execution, choices, self._library, wipings)
+        state, truth = cell.world.snapshot(), cell.ground_truth
+        wipings = find_wipings(trees, choices, state)
+        result = summarise_run(execution, choices, self._library, wipings, cell)
         wiping_results = tuple(zip(wipings, result.wipings, strict=True))
         return Trial(
-            seed=cell.variation.seed,
+            seed=result.seed,
             status=result.status,
             reason=result.failure,
             verified=result.verified,
             assumed=tuple(format_fact(fact.fact) for fact in assumed_facts(result.facts)),
             variation=result.variation,
-            works=_measure_work(RunEvidence(self._library, cell, trees, choices, wiping_results)),
-            coverage=min((surface.wiped_share for surface in cell.coverage.values()), default=1.0),
-            greatest_force_n=_greatest_force_n(cell),
-            force_limit_n=_force_limit_n(cell),
+            works=_measure_work(RunEvidence(self._library, state, truth, trees, choices, wiping_results)),
+            coverage=_least_coverage(state, truth),
+            greatest_force_n=_greatest_force_n(state, truth),
+            force_limit_n=_force_limit_n(state),
             pushed=push.pushed,
             at_rest=cell.is_at_rest(),
             sim_time_s=result.sim_time_s,
@@ -112,12 +111,16 @@ def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
     return tuple(work for measure in MEASURES for work in measure(evidence))
 
 
-def _greatest_force_n(cell: SimulatedCell) -> float:
-    return max((cell.ground_truth.peak_force_n(tool.individual) for tool in cell.scene.tools), default=0.0)
+def _least_coverage(state: WorldState, truth: GroundTruth) -> float:
+    return min((truth.coverage(each).wiped_share for each in state.instances(SURFACE)), default=1.0)
 
 
-def _force_limit_n(cell: SimulatedCell) -> float | None:
-    sheets = [arm.sheet for arm in cell.scene.arms]
-    limits = [number_of(sheet.state, sheet.individual, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
+def _greatest_force_n(state: WorldState, truth: GroundTruth) -> float:
+    return max((truth.peak_force_n(tool) for tool in state.instances(TOOL)), default=0.0)
+
+
+def _force_limit_n(state: WorldState) -> float | None:
+    sheets = [sheet_of(state, arm).individual for arm in state.instances(ARM_DEVICE)]
+    limits = [number_of(state, sheet, CONTACT_FORCE_LIMIT, default=inf) for sheet in sheets]
     least = min(limits, default=inf)
     return None if least == inf else least

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -81,25 +79,13 @@ def add_dose(
     tool: Vector,
     seconds: float,
 ) -> None:
-    """Add to the dose of cells in columns x and rows y; origin and turn are the world's pose in the surface."""
+    """Add `seconds` to the dose (rows, columns) of cells in columns x (columns,) and rows y (rows,), m.
+
+    origin (3,) m and turn (3, 3): the world's pose in the surface; position, rotation and tool as in `CoverageMap.add`.
+    """
     middle, axes = np.empty(3), np.empty((3, 3))
     times(turn, position, middle)
     for i in range(3):
         middle[i] += origin[i]
     product(turn, rotation, axes)
     add_under(dose, x, y, middle, axes, tool, seconds, TOUCHES_M)
-
-
-class SimulatedCamera:
-    """Implements `Camera` with the coverage of each surface by IRI, which the cell updates."""
-
-    def __init__(self, coverage: Mapping[str, CoverageMap]) -> None:
-        self._coverage = coverage
-
-    def inspect(self, surface: str) -> float:
-        """Return the share of the surface that is wiped; KeyError if there is no such surface."""
-        return self._coverage[surface].wiped_share
-
-    def rubbed_share(self, surface: str, seconds: float) -> float:
-        """Return the share under a pressed tool for at least `seconds`; KeyError if there is no such surface."""
-        return self._coverage[surface].rubbed_share(seconds)

@@ -1,0 +1,31 @@
+"""How a simulated cell is drawn: its model, and its posture at an instant."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from skillc_runtime.backends.simulation.model_builder import describe_model
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.devices.simulation import Posture
+
+
+class ModelDrawing:
+    """Implements `Drawing` for the model of a scene, `data` being its state."""
+
+    def __init__(self, scene: SceneSpec, variation: Variation, model: Any, data: Any) -> None:
+        self._scene, self._variation, self._data = scene, variation, data
+        self.model = model
+        arms = [arm.individual for arm in scene.arms]
+        grippers = [arm.gripper.individual for arm in scene.arms if arm.gripper is not None]
+        self.prefixes = {device: part_name(scene.names[device], "") for device in (*arms, *grippers)}
+
+    def posture(self) -> Posture:
+        """Return a copy of the present posture."""
+        data = self._data
+        return Posture(data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy())
+
+    def describe_model(self) -> Any:
+        """Return a new `mujoco.MjSpec` of the model, to be changed and compiled."""
+        return describe_model(self._scene, self._variation)

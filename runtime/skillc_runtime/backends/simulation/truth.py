@@ -1,0 +1,81 @@
+"""The true state of a simulated cell, for reports and trials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.simulation.button import SimulatedButton
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.observer import ToolObserver
+from skillc_runtime.backends.simulation.person import SimulatedPerson
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.devices.ground_truth import Guidance, Recording
+from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.motion.pose import Array, Pose
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatedTruth:
+    """Implements `GroundTruth` from the parts of a simulated cell; observers, coverage and buttons are by IRI."""
+
+    scene: SceneSpec
+    reality: Variation
+    observers: Mapping[str, ToolObserver]
+    covered: Mapping[str, CoverageMap]
+    buttons: Mapping[str, SimulatedButton]
+    people: Sequence[SimulatedPerson]
+    data: Any
+
+    @property
+    def seed(self) -> int:
+        """The seed of the differences between reality and world model."""
+        return self.reality.seed
+
+    @property
+    def variation(self) -> str:
+        """How reality differed from the world model at the start, as text."""
+        return self.reality.describe(self.scene.names)
+
+    def recording(self, tool: str) -> Recording:
+        """Return the recording of a tool while it was held; KeyError if the cell has no such tool."""
+        return self.observers[tool].recorder.recording()
+
+    def peak_force_n(self, tool: str) -> float:
+        """Return the greatest force on a tool while it was held; KeyError if the cell has no such tool."""
+        return self.observers[tool].peak_force.newton
+
+    def surface_pose(self, surface: str) -> Pose:
+        """Return the true pose of a surface in the world; KeyError if the cell has no such surface."""
+        assumed = {each.individual: each.pose for each in self.scene.surfaces}
+        return self.reality.of(surface).true_pose(assumed[surface])
+
+    def is_present(self, surface: str) -> bool:
+        """Whether a surface really is there; KeyError if the cell has no such surface."""
+        return self.reality.of(surface).present
+
+    def coverage(self, surface: str) -> CoverageMap:
+        """Return where and how long tools have worked on a surface; KeyError if the cell has no such surface."""
+        return self.covered[surface]
+
+    def fixture_pose(self, fixture: str) -> Pose:
+        """Return the true pose of a fixture in the world; KeyError if the cell has no such fixture."""
+        pairs = zip(self.scene.fixtures, self.reality.fixtures, strict=True)
+        poses = {assumed.individual: true.true_pose(assumed.pose) for assumed, true in pairs}
+        return poses[fixture]
+
+    def face_position(self, tool: str) -> Array:
+        """Return where the middle (3,) of a tool's working face is, in m in the world; KeyError for an unknown tool."""
+        return np.array(self.data.site(part_name(self.scene.names[tool], "face")).xpos)
+
+    def pressing(self, button: str) -> Array:
+        """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if it had switched, else 0."""
+        return self.buttons[button].pressing
+
+    def guidances(self) -> tuple[Guidance, ...]:
+        """Return how people guided tools by hand; people who guided none are left out."""
+        return tuple(Guidance(each.place, np.array(each.forces)) for each in self.people if each.forces)

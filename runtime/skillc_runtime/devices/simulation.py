@@ -1,0 +1,56 @@
+"""The interface of a simulated cell for reports, trials and films: what skills and real cells do not offer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.motion.pose import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Posture:
+    """Where everything is at one instant: MuJoCo's qpos (nq,), mocap_pos (m, 3) and mocap_quat (m, 4)."""
+
+    joints: Array
+    base_positions: Array
+    base_quaternions: Array
+
+
+class Drawing(Protocol):
+    """How a simulated cell is drawn: a MuJoCo model, and postures of it."""
+
+    @property
+    def model(self) -> Any:
+        """The `mujoco.MjModel` of the cell."""
+        ...
+
+    @property
+    def prefixes(self) -> Mapping[str, str]:
+        """The prefix of the names in the model of all parts of an arm or gripper, by IRI."""
+        ...
+
+    def posture(self) -> Posture:
+        """Return a copy of the present posture."""
+        ...
+
+    def describe_model(self) -> Any:
+        """Return a new `mujoco.MjSpec` of the model, to be changed and compiled."""
+        ...
+
+
+class Simulation(Backend, Protocol):
+    """A backend that knows the true state of its cell, and how it looks."""
+
+    @property
+    def ground_truth(self) -> GroundTruth:
+        """The true state of the cell."""
+        ...
+
+    @property
+    def drawing(self) -> Drawing:
+        """How the cell is drawn."""
+        ...
