@@ -12,6 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from simulation.cells import ARM, world
+from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
@@ -49,20 +50,19 @@ class Backend(Protocol):
         ...
 
 
-class MujocoBackend:
-    """The arm of a shipped scene, with another controller if one is named.
+class ModelBackend:
+    """The arm of a cell that is computed from a model.
 
     The wall is a force that a spring and a damper exert on the hand.
     """
 
-    def __init__(self, scene: str, controller: str | None = None, steps_per_command: int = 1) -> None:
-        changes = [] if controller is None else [SetProperty(ARM[scene], COMPLIANT_CONTROLLER, controller)]
-        self._cell = SimulatedCell(WorldModel(world(scene).with_changes(changes)), steps_per_command=steps_per_command)
-        facts = self._cell.scene.arms[0]
+    def __init__(self, cell: SimulatedCell | KinematicCell) -> None:
+        self._cell = cell
+        facts = cell.scene.arms[0]
         assert facts.gripper is not None
-        self.arm = self._cell.arms[facts.individual]
-        self.driver = self._cell.arm(facts.individual)
-        self._hand = self._cell.data.body(part_name(self._cell.scene.names[facts.gripper.individual], "palm"))
+        self.arm = cell.arms[facts.individual]
+        self.driver = cell.arm(facts.individual)
+        self._hand = cell.data.body(part_name(cell.scene.names[facts.gripper.individual], "palm"))
         self._normal, self._place, self.force_n = np.zeros(3), 0.0, 0.0
         self._depth = 0.0
 
@@ -96,9 +96,29 @@ class MujocoBackend:
         self._hand.xfrc_applied[:3], self._hand.xfrc_applied[3:] = force, np.cross(point - self._hand.xipos, force)
 
 
+def scene_with(scene: str, controller: str | None = None) -> WorldModel:
+    """Return the world of a shipped scene, with another controller of its arm if one is named."""
+    changes = [] if controller is None else [SetProperty(ARM[scene], COMPLIANT_CONTROLLER, controller)]
+    return WorldModel(world(scene).with_changes(changes))
+
+
+def mujoco(scene: str, controller: str | None = None, steps_per_command: int = 1) -> ModelBackend:
+    """Return an arm with physics."""
+    return ModelBackend(SimulatedCell(scene_with(scene, controller), steps_per_command=steps_per_command))
+
+
+def kinematic(scene: str, controller: str | None = None) -> ModelBackend:
+    """Return an arm without physics."""
+    return ModelBackend(KinematicCell(scene_with(scene, controller)))
+
+
 BACKENDS: dict[str, Callable[[], Backend]] = {
-    "mujoco iiwa14": partial(MujocoBackend, "iiwa_table"),
-    "mujoco ur5e": partial(MujocoBackend, "ur5e_whiteboard"),
-    "mujoco ur5e velocity": partial(MujocoBackend, "ur5e_whiteboard", "forward_dynamics_velocity"),
-    "mujoco panda": partial(MujocoBackend, "panda_desk"),
+    f"{name} {arm}": partial(make, *how)
+    for name, make in (("mujoco", mujoco), ("kinematic", kinematic))
+    for arm, how in {
+        "iiwa14": ("iiwa_table",),
+        "ur5e": ("ur5e_whiteboard",),
+        "ur5e velocity": ("ur5e_whiteboard", "forward_dynamics_velocity"),
+        "panda": ("panda_desk",),
+    }.items()
 }

@@ -20,8 +20,7 @@ COMMANDS = {"torque": Torque, "position": JointPosition, "velocity": JointVeloci
 
 def _backends() -> list[object]:
     """Return all of them; one of each mode is fast, the others belong to the simulations."""
-    fast = ("mujoco iiwa14", "mujoco ur5e", "mujoco ur5e velocity")
-    return [pytest.param(name, marks=() if name in fast else pytest.mark.sim) for name in sorted(BACKENDS)]
+    return [pytest.param(name, marks=pytest.mark.sim if "panda" in name else ()) for name in sorted(BACKENDS)]
 
 
 @pytest.fixture(params=_backends())

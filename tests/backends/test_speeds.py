@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from backends.backend import MujocoBackend
+from backends.backend import ModelBackend, mujoco
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm import Command, JointVelocity
 from skillc_runtime.motion.path import path_through
@@ -17,14 +17,14 @@ from skillc_runtime.motion.segments import MotionLimits
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
 
 
-def arm_told_speeds(steps_per_command: int = 1) -> MujocoBackend:
-    made = MujocoBackend("ur5e_whiteboard", "forward_dynamics_velocity", steps_per_command)
+def arm_told_speeds(steps_per_command: int = 1) -> ModelBackend:
+    made = mujoco("ur5e_whiteboard", "forward_dynamics_velocity", steps_per_command)
     made.driver.motion.hold_position()
     made.advance(0.02)
     return made
 
 
-def told(there: MujocoBackend, changed: Callable[[Array], Array] = np.copy) -> list[Array]:
+def told(there: ModelBackend, changed: Callable[[Array], Array] = np.copy) -> list[Array]:
     """The growing list of the speeds that the arm is told; it moves with what `changed` makes of them."""
     speeds: list[Array] = []
     command = there.arm.command
@@ -38,7 +38,7 @@ def told(there: MujocoBackend, changed: Callable[[Array], Array] = np.copy) -> l
     return speeds
 
 
-def beside(there: MujocoBackend, *way: float) -> Pose:
+def beside(there: ModelBackend, *way: float) -> Pose:
     return Pose(
         there.driver.motion.stopping_pose().position + np.array(way), there.driver.motion.stopping_pose().rotation
     )

@@ -49,7 +49,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
                 hands[facts.individual] = SimulatedGripper(gripper, names, self.scene.tools, arm, self.model, self.data)
         return arms, hands
 
-    def _compute_state(self) -> None:
+    def _prepare(self) -> None:
         mujoco.mj_forward(self.model, self.data)
 
     def _move(self, now: float) -> None:

@@ -59,7 +59,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._grippers = {a.gripper.individual: self._hands[a.individual] for a in scene.arms if a.gripper}
         names = scene.names
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
-        self._compute_state()
+        self._prepare()
         self._drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
         poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
         self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
@@ -166,8 +166,8 @@ class ModelledCell(ABC, Generic[A, G]):
         """Return the arms, and the grippers by arm."""
 
     @abstractmethod
-    def _compute_state(self) -> None:
-        """Compute what follows from the positions in `data`, at the start."""
+    def _prepare(self) -> None:
+        """Compute what follows from the positions in `data`; called once arms, grippers and bases are in place."""
 
     @abstractmethod
     def _move(self, now: float) -> None:

@@ -60,6 +60,12 @@ def draw_fixture(fixture: FixtureSpec, seed: int) -> FixtureVariation:
     )
 
 
+def exact_fixture(fixture: FixtureSpec) -> FixtureVariation:
+    """Return no differences, with mean friction."""
+    friction = None if fixture.friction is None else sum(fixture.friction) / 2
+    return FixtureVariation(fixture.individual, (0.0, 0.0, 0.0), (0.0, 0.0), friction, 0.0, 0.0)
+
+
 def _between(low: float, high: float, share: float) -> float:
     return low + (high - low) * share
 

@@ -113,7 +113,8 @@ class ModelledGripper(ABC):
     def move_with_base(self, motion: Pose) -> None:
         """Move a held object with the base of the arm: new = motion @ old, in the world."""
         if self._holding:
-            q = self._free_joint(self._holding)
+            first = int(self._model.joint(part_name(self._names[self._holding], "free")).qposadr[0])
+            q = self._data.qpos[first : first + 7]
             moved = motion @ Pose.of(q[:3], q[3:])
             q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
 
@@ -151,12 +152,6 @@ class ModelledGripper(ABC):
                 normals.append(contacts.frame[index, :3] * (1.0 if one in self.pads else -1.0))
                 frictions.append(float(contacts.friction[index, 0]))
         return normals, min(frictions, default=0.0)
-
-    def _free_joint(self, thing: str) -> Array:
-        """Return the position (7,) of a free object, a view."""
-        first = int(self._model.joint(part_name(self._names[thing], "free")).qposadr[0])
-        position: Array = self._data.qpos[first : first + 7]
-        return position
 
     def _pose(self, body: int) -> Pose:
         return Pose(self._data.xpos[body].copy(), self._data.xmat[body].reshape(3, 3).copy())

@@ -44,7 +44,7 @@ class Motors(ABC):
     """Take commands of one mode at a time, and hold still if none has arrived for `COMMAND_TIMEOUT_S`."""
 
     def __init__(self, joints: Joints, modes: tuple[Mode, ...], timestep_s: float) -> None:
-        self._joints, self.modes, self.mode = joints, modes, modes[0]
+        self.joints, self.modes, self.mode = joints, modes, modes[0]
         self._steps_without_command, self._timeout_steps = 0, round(COMMAND_TIMEOUT_S / timestep_s)
 
     def switch(self, mode: Mode) -> None:
@@ -98,7 +98,7 @@ class TorqueMotors(Motors):
     def _take(self, command: Command) -> None:
         if not isinstance(command, Torque):
             self._refuse(command)
-        self._joints.control[:] = command.tau
+        self.joints.control[:] = command.tau
 
     def _rest(self) -> None:
         """Do nothing: there is no other mode."""
@@ -107,7 +107,7 @@ class TorqueMotors(Motors):
         """Do nothing: torques were set by the command."""
 
     def _hold(self, first: bool) -> None:
-        joints = self._joints
+        joints = self.joints
         if first:
             self._held_q[:] = joints.q
         slowing = HOLD_RATE * (joints.q - self._held_q) + 2 * joints.dq
@@ -139,6 +139,7 @@ class Servos(Motors):
         self._timestep, self._steps_per_command = timestep_s, steps_per_command
         self._target, self._steps_left = joints.q.copy(), 0
         self._speed = np.zeros_like(joints.q)
+        self.gains = gains
         self._lead, self._farthest = gains.damping / gains.stiffness, joints.effort / gains.stiffness
         joints.control[:] = joints.q
 
@@ -156,7 +157,7 @@ class Servos(Motors):
         self._speed[:], self._steps_left = 0.0, 0
 
     def _move(self) -> None:
-        joints = self._joints
+        joints = self.joints
         joints.applied[:] = joints.bias
         if self.mode == "velocity":
             update_servo_targets(
@@ -168,11 +169,11 @@ class Servos(Motors):
     def _hold(self, first: bool) -> None:
         if first:
             self._rest()
-        np.add(self._joints.own_bias, self._joints.carrying, out=self._joints.applied)
+        np.add(self.joints.own_bias, self.joints.carrying, out=self.joints.applied)
 
     def _approach(self) -> None:
         """Move the targets linearly so that they arrive in the last step of the control period."""
-        control = self._joints.control
+        control = self.joints.control
         if self._steps_left == 1:
             control[:] = self._target
         else:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation, draw_fixture
+from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation, draw_fixture, exact_fixture
 from skillc_runtime.backends.simulation.people import PersonVariation, draw_person
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
 from skillc_runtime.backends.simulation.start_postures import draw_start
@@ -103,6 +103,18 @@ def draw_variation(scene: SceneSpec, seed: int) -> Variation:
         {tool.individual: _pad(tool, seed) for tool in scene.tools},
         tuple(draw_fixture(fixture, seed) for fixture in scene.fixtures),
         tuple(draw_person(person, seed) for person in scene.people),
+    )
+
+
+def exact_variation(scene: SceneSpec) -> Variation:
+    """Return no differences: everything is as the facts say, with mean friction."""
+    return Variation(
+        0,
+        tuple(SurfaceVariation(s.individual, 0.0, (0.0, 0.0), sum(s.friction) / 2) for s in scene.surfaces),
+        {arm.individual: (0.0,) * arm.home.size for arm in scene.arms},
+        {tool.individual: 0.0 for tool in scene.tools},
+        tuple(exact_fixture(fixture) for fixture in scene.fixtures),
+        tuple(PersonVariation(each.individual, (0.0, 0.0, 0.0), each.strength_n) for each in scene.people),
     )
 
 

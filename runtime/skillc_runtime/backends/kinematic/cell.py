@@ -1,0 +1,95 @@
+"""A robot cell without physics, in lock step: devices, controllers and ideal contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mujoco
+
+from skillc_runtime.backends.kinematic.arm import KinematicArm
+from skillc_runtime.backends.kinematic.gripper import KinematicGripper
+from skillc_runtime.backends.kinematic.touch import Touch
+from skillc_runtime.backends.simulation.cell import ModelledCell
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.variation import Variation, exact_variation
+from skillc_runtime.world.state.model import WorldModel
+
+
+class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
+    """A cell built from the facts of a world model, with the real drivers and control laws, and without physics.
+
+    Joints follow their commands, nothing has weight, a grasp holds, and contact is a spring without friction. Reality
+    is as the facts say, and there is no noise, unless `reality` says otherwise.
+    """
+
+    def __init__(
+        self,
+        world: WorldModel,
+        timestep_s: float = 0.001,
+        steps_per_command: int = 1,
+        reality: Callable[[SceneSpec], Variation] = exact_variation,
+    ) -> None:
+        """Build the cell; controllers run every `steps_per_command` steps.
+
+        Raises SheetError or FrameError if facts are missing or contradict the models.
+        """
+        scene = read_scene_spec(world.snapshot())
+        super().__init__(world, scene, reality(scene), timestep_s, steps_per_command)
+
+    def _make_arms(self) -> tuple[dict[str, KinematicArm], dict[str, KinematicGripper]]:
+        self.model.opt.gravity[:] = 0.0
+        names, tools, arms, hands = self.scene.names, self.scene.tools, {}, {}
+        for facts in self.scene.arms:
+            palm = None if facts.gripper is None else names[facts.gripper.individual]
+            name, start = names[facts.individual], self.variation.start(facts)
+            arm = KinematicArm(facts, name, palm, self.model, self.data, start, self._steps_per_command)
+            arms[facts.individual] = arm
+            if facts.gripper is not None:
+                hands[facts.individual] = KinematicGripper(facts.gripper, names, tools, arm, self.model, self.data)
+        return arms, hands
+
+    def _prepare(self) -> None:
+        self._touch = Touch(self.scene, list(self.arms.values()), self.model, self.data)
+        self._compute_state()
+
+    def _move(self, now: float) -> None:
+        self._observe(now)
+        for arm in self.arms.values():
+            arm.step(self._timestep)
+        self._move_bases()
+        self.data.time += self._timestep
+        self._compute_state()
+
+    def _compute_state(self) -> None:
+        """Compute poses, what arms hold, contacts and sensors from the joints."""
+        model, data = self.model, self.data
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_comVel(model, data)
+        if self._place_held():
+            mujoco.mj_kinematics(model, data)
+            mujoco.mj_comPos(model, data)
+            mujoco.mj_comVel(model, data)
+        mujoco.mj_collision(model, data)
+        self._touch.update(self._timestep)
+        mujoco.mj_sensorPos(model, data)
+        mujoco.mj_sensorVel(model, data)
+
+    def _place_held(self) -> bool:
+        """Place what arms hold in their hands; tell whether they hold anything."""
+        found = False
+        for number, (individual, arm) in enumerate(self.arms.items()):
+            gripper = self._hands.get(individual)
+            self._touch.hold(number, None if gripper is None else gripper.holding)
+            if gripper is not None and gripper.holding is not None:
+                twist, centre = arm.motion
+                gripper.move_held(centre, twist)
+                found = True
+        return found
+
+    def _observe(self, now: float) -> None:
+        for button in self._buttons.values():
+            button.sample(now)
+        for arm, gripper in self._hands.items():
+            if gripper.holding is not None:
+                self._observers[gripper.holding].sample(now, self._drivers[arm])

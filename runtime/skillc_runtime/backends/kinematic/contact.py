@@ -1,0 +1,143 @@
+"""Ideal contact: where what an arm carries overlaps with something, a spring pushes it out; there is no friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.linear import cross
+from skillc_runtime.motion.pose import Array
+
+STIFFNESS_N_M = 1500.0
+"""Stiffness of a contact point; a working face has four to eight of them, together about as stiff as felt."""
+
+DAMPING_S_M = 10.0
+"""Share of the spring's force by which it grows with the speed of indentation, in 1/(m/s)."""
+
+FINGERS, TOOL = 0, 1
+"""The carriers of arm i, 2 i + this: its fingers, and the tool that they hold."""
+
+FIXED, FREE = -1, -2
+"""Marks geoms that no arm carries: those that are touched, and free tools, which are gripped, but not touched."""
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """The overlaps of this step, in the world: distance (n,) m, negative if they overlap; place (n, 3) m.
+
+    normal (n, 9): from the first to the second geom, then tangents; geoms (n, 2): their numbers.
+    """
+
+    distance: Vector
+    normal: Matrix
+    place: Matrix
+    geoms: Matrix
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The motion of the last links of all arms, and of what yields, in the world; arrays change with the cell.
+
+    centre (a, 3): m, where the twist (a, 6) [angular rad/s; linear m/s] holds; tool (a, 3): m, the tool centre points.
+    axis, anchor (j, 3): of joints of fixtures, anchor in m; speed (j,): m/s or rad/s. slides (j,): 1 if it slides, 0 if
+    it turns; moves (j, geoms): 1 if the joint moves a geom, else 0.
+    """
+
+    centre: OutMatrix
+    twist: OutMatrix
+    tool: OutMatrix
+    axis: OutMatrix
+    anchor: OutMatrix
+    speed: OutVector
+    slides: Vector
+    moves: Matrix
+
+
+@dataclass(frozen=True, slots=True)
+class Forces:
+    """The result: wrench (a, 6) N and N m of the surroundings on each arm at its tool centre point, world axes.
+
+    on_geom (2 a * geoms, 3): N, of a carrier on a geom, in the world; total (2 a,): N, sum of all normal forces on a
+    carrier. joint (j, 2): N or N m along each joint of a fixture, and the stiffness of the contacts along it.
+    """
+
+    wrench: OutMatrix
+    on_geom: OutMatrix
+    total: OutVector
+    joint: OutMatrix
+
+
+def make_forces(arms: int, geoms: int, joints: int) -> Forces:
+    """Return forces that are zero."""
+    return Forces(np.zeros((arms, 6)), np.zeros((2 * arms * geoms, 3)), np.zeros(2 * arms), np.zeros((joints, 2)))
+
+
+@inlined
+def along_joint(motion: Motion, joint: int, place: Array, normal: Array) -> float:
+    """Return how far a point (3,) m of a fixture moves along a direction (3,) per m or rad of a joint."""
+    arm, moved = np.empty(3), np.empty(3)
+    for i in range(3):
+        arm[i] = place[i] - motion.anchor[joint, i]
+    cross(motion.axis[joint], arm, moved)
+    along = 0.0
+    for i in range(3):
+        along += normal[i] * (motion.axis[joint, i] if motion.slides[joint] > 0.0 else moved[i])
+    return along
+
+
+@inlined
+def leaving_speed(motion: Motion, arm: int, theirs: int, place: Array, normal: Array) -> float:
+    """Return the speed in m/s along the normal (3,) of a point (3,) m of an arm, relative to a geom that it presses."""
+    lever, turning, speed = np.empty(3), np.empty(3), 0.0
+    for i in range(3):
+        lever[i] = place[i] - motion.centre[arm, i]
+    cross(motion.twist[arm, :3], lever, turning)
+    for i in range(3):
+        speed += normal[i] * (motion.twist[arm, 3 + i] + turning[i])
+    for j in range(motion.speed.size):
+        speed -= motion.moves[j, theirs] * motion.speed[j] * along_joint(motion, j, place, normal)
+    return speed
+
+
+@inlined
+def add_force(forces: Forces, motion: Motion, carrier: int, theirs: int, place: Array, force: Array) -> None:
+    """Add a force (3,) in N on a carrier at a place (3,) in m, from a geom; all in the world."""
+    arm, row, lever, moment = carrier // 2, carrier * motion.moves.shape[1] + theirs, np.empty(3), np.empty(3)
+    for i in range(3):
+        lever[i] = place[i] - motion.tool[arm, i]
+    cross(lever, force, moment)
+    for i in range(3):
+        forces.wrench[arm, i] += force[i]
+        forces.wrench[arm, 3 + i] += moment[i]
+        forces.on_geom[row, i] -= force[i]
+    for j in range(motion.speed.size):
+        forces.joint[j, 0] -= motion.moves[j, theirs] * along_joint(motion, j, place, force)
+
+
+@compiled
+def add_contacts(forces: Forces, points: Points, motion: Motion, carrier: Vector) -> None:
+    """Add up F = k d (1 + c dd/dt) for each overlap d of something carried with something that is not.
+
+    carrier (geoms,): the carrier of each geom, or `FIXED` or `FREE`. Hunt and Crossley 1975, with exponent 1.
+    """
+    normal, force = np.empty(3), np.empty(3)
+    for n in range(points.distance.size):
+        first, second = int(points.geoms[n, 0]), int(points.geoms[n, 1])
+        ours, theirs, sign = (first, second, -1.0) if carrier[first] >= 0.0 else (second, first, 1.0)
+        who, place = int(carrier[ours]), points.place[n]
+        if points.distance[n] >= 0.0 or who < 0 or carrier[theirs] != FIXED:
+            continue
+        for i in range(3):
+            normal[i] = sign * points.normal[n, i]
+        leaving = leaving_speed(motion, who // 2, theirs, place, normal)
+        newton = max(0.0, -STIFFNESS_N_M * points.distance[n] * (1.0 - DAMPING_S_M * leaving))
+        for i in range(3):
+            force[i] = newton * normal[i]
+        forces.total[who] += newton
+        add_force(forces, motion, who, theirs, place, force)
+        for j in range(motion.speed.size):
+            along = motion.moves[j, theirs] * along_joint(motion, j, place, normal)
+            forces.joint[j, 1] += STIFFNESS_N_M * along * along

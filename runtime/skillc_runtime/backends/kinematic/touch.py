@@ -1,0 +1,98 @@
+"""What the arms of a kinematic cell touch: the contacts, their forces on arms, and the parts that yield to them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.kinematic.arm import KinematicArm
+from skillc_runtime.backends.kinematic.contact import (
+    FINGERS,
+    FIXED,
+    FREE,
+    TOOL,
+    Motion,
+    Points,
+    add_contacts,
+    make_forces,
+)
+from skillc_runtime.backends.kinematic.contact_sensors import ContactSensors
+from skillc_runtime.backends.kinematic.yielding import YieldingParts
+from skillc_runtime.backends.simulation.model_builder import WORKS
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.motion.arrays import OutVector
+
+
+class Touch:
+    """All contacts of a cell, updated once a step. Tools that nobody holds touch nothing."""
+
+    def __init__(self, scene: SceneSpec, arms: Sequence[KinematicArm], model: Any, data: Any) -> None:
+        names, parts, count = scene.names, YieldingParts(scene, model, data), len(arms)
+        self._arms, self._model, self._data, self._parts = arms, model, data, parts
+        self._geoms = {each.individual: geoms_of(model, names[each.individual]) for each in scene.tools}
+        self._bits = model.geom_contype.copy(), model.geom_conaffinity.copy()
+        self._held: list[str | None] = [None] * count
+        self._carrier: OutVector = np.full(model.ngeom, float(FIXED))
+        for number, arm in enumerate(scene.arms):
+            if arm.gripper is not None:
+                self._carrier[geoms_of(model, names[arm.gripper.individual])] = 2 * number + FINGERS
+        for tool in self._geoms:
+            self._set_carrier(tool, FREE)
+        centres, tools, twists = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros((count, 6))
+        axes, anchors, speeds = np.zeros((parts.count, 3)), np.zeros((parts.count, 3)), np.zeros(parts.count)
+        self._motion = Motion(centres, twists, tools, axes, anchors, speeds, parts.slides, parts.moves)
+        self._forces, self._touched = make_forces(count, model.ngeom, parts.count), False
+        self._sensors = ContactSensors(scene, self._forces, model, data)
+
+    def hold(self, number: int, tool: str | None) -> None:
+        """Let the arm of a number carry a tool from now on, or none."""
+        before, self._held[number] = self._held[number], tool
+        if before == tool:
+            return
+        if before is not None:
+            self._set_carrier(before, FREE)
+        if tool is not None:
+            self._set_carrier(tool, 2 * number + TOOL)
+
+    def update(self, period_s: float) -> None:
+        """Find the contacts in the present positions; let arms and sensors feel them, and yielding parts yield."""
+        forces, touched = self._forces, self._data.ncon > 0
+        if touched or self._touched:
+            for array in (forces.wrench, forces.on_geom, forces.total, forces.joint):
+                array[:] = 0.0
+            self._add_contacts()
+            self._sensors.update(self._held)
+        self._touched = touched
+        if self._parts.count:
+            self._parts.step(forces.joint, period_s)
+        for number, arm in enumerate(self._arms):
+            arm.feel(forces.wrench[number])
+
+    def _add_contacts(self) -> None:
+        contact, motion, parts = self._data.contact, self._motion, self._parts
+        for number, arm in enumerate(self._arms):
+            motion.twist[number], motion.centre[number] = arm.motion
+            motion.tool[number] = arm.tool_point()
+        motion.axis[:], motion.anchor[:], motion.speed[:] = parts.axes, parts.anchors, parts.speeds
+        points = Points(contact.dist, contact.frame, contact.pos, contact.geom.astype(np.float64))
+        add_contacts(self._forces, points, motion, self._carrier)
+
+    def _set_carrier(self, tool: str, carrier: int) -> None:
+        """Set who carries a tool; the geoms that it works with touch nothing while it is free."""
+        model, geoms = self._model, self._geoms[tool]
+        self._carrier[geoms] = carrier
+        types, affinities = self._bits
+        working = geoms[types[geoms] & WORKS > 0]
+        model.geom_contype[working] = 0 if carrier == FREE else types[working]
+        model.geom_conaffinity[working] = 0 if carrier == FREE else affinities[working]
+
+
+def geoms_of(model: Any, device: str) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """Return the numbers of the geoms of a device or tool."""
+    prefix = part_name(device, "")
+    return np.array(
+        [g for g in range(model.ngeom) if model.body(model.geom_bodyid[g]).name.startswith(prefix)], dtype=np.int64
+    )
