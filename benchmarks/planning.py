@@ -19,6 +19,7 @@ import msgspec
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, library, post, skill
 from skillc_model.conditions import And, Holds, Individual, Not
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Solved
 from skillc_runtime.planning.planners import list_planners
@@ -125,12 +126,12 @@ def _triples(state: WorldState) -> int:
 def prove(near: PosedProblem, state: WorldState) -> None:
     """Find the bound on all plans of the scene."""
     bound = relax_scene(near, state)
-    assert bound is not None and isinstance(list_planners()[0].plan(bound, 30.0), Solved)
+    assert bound is not None and isinstance(list_planners()[0].plan(bound, CancelToken(30.0)), Solved)
 
 
 def first_plan(state: WorldState) -> None:
     """Pose the near problem and solve it with the first planner."""
-    answer = list_planners()[0].plan(pose_problem(SKILLS, state, GOAL, (), NARROW).problem, 30.0)
+    answer = list_planners()[0].plan(pose_problem(SKILLS, state, GOAL, (), NARROW).problem, CancelToken(30.0))
     assert isinstance(answer, Solved)
 
 

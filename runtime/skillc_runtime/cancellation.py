@@ -18,7 +18,7 @@ class CancelToken:
     """
 
     def __init__(self, seconds: float = inf, whole: CancelToken | None = None) -> None:
-        """Allow `seconds` of wall-clock time from now on; as a part of `whole`, not more than that allows."""
+        """Allow `seconds` of wall-clock time from now on; cancelling `whole` cancels it, too."""
         self._end = time.monotonic() + seconds
         self._why: str | None = None
         self._whole = whole
@@ -27,8 +27,12 @@ class CancelToken:
         """Return the token of a part of the work: it ends after `seconds`, and not later than this one."""
         return CancelToken(min(seconds, self.remaining_s), self)
 
+    def share(self, fraction: float) -> CancelToken:
+        """Return the token of a part of the work that may take a fraction of the time that is left."""
+        return self.limited(fraction * self.remaining_s)
+
     def cancel(self, why: str) -> None:
-        """End the work; the first reason counts."""
+        """End the work; `why` is a clause such as "it was stopped by the operator", and the first one counts."""
         if self._why is None:
             self._why = why
 
@@ -46,7 +50,7 @@ class CancelToken:
     def reason(self) -> str | None:
         """Why the work has to end now; None while it may go on."""
         why = self.cancelled_because
-        return why if why is not None or time.monotonic() < self._end else "its time is up"
+        return why if why is not None or time.monotonic() < self._end else "it ran out of time"
 
     def check(self) -> None:
         """Raise Cancelled if the work has to end now."""

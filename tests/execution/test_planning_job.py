@@ -87,7 +87,7 @@ class Odd:
     does: Callable[[], object]
     name: str = "odd"
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
         self.does()
         raise AssertionError("it came back")
 
@@ -135,7 +135,7 @@ def test_a_worker_that_fails_is_a_task_that_does_not_start(does: Callable[[], ob
 def test_a_worker_that_passes_its_deadline_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("skillc_runtime.execution.planning_job.GRACE_S", 0.1)
     with odd_job(sleep, deadline_s=0.1) as job:
-        assert finished(job) == NotStarted("planning was stopped: its time is up")
+        assert finished(job) == NotStarted("planning was stopped: it ran out of time")
 
 
 def test_a_worker_is_ended_when_its_token_is_cancelled() -> None:

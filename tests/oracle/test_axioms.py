@@ -18,6 +18,7 @@ from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.pddl.pruning import prune_unread_values
 from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import GoalError, pose_problem
@@ -51,15 +52,15 @@ def test_what_is_said_of_a_plan_is_true(seed: int) -> None:
         least = cheapest(drawn.library, drawn.state, drawn.goal)
     except (GoalError, TooManyStates):
         pytest.skip("the goal cannot be planned for, or there are too many states")
-    answer = solve(drawn.library, drawn.state, drawn.goal, (AStar(),), LONG_S)
+    answer = solve(drawn.library, drawn.state, drawn.goal, (AStar(),), CancelToken(LONG_S))
     check_claim(answer, float("inf") if least is None else least, restricted)
 
 
 @pytest.mark.parametrize("seed", range(1000, 1000 + (EXAMPLES or 2)))
 def test_the_strongest_planner_claims_the_same(seed: int) -> None:
     drawn = Author(seed).drawn()
-    own = solve(drawn.library, drawn.state, drawn.goal, (AStar(),), LONG_S)
-    other = solve(drawn.library, drawn.state, drawn.goal, list_planners()[:1], LONG_S)
+    own = solve(drawn.library, drawn.state, drawn.goal, (AStar(),), CancelToken(LONG_S))
+    other = solve(drawn.library, drawn.state, drawn.goal, list_planners()[:1], CancelToken(LONG_S))
     assert type(own) is type(other)
     if isinstance(own, Solved) and isinstance(other, Solved):
         assert (other.optimal, other.plan.duration_s) == (own.optimal, pytest.approx(own.plan.duration_s))

@@ -16,6 +16,7 @@ from oracle.text import Contradictory
 from skillc_model.conditions import And, Condition
 from skillc_model.pddl.complement import add_complements
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import Planner, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import list_planners
@@ -62,15 +63,17 @@ def cost_of(answer: PlanResult) -> float:
 @pytest.mark.parametrize("seed", range(EXAMPLES or 8))
 def test_the_built_in_planner_finds_the_cheapest_plan(seed: int) -> None:
     skills, state, goal = drawn(Dice(seed))
-    assert cost_of(solve(skills, state, goal, (AStar(),), LONG_S)) == pytest.approx(least(skills, state, goal))
+    assert cost_of(solve(skills, state, goal, (AStar(),), CancelToken(LONG_S))) == pytest.approx(
+        least(skills, state, goal)
+    )
 
 
 @pytest.mark.parametrize("seed", range(EXAMPLES or 2))
 @pytest.mark.parametrize("planner", list_planners()[:-1], ids=lambda planner: planner.name)
 def test_every_other_planner_finds_a_plan_as_cheap(seed: int, planner: Planner) -> None:
     skills, state, goal = drawn(Dice(1000 + seed))
-    own = solve(skills, state, goal, (AStar(),), LONG_S)
-    assert cost_of(solve(skills, state, goal, (planner,), LONG_S)) == pytest.approx(cost_of(own))
+    own = solve(skills, state, goal, (AStar(),), CancelToken(LONG_S))
+    assert cost_of(solve(skills, state, goal, (planner,), CancelToken(LONG_S))) == pytest.approx(cost_of(own))
 
 
 @pytest.mark.parametrize("seed", range(EXAMPLES or 2))
@@ -82,7 +85,7 @@ def test_pddl_means_what_the_world_model_means(seed: int) -> None:
     wrong, tried = disagreements(problem, state)
     assert wrong == []
     assert tried
-    answer = solve(skills, state, goal, (AStar(),), LONG_S)
+    answer = solve(skills, state, goal, (AStar(),), CancelToken(LONG_S))
     if isinstance(answer, Solved) and answer.plan.steps:
         assert takes(pose_problem(skills, state, goal), answer.plan)
 
@@ -92,17 +95,17 @@ def test_nothing_wrong_is_said_of_a_scene_from_a_part_of_it(seed: int) -> None:
     skills, state, goal = drawn(Dice(seed, CROWD))
     size = AbstractionSize(1 + seed % 3, 1)
     narrow = pose_problem(skills, state, goal, (), size)
-    whole = AStar().plan(pose_problem(skills, state, goal).problem, LONG_S)
+    whole = AStar().plan(pose_problem(skills, state, goal).problem, CancelToken(LONG_S))
     bound = relax_scene(narrow, state)
     if bound is not None:
-        assert cost_of(AStar().plan(bound, LONG_S)) <= cost_of(whole) + 1e-9
-    first = solve(skills, state, goal, (AStar(),), LONG_S, size=size)
+        assert cost_of(AStar().plan(bound, CancelToken(LONG_S))) <= cost_of(whole) + 1e-9
+    first = solve(skills, state, goal, (AStar(),), CancelToken(LONG_S), size=size)
     if isinstance(first, Solved) and first.optimal != "proven":
         assert first.optimal == "optimal for the filtered problem"
         assert (first.at_least_s or 0.0) <= cost_of(whole) <= first.plan.duration_s
     else:
         assert cost_of(first) == pytest.approx(cost_of(whole))
-    proven = solve(skills, state, goal, (AStar(),), LONG_S, size=size, prove=True)
+    proven = solve(skills, state, goal, (AStar(),), CancelToken(LONG_S), size=size, prove=True)
     assert cost_of(proven) == pytest.approx(cost_of(whole))
     assert explain_unreachable(skills, state, goal) is None or isinstance(whole, Unsolvable)
 
@@ -111,4 +114,6 @@ def test_nothing_wrong_is_said_of_a_scene_from_a_part_of_it(seed: int) -> None:
 def test_saying_what_is_not_true_changes_nothing(seed: int) -> None:
     skills, state, goal = drawn(Dice(seed))
     problem = pose_problem(skills, state, goal).problem
-    assert cost_of(AStar().plan(add_complements(problem), LONG_S)) == cost_of(AStar().plan(problem, LONG_S))
+    assert cost_of(AStar().plan(add_complements(problem), CancelToken(LONG_S))) == cost_of(
+        AStar().plan(problem, CancelToken(LONG_S))
+    )

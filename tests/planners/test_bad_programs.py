@@ -9,6 +9,7 @@ import pytest
 
 from planners.programs import CRASH, ENDLESS, FILL, GARBAGE, HANG, HOG, SMALL, ends, program, started
 from planning.samples import CLEANED, LAB, WIPING
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.aries.solver import Aries
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
 from skillc_runtime.planning.plan import GaveUp
@@ -21,19 +22,21 @@ SECONDS = 1.5
 
 def translating(folder: Path, script: str) -> object:
     """Plan with a translator that behaves badly."""
-    return FastDownward(Programs((program(folder, "translate", script),), "", ("",)), SMALL).plan(PROBLEM, SECONDS)
+    return FastDownward(Programs((program(folder, "translate", script),), "", ("",)), SMALL).plan(
+        PROBLEM, CancelToken(SECONDS)
+    )
 
 
 def searching(folder: Path, script: str) -> object:
     """Plan with two search programs that behave badly."""
     bad = program(folder, "search", script)
     programs = Programs((program(folder, "translate", TRANSLATED),), bad, (bad,))
-    return FastDownward(programs, SMALL).plan(PROBLEM, SECONDS)
+    return FastDownward(programs, SMALL).plan(PROBLEM, CancelToken(SECONDS))
 
 
 def scheduling(folder: Path, script: str) -> object:
     """Look for a schedule with a program that behaves badly."""
-    return Aries(program(folder, "aries", script), SMALL).schedule(PROBLEM, SECONDS)
+    return Aries(program(folder, "aries", script), SMALL).schedule(PROBLEM, CancelToken(SECONDS))
 
 
 PLACES = (translating, searching, scheduling)

@@ -19,6 +19,7 @@ from skillc_model.conditions import Condition, Holds, Individual
 from skillc_model.pddl.problem import Problem
 from skillc_model.tree import Sequence
 from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.planning.aries.solver import Aries, find_aries
 from skillc_runtime.planning.fast_downward import solver as fast_downward
@@ -51,7 +52,7 @@ class Says:
     answer: Schedule | GaveUp
     name: str = "somebody"
 
-    def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
+    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
         """Return the answer."""
         return self.answer
 
@@ -62,7 +63,7 @@ class Alone:
 
     name: str = "a lazy one"
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
         """Return its only plan."""
         back = step("Go", robot="carl", to="a", from_="c")
         steps = (*carry("carl", "crate", "a", "c"), *carry("carl", "box", "a", "c"))
@@ -80,7 +81,7 @@ def ask(
     planner: Planner = AStar(),  # noqa: B008  it has no state
 ) -> ScheduleResult:
     scheduler = None if answer is None else Says(answer)
-    return minimise_makespan(LIBRARY, world, goal, Planners((planner,), scheduler), 20.0)
+    return minimise_makespan(LIBRARY, world, goal, Planners((planner,), scheduler), CancelToken(20.0))
 
 
 GO = replace(carry("dora", "box", "b", "a")[1], start_s=0.0)
@@ -121,8 +122,8 @@ def test_conditional_effects_are_refused_with_a_hint_at_other_planners() -> None
     )
     goal = Holds(Individual(iri("robot")), iri("at"), Individual(iri("wall")))
     problem = pose_problem(library(jump), LAB, goal).problem
-    assert isinstance(AStar().plan(problem, 20.0), Solved)
-    refused = Aries("never started").schedule(problem, 20.0)
+    assert isinstance(AStar().plan(problem, CancelToken(20.0)), Solved)
+    refused = Aries("never started").schedule(problem, CancelToken(20.0))
     assert isinstance(refused, GaveUp)
     assert "Jump changes depends on the state" in refused.why and "--minimise work do" in refused.why
 
@@ -142,17 +143,17 @@ def test_a_schedule_that_meets_a_bound_is_proved() -> None:
 
 def test_bounds_hold() -> None:
     problem = pose_problem(LIBRARY, WORLD, BOTH).problem
-    assert 0.0 < critical_path_s(problem, 20.0) <= GOOD.makespan_s
-    assert critical_path_s(problem, 0.0) == 0.0, "there was no time to look"
+    assert 0.0 < critical_path_s(problem, CancelToken(20.0)) <= GOOD.makespan_s
+    assert critical_path_s(problem, CancelToken(0.0)) == 0.0, "there was no time to look"
     names = {iri: name for name, iri in problem.names.items()}
     for robot in ("carl", "dora"):
-        least = AStar().plan(price_device_work(problem, names[depot.iri(robot)]), 20.0)
+        least = AStar().plan(price_device_work(problem, names[depot.iri(robot)]), CancelToken(20.0))
         assert isinstance(least, Solved) and least.plan.duration_s == 0.0, "the other one can do everything"
     alone = depot.world({"carl": "a"}, {"crate": "a", "box": "b"}, "a b c")
     problem = pose_problem(LIBRARY, alone, BOTH).problem
     names = {iri: name for name, iri in problem.names.items()}
-    least = AStar().plan(price_device_work(problem, names[depot.iri("carl")]), 20.0)
-    cheapest = AStar().plan(problem, 20.0)
+    least = AStar().plan(price_device_work(problem, names[depot.iri("carl")]), CancelToken(20.0))
+    cheapest = AStar().plan(problem, CancelToken(20.0))
     assert isinstance(least, Solved) and isinstance(cheapest, Solved)
     assert least.plan.duration_s == cheapest.plan.duration_s > 0.0
 
@@ -164,7 +165,7 @@ needs_aries = pytest.mark.skipif(PROGRAM is None, reason="aries is an extra")
 @needs_aries
 def test_aries_finds_what_two_robots_can_do_at_once() -> None:
     assert PROGRAM is not None
-    answer = Aries(PROGRAM).schedule(pose_problem(LIBRARY, WORLD, BOTH).problem, 20.0)
+    answer = Aries(PROGRAM).schedule(pose_problem(LIBRARY, WORLD, BOTH).problem, CancelToken(20.0))
     assert isinstance(answer, Schedule), answer
     assert simulate_schedule(answer, LIBRARY, WORLD, BOTH)
     assert answer.makespan_s == pytest.approx(9.0, abs=0.1)
@@ -178,7 +179,7 @@ def test_aries_takes_goals_of_every_kind(text: str) -> None:
     assert PROGRAM is not None
     world = depot.world({"carl": "a"}, {"crate": "a"}, "a b c").with_changes(())
     goal = depot.goal(f"({text}) and lab:carl at lab:b", world)
-    answer = Aries(PROGRAM).schedule(pose_problem(LIBRARY, world, goal).problem, 20.0)
+    answer = Aries(PROGRAM).schedule(pose_problem(LIBRARY, world, goal).problem, CancelToken(20.0))
     assert isinstance(answer, Schedule), answer
     assert [each.step for each in answer.steps] == [step("Go", robot="carl", to="b", from_="a")]
 
@@ -190,8 +191,8 @@ def test_several_may_ask_at_the_same_time() -> None:
     assert programs is not None and PROGRAM is not None
     problem, scheduler, planner = pose_problem(LIBRARY, WORLD, BOTH).problem, Aries(PROGRAM), FastDownward(programs)
     with ThreadPoolExecutor(3) as pool:
-        plans = [pool.submit(planner.plan, problem, 30.0) for _ in range(2)]
-        schedule = pool.submit(scheduler.schedule, problem, 30.0).result()
+        plans = [pool.submit(planner.plan, problem, CancelToken(30.0)) for _ in range(2)]
+        schedule = pool.submit(scheduler.schedule, problem, CancelToken(30.0)).result()
     assert isinstance(schedule, Schedule) and simulate_schedule(schedule, LIBRARY, WORLD, BOTH)
     first, second = (each.result() for each in plans)
     assert isinstance(first, Solved) and first == second
@@ -205,13 +206,13 @@ def test_no_schedule_is_worse_than_the_cheapest_plan_or_better_than_the_bounds(s
     crates = {name: random.choice("abcd") for name in ("crate", "box")}
     world = depot.world(robots, crates)
     goal = depot.goal(" and ".join(f"lab:{random.choice('abcd')} contain lab:{name}" for name in crates), world)
-    answer = minimise_makespan(LIBRARY, world, goal, find_planners(), 6.0)
+    answer = minimise_makespan(LIBRARY, world, goal, find_planners(), CancelToken(6.0))
     cheapest = solve(LIBRARY, world, goal)
     assert isinstance(answer, Scheduled) and isinstance(cheapest, Solved)
     assert simulate_schedule(answer.schedule, LIBRARY, world, goal) and validate(answer.plan, LIBRARY, world, goal)
     assert "does not work" not in (answer.note or "") and "no plan" not in (answer.note or "")
     assert answer.schedule.makespan_s <= cheapest.plan.duration_s <= answer.plan.duration_s
-    assert answer.schedule.makespan_s >= critical_path_s(pose_problem(LIBRARY, world, goal).problem, 20.0)
+    assert answer.schedule.makespan_s >= critical_path_s(pose_problem(LIBRARY, world, goal).problem, CancelToken(20.0))
     assert (answer.schedule.makespan_s == cheapest.plan.duration_s) or len(robots) > 1
 
 

@@ -16,6 +16,7 @@ from skillc.cli.main import skillc
 from skillc.services import planning
 from skillc.services.planning import FolderPlanCache
 from skillc_model.pddl.problem import Problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.pose import pose_problem
@@ -24,7 +25,7 @@ from skillc_runtime.planning.search.astar import AStar
 
 PROBLEM = pose_problem(depot.library(), WORLD, BOTH).problem
 OTHER = pose_problem(depot.library(), WORLD, depot.goal("lab:c contain lab:crate", WORLD)).problem
-ANSWER = AStar().plan(PROBLEM, 20.0)
+ANSWER = AStar().plan(PROBLEM, CancelToken(20.0))
 
 
 @dataclass
@@ -33,16 +34,16 @@ class Counting:
 
     answer: PlanResult = ANSWER
     name: str = "counting"
-    asked: list[float] = field(default_factory=list)
+    asked: list[int] = field(default_factory=list)
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
         """Return the answer."""
-        self.asked.append(deadline_s)
+        self.asked.append(round(cancel.remaining_s))
         return self.answer
 
-    def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
+    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
         """Return a schedule."""
-        self.asked.append(deadline_s)
+        self.asked.append(round(cancel.remaining_s))
         return GOOD
 
 
@@ -50,21 +51,21 @@ def test_the_same_problem_is_not_solved_twice(tmp_path: Path) -> None:
     planner = Counting()
     first = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
     assert isinstance(ANSWER, Solved)
-    assert [first.plan(PROBLEM, 10.0) for _ in range(3)] == [ANSWER] * 3
+    assert [first.plan(PROBLEM, CancelToken(10.0)) for _ in range(3)] == [ANSWER] * 3
     assert len(planner.asked) == 1
-    assert CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0").plan(PROBLEM, 99.0) == ANSWER
+    assert CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0").plan(PROBLEM, CancelToken(99.0)) == ANSWER
     assert len(planner.asked) == 1
-    first.plan(OTHER, 10.0)
-    CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.1").plan(PROBLEM, 10.0)
+    first.plan(OTHER, CancelToken(10.0))
+    CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.1").plan(PROBLEM, CancelToken(10.0))
     renamed = replace(PROBLEM, names={name: iri + "x" for name, iri in PROBLEM.names.items()})
-    first.plan(renamed, 10.0)
+    first.plan(renamed, CancelToken(10.0))
     assert len(planner.asked) == 4, "another problem, another version, other things"
 
 
 def test_schedules_are_remembered_too(tmp_path: Path) -> None:
     scheduler = Counting()
     remembering = CachingScheduler(scheduler, FolderPlanCache(tmp_path), "one 1.0")
-    assert [remembering.schedule(PROBLEM, 10.0) for _ in range(2)] == [GOOD] * 2
+    assert [remembering.schedule(PROBLEM, CancelToken(10.0)) for _ in range(2)] == [GOOD] * 2
     assert len(scheduler.asked) == 1
 
 
@@ -73,15 +74,32 @@ def test_who_has_more_time_than_a_plan_that_was_cut_short_asks_again(tmp_path: P
     planner = Counting(replace(ANSWER, optimal="best found"))
     remembering = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
     for seconds in (0.0, 0.0, 10.0, 99.0, 5.0):
-        remembering.plan(PROBLEM, seconds)
-    assert planner.asked == [0.0, 10.0], "the second was not cut short, so it is good for all"
+        remembering.plan(PROBLEM, CancelToken(seconds))
+    assert planner.asked == [0, 10], "the second was not cut short, so it is good for all"
+
+
+@dataclass
+class Interrupted(Counting):
+    """A planner that is cancelled while it plans."""
+
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+        """Return what was found until then."""
+        cancel.cancel("it was stopped")
+        return super().plan(problem, cancel)
+
+
+def test_what_was_found_until_a_search_was_cancelled_is_not_kept(tmp_path: Path) -> None:
+    planner = Interrupted()
+    remembering = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
+    assert [remembering.plan(PROBLEM, CancelToken(10.0)) for _ in range(2)] == [ANSWER] * 2
+    assert len(planner.asked) == 2
 
 
 @pytest.mark.parametrize("answer", [GaveUp("no"), Unsolvable("no")])
 def test_only_plans_are_remembered(tmp_path: Path, answer: PlanResult) -> None:
     planner = Counting(answer)
     remembering = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
-    assert [remembering.plan(PROBLEM, 10.0) for _ in range(2)] == [answer] * 2
+    assert [remembering.plan(PROBLEM, CancelToken(10.0)) for _ in range(2)] == [answer] * 2
     assert len(planner.asked) == 2
 
 
@@ -92,12 +110,12 @@ def damaged(content: bytes) -> tuple[bytes, ...]:
 def test_what_is_damaged_counts_as_missing_and_is_replaced(tmp_path: Path) -> None:
     planner = Counting()
     remembering = CachingPlanner(planner, FolderPlanCache(tmp_path), "one 1.0")
-    remembering.plan(PROBLEM, 10.0)
+    remembering.plan(PROBLEM, CancelToken(10.0))
     (file,) = tmp_path.iterdir()
     whole = file.read_bytes()
     for number, content in enumerate(damaged(whole), 2):
         file.write_bytes(content)
-        assert remembering.plan(PROBLEM, 10.0) == ANSWER
+        assert remembering.plan(PROBLEM, CancelToken(10.0)) == ANSWER
         assert len(planner.asked) == number
         assert file.read_bytes() == whole
     assert len(planner.asked) == 8
@@ -116,7 +134,7 @@ class Plain:
 
 def test_what_is_whole_but_something_else_counts_as_missing() -> None:
     planner = Counting()
-    assert CachingPlanner(planner, Plain(), "one 1.0").plan(PROBLEM, 10.0) == ANSWER
+    assert CachingPlanner(planner, Plain(), "one 1.0").plan(PROBLEM, CancelToken(10.0)) == ANSWER
     assert len(planner.asked) == 1
 
 
@@ -124,7 +142,7 @@ def test_a_shelf_that_cannot_be_used_only_costs_time(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     planner = Counting()
     remembering = CachingPlanner(planner, FolderPlanCache(tmp_path / "file"), "one 1.0")
-    assert [remembering.plan(PROBLEM, 10.0) for _ in range(2)] == [ANSWER] * 2
+    assert [remembering.plan(PROBLEM, CancelToken(10.0)) for _ in range(2)] == [ANSWER] * 2
     assert len(planner.asked) == 2
 
 
@@ -144,7 +162,7 @@ def _use(folder: Path) -> int:
     remembering = CachingPlanner(Counting(), FolderPlanCache(folder), "one 1.0")
     wrong = 0
     for _ in range(15):
-        wrong += remembering.plan(PROBLEM, 10.0) != ANSWER
+        wrong += remembering.plan(PROBLEM, CancelToken(10.0)) != ANSWER
         FolderPlanCache(folder).put("other", b"something")
     return wrong
 

@@ -9,6 +9,7 @@ import pytest
 
 from planning.samples import DRIVE, LAB, PICK, library, post, skill
 from skillc_model.conditions import And, Anything, Holds, Individual, Not, Variable
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.fast_downward.heuristics import (
     BLIND,
@@ -79,7 +80,7 @@ def test_what_a_step_replaces_without_knowing_it_is_planned_for_and_proved() -> 
     assert programs is not None
     goal = Holds(Individual(iri("robot")), iri("at"), Individual(iri("wall")))
     problem = pose_problem(library(JUMP), LAB, goal).problem
-    answer = FastDownward(programs).plan(problem, 20.0)
+    answer = FastDownward(programs).plan(problem, CancelToken(20.0))
     assert isinstance(answer, Solved) and answer.optimal == "proven" and answer.plan.duration_s == 1.5
 
 
@@ -111,7 +112,7 @@ def test_where_a_search_fails_the_next_heuristic_gets_its_turn(failing: str, pro
     search.chmod(0o755)
     goal = Holds(Individual(iri("robot")), iri("at"), Individual(iri("wall")))
     problem = pose_problem(library(JUMP), LAB, goal).problem
-    answer = FastDownward(Programs(programs.translate, str(search), ("false",))).plan(problem, 20.0)
+    answer = FastDownward(Programs(programs.translate, str(search), ("false",))).plan(problem, CancelToken(20.0))
     if proved:
         assert isinstance(answer, Solved) and answer.optimal == "proven"
     else:

@@ -9,6 +9,7 @@ from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library
 from skillc_model.conditions import Forall, Holds, Individual, Not, PropertyOf, Variable
 from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import Negation, Universal, conjuncts
+from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
 from skillc_runtime.planning.problem import initial_state as initial
@@ -16,7 +17,7 @@ from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.reachability import explain_unreachable
 from skillc_runtime.planning.search.astar import AStar
-from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
+from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.solve import solve
 from world.lab import assign, fact, individual, iri
 
@@ -119,9 +120,9 @@ def test_nothing_stands_in_where_nothing_was_left_out() -> None:
 
 def test_a_problem_that_is_too_large_is_given_up_in_time() -> None:
     problem = pose_problem(WIPING, CROWD, CLEANED).problem
-    with pytest.raises(GroundingTimeout):
-        Grounding(problem, end=0.0).explore()
-    assert isinstance(AStar().plan(problem, 0.0), GaveUp)
+    with pytest.raises(Cancelled):
+        Grounding(problem, CancelToken(0.0)).explore()
+    assert isinstance(AStar().plan(problem, CancelToken(0.0)), GaveUp)
 
 
 def test_what_is_denied_of_all_things_gets_a_predicate_and_the_plan_stays() -> None:
@@ -136,4 +137,4 @@ def test_what_is_denied_of_all_things_gets_a_predicate_and_the_plan_stays() -> N
     gripper = next(name for name, individual_ in problem.names.items() if individual_ == iri("gripper"))
     empty = [each for each in said.init if each.predicate.startswith("not-") and gripper in each.terms]
     assert len(empty) == len(problem.domain.of_type(problem.objects, denied[0].variable.type))
-    assert AStar().plan(said, 20.0) == AStar().plan(problem, 20.0)
+    assert AStar().plan(said, CancelToken(20.0)) == AStar().plan(problem, CancelToken(20.0))

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from planning.samples import CLEANED, LAB, WIPING
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs, find_fast_downward
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.pose import pose_problem
@@ -34,7 +35,7 @@ def plan(
         program(folder, "search", search),
         (program(folder, "driver", driver),),
     )
-    return FastDownward(programs).plan(PROBLEM, seconds)
+    return FastDownward(programs).plan(PROBLEM, CancelToken(seconds))
 
 
 BROKEN = [
@@ -112,7 +113,7 @@ def test_nothing_is_left_in_the_temporary_folder(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     programs = find_fast_downward()
     assert programs is not None
-    assert isinstance(FastDownward(programs).plan(PROBLEM, 30.0), Solved)
+    assert isinstance(FastDownward(programs).plan(PROBLEM, CancelToken(30.0)), Solved)
     assert not list(tmp_path.iterdir())
 
 

@@ -6,6 +6,7 @@ import pytest
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library, parameter
 from skillc_model.conditions import And, Condition, Exists, Forall, Holds, Individual, Not, Or, PropertyOf, Variable
 from skillc_rdf.vocabulary.types import ClassTerm
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import pose_problem
@@ -173,7 +174,7 @@ class Liar:
 
     name = "liar"
 
-    def plan(self, problem: object, deadline_s: float) -> PlanResult:
+    def plan(self, problem: object, cancel: CancelToken) -> PlanResult:
         """Return a wrong plan."""
         return Solved(Plan((), 0.0), "proven", self.name)
 
@@ -186,7 +187,7 @@ def test_a_planner_is_never_trusted_and_the_next_one_is_asked() -> None:
 
 def test_the_built_in_planner_gives_up_in_time() -> None:
     crowd = LAB.with_changes([individual(f"place-{n}", "Location") for n in range(40)])
-    assert isinstance(solve(WIPING, crowd, CLEANED, (AStar(),), deadline_s=0.0), GaveUp)
+    assert isinstance(solve(WIPING, crowd, CLEANED, (AStar(),), CancelToken(0.0)), GaveUp)
 
 
 def test_durations_that_depend_on_things_are_minimised() -> None:

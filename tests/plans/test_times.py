@@ -8,6 +8,7 @@ import pytest
 
 from plans.depot import SKIROS, Depot, contain, goal, iri, library, world
 from skillc_model.pddl.problem import Problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.task_run import execute_task
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
@@ -27,7 +28,7 @@ class Always:
     answer: Plan
     name: str = "somebody"
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
         """Return the plan."""
         return Solved(self.answer, "best found", self.name)
 

@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias
 from skillc.services.errors import RequestError
 from skillc.services.task_loading import LoadedTask
 from skillc_dsl import cache
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import PlanResult
@@ -44,7 +45,7 @@ def prepare_planners(use_cache: bool) -> Planners:
     return find_planners(None if folder is None else FolderPlanCache(folder / "plans"))
 
 
-def plan_goal(loaded: LoadedTask, measure: Measure, planners: Planners, deadline_s: float) -> Answer:
+def plan_goal(loaded: LoadedTask, measure: Measure, planners: Planners, cancel: CancelToken) -> Answer:
     """Plan for the goal of a task: with little work, with work proved minimal in the whole scene, or a short makespan.
 
     RequestError if the task has a body instead of a goal.
@@ -54,8 +55,8 @@ def plan_goal(loaded: LoadedTask, measure: Measure, planners: Planners, deadline
         raise RequestError(f"the task `{assignment.name}` has a body, not a goal; run it with `skillc run`")
     goal = assignment.objective.goal
     if measure == "makespan":
-        return minimise_makespan(library, assignment.state, goal, planners, deadline_s)
-    return solve(library, assignment.state, goal, planners.for_work, deadline_s, prove=measure == "proven work")
+        return minimise_makespan(library, assignment.state, goal, planners, cancel)
+    return solve(library, assignment.state, goal, planners.for_work, cancel, prove=measure == "proven work")
 
 
 def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:

@@ -146,12 +146,12 @@ def _prepare_plan(
 def _plan(
     state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
 ) -> PlanResult:
-    planners, seconds = search.planners, search.cancel.remaining_s
+    planners, cancel = search.planners, search.cancel
     match objective.minimise:
         case "work":
-            return solve(library, state, objective.goal, planners.for_work, seconds, without)
+            return solve(library, state, objective.goal, planners.for_work, cancel, without)
         case "makespan":
-            result = minimise_makespan(library, state, objective.goal, planners, seconds, without)
+            result = minimise_makespan(library, state, objective.goal, planners, cancel, without)
             return result.as_solved() if isinstance(result, Scheduled) else result
         case _:
             assert_never(objective.minimise)

@@ -7,7 +7,6 @@ its version and its limits. An answer that used up its time limit is reused only
 from __future__ import annotations
 
 import hashlib
-import time
 from collections.abc import Iterator
 from typing import Protocol, TypeVar
 
@@ -16,6 +15,7 @@ import msgspec
 from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
 from skillc_runtime.planning.schedule import Schedule, Scheduler
 
@@ -67,18 +67,18 @@ class CachingPlanner:
         """The name that is shown to users."""
         return self._planner.name
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
         """Return the cached plan, or solve the problem and store the plan."""
         if problem.goal == FALSE:
-            return self._planner.plan(problem, deadline_s)
+            return self._planner.plan(problem, cancel)
         key = _key(self._program, format_domain(problem.domain), format_problem(problem), *_cached_names(problem))
+        deadline_s = round(cancel.remaining_s, 2)
         cached = _decode(self._cache.get(key), CachedPlan)
         if cached is not None and _is_reusable(cached, deadline_s):
             return cached.solved
-        begin = time.monotonic()
-        answer = self._planner.plan(problem, deadline_s)
-        if isinstance(answer, Solved):
-            entry = CachedPlan(answer, deadline_s, _ended_early(begin, deadline_s))
+        answer = self._planner.plan(problem, cancel)
+        if isinstance(answer, Solved) and cancel.cancelled_because is None:
+            entry = CachedPlan(answer, deadline_s, _ended_early(cancel, deadline_s))
             self._cache.put(key, msgspec.json.encode(entry))
         return answer
 
@@ -94,23 +94,23 @@ class CachingScheduler:
         """The name that is shown to users."""
         return self._scheduler.name
 
-    def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
+    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
         """Return the cached schedule, or solve the problem and store the schedule."""
         if problem.goal == FALSE:
-            return self._scheduler.schedule(problem, deadline_s)
+            return self._scheduler.schedule(problem, cancel)
         key = _key(
             self._program,
             format_temporal_domain(problem.domain),
             format_temporal_problem(problem),
             *_cached_names(problem),
         )
+        deadline_s = round(cancel.remaining_s, 2)
         cached = _decode(self._cache.get(key), CachedSchedule)
         if cached is not None and _is_reusable(cached, deadline_s):
             return cached.schedule
-        begin = time.monotonic()
-        answer = self._scheduler.schedule(problem, deadline_s)
-        if isinstance(answer, Schedule):
-            entry = CachedSchedule(answer, deadline_s, _ended_early(begin, deadline_s))
+        answer = self._scheduler.schedule(problem, cancel)
+        if isinstance(answer, Schedule) and cancel.cancelled_because is None:
+            entry = CachedSchedule(answer, deadline_s, _ended_early(cancel, deadline_s))
             self._cache.put(key, msgspec.json.encode(entry))
         return answer
 
@@ -119,9 +119,9 @@ def _is_reusable(cached: CachedPlan | CachedSchedule, deadline_s: float) -> bool
     return cached.ended_early or FULL_SHARE * deadline_s <= cached.deadline_s
 
 
-def _ended_early(begin: float, deadline_s: float) -> bool:
+def _ended_early(cancel: CancelToken, deadline_s: float) -> bool:
     """Whether the program ended before its time limit, so that more time would not have changed its answer."""
-    return time.monotonic() - begin < FULL_SHARE * deadline_s
+    return cancel.remaining_s > (1.0 - FULL_SHARE) * deadline_s
 
 
 def _key(*parts: str) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, assert_never
 
 from skillc_model.pddl.problem import Problem
+from skillc_runtime.cancellation import CancelToken
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,8 +113,8 @@ class Planner(Protocol):
         """The name that is shown to users."""
         ...
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
-        """Solve a problem within `deadline_s` seconds of wall-clock time; all failures are answers, not exceptions."""
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+        """Solve a problem before `cancel` ends the search; all failures are answers, not exceptions."""
         ...
 
 

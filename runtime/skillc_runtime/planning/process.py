@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import TypeAlias
 
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning import process_sandbox
 
 POLL_S = 0.005
@@ -147,13 +148,13 @@ class RunningProcess:
 def run_program(command: Sequence[str], folder: Path, seconds: float, stdin: Path | None = None) -> ProcessResult:
     """Run a program in a folder for up to `seconds`; its descendants are killed when it ends or is stopped."""
     with RunningProcess(command, folder, "output.txt", machine_limits(), stdin) as running:
-        wait_for_end((running,), time.monotonic() + seconds)
+        wait_for_end((running,), CancelToken(seconds))
         return running.outcome()
 
 
-def wait_for_end(programs: Sequence[RunningProcess], end: float) -> None:
-    """Wait until a program has ended, or until the monotonic clock says `end`."""
-    while not any(each.has_ended for each in programs) and time.monotonic() < end:
+def wait_for_end(programs: Sequence[RunningProcess], cancel: CancelToken) -> None:
+    """Wait until a program has ended, or until `cancel` ends the wait."""
+    while not any(each.has_ended for each in programs) and cancel.reason is None:
         time.sleep(POLL_S)
 
 

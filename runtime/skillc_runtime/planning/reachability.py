@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.formulas import FALSE, conjuncts
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
-from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
+from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -48,10 +48,10 @@ def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Conditio
 
 def _is_reachable(problem: Problem) -> bool:
     """Whether all parts of the goal are reachable; True also if the time limit ends before this is known."""
-    grounding = Grounding(problem, time.monotonic() + EXPLANATION_S)
+    grounding = Grounding(problem, CancelToken(EXPLANATION_S))
     try:
         grounding.explore()
         wanted = grounding.goal()
-    except GroundingTimeout:
+    except Cancelled:
         return True
     return wanted != FALSE and all(grounding.is_possible(part) for part in conjuncts(wanted))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from skillc_model.pddl.problem import Problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Solved, Step
 
 
@@ -69,6 +70,6 @@ class Scheduler(Protocol):
         """The name that is shown to users."""
         ...
 
-    def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
-        """Return a schedule within `deadline_s` seconds of wall-clock time; failures are answers, not exceptions."""
+    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
+        """Return a schedule before `cancel` ends the search; all failures are answers, not exceptions."""
         ...

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.plan import (
     GaveUp,
@@ -35,7 +35,7 @@ def solve(
     state: WorldState,
     goal: Condition,
     planners: Sequence[Planner] | None = None,
-    deadline_s: float = DEADLINE_S,
+    cancel: CancelToken | None = None,
     without: Sequence[Step] = (),
     *,
     prove: bool = False,
@@ -45,20 +45,21 @@ def solve(
 
     `without` are steps that the plan may not contain. In a large scene only the part near the goal is considered at
     first, as large as `size` says; with `prove` the part grows until the plan is proven to be the shortest. If a
-    planner gives up, the next one gets the remaining time. A goal that already holds has the empty plan, even if
-    planners cannot express it; for one that does not hold and cannot be expressed, nothing is searched.
+    planner gives up, the next one gets the remaining time, until `cancel` ends the search, by default after DEADLINE_S.
+    A goal that already holds has the empty plan, even if planners cannot express it; for one that does not hold and
+    cannot be expressed, nothing is searched.
     """
-    end = time.monotonic() + deadline_s
+    cancel = cancel or CancelToken(DEADLINE_S)
     chosen = tuple(list_planners() if planners is None else planners)
 
     def pose(size: AbstractionSize | None) -> PosedProblem:
         return pose_problem(library, state, goal, without, size)
 
-    def answer(posed: PosedProblem, seconds: float) -> PlanResult:
-        return _plan_and_validate(chosen, posed, state, goal, seconds)
+    def answer(posed: PosedProblem, part: CancelToken) -> PlanResult:
+        return _plan_and_validate(chosen, posed, state, goal, part)
 
-    def search(problem: Problem, seconds: float) -> PlanResult:
-        return chosen[0].plan(problem, seconds)
+    def search(problem: Problem, part: CancelToken) -> PlanResult:
+        return chosen[0].plan(problem, part)
 
     def explain(posed: PosedProblem) -> str:
         return explain_unsolvable(posed, goal, state)
@@ -66,24 +67,23 @@ def solve(
     try:
         if already_holds(goal, state):
             return Solved(Plan((), 0.0), "proven", "the world as it is")
-        return plan_in_stages(PlanningStages(pose, answer, search, explain), state, end, size, prove=prove)
+        return plan_in_stages(PlanningStages(pose, answer, search, explain, cancel), state, size, prove=prove)
     except GoalError as reason:
         return GaveUp(str(reason), searched=False)
 
 
 def _plan_and_validate(
-    planners: Sequence[Planner], posed: PosedProblem, state: WorldState, goal: Condition, deadline_s: float
+    planners: Sequence[Planner], posed: PosedProblem, state: WorldState, goal: Condition, cancel: CancelToken
 ) -> PlanResult:
-    end = time.monotonic() + deadline_s
     failures: list[str] = []
     for planner in planners:
-        result = _validate(planner.plan(posed.problem, max(end - time.monotonic(), 0.0)), posed, state, goal)
+        result = _validate(planner.plan(posed.problem, cancel), posed, state, goal)
         match result:
             case Solved() | Unsolvable():
                 return result
             case GaveUp(why):
                 failures.append(why)
-    return GaveUp("; ".join(failures))
+    return GaveUp(cancel.cancelled_because or "; ".join(failures))
 
 
 def _validate(result: PlanResult, posed: PosedProblem, state: WorldState, goal: Condition) -> PlanResult:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
 from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
+from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import PosedProblem
-from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
+from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
@@ -25,7 +25,7 @@ def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) 
     """Return why a problem has no plan, as far as reachability without deletions shows."""
     try:
         reasons = tuple(_Explanation(posed, state).explain_goal(goal))
-    except GroundingTimeout:
+    except Cancelled:
         reasons = ("no sequence of skills reaches the goal; the scene is too large to say why",)
     undecided = (f"not decided: {each}" for each in posed.undecided[:MAX_LISTED])
     notes = (*reasons, *_describe_left_out(posed), *undecided)
@@ -40,7 +40,7 @@ class _Explanation:
         self._no_skill = "no plannable skill" if skipped else "no skill"
         self._nothing = "no plannable skill" if skipped else "nothing"
         self._formatter = FormulaFormatter(posed.problem, posed.library)
-        self._grounding = Grounding(posed.problem, time.monotonic() + EXPLANATION_S)
+        self._grounding = Grounding(posed.problem, CancelToken(EXPLANATION_S))
         self._grounding.explore()
 
     def explain_goal(self, condition: Condition) -> Iterator[str]:

@@ -11,6 +11,7 @@ from fuzz.kinds._domains import Domains
 from oracle.forced import TooManyStates, cheapest, seconds
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
@@ -43,7 +44,7 @@ def run_case(random: Random, folder: Path) -> None:
     skills = {name: each for name, each in library.skills.items() if name not in excluded}
     known = msgspec.structs.replace(library, skills=skills)
     planner = random.choice(find_planners().for_work)
-    answer = solve(library, state, goal, (planner,), DEADLINE_S)
+    answer = solve(library, state, goal, (planner,), CancelToken(DEADLINE_S))
     if posed.restricted:
         _check_part(answer, known, state, goal)
         return
@@ -96,7 +97,7 @@ def _check(
 def _check_schedule(
     library: SkillLibrary, state: WorldState, goal: Condition, planner: Planner, least_s: float | None
 ) -> None:
-    answer = minimise_makespan(library, state, goal, Planners((planner,), None), DEADLINE_S)
+    answer = minimise_makespan(library, state, goal, Planners((planner,), None), CancelToken(DEADLINE_S))
     if isinstance(answer, Scheduled):
         simulate_schedule(answer.schedule, library, state, goal)
         _work_s(answer.plan, library, state, goal)

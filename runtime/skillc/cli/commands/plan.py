@@ -59,6 +59,7 @@ def command(
     from skillc.services.planning import plan_goal, prepare_planners
     from skillc.services.stores import StoreChoice
     from skillc.services.task_loading import TaskRequest, load_task
+    from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
 
     request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset))
@@ -68,7 +69,7 @@ def command(
     measure: Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
     with load_task(request, Terminal()) as loaded:
         with _notice_if_slow(deadline):
-            answer = plan_goal(loaded, measure, prepare_planners(plan_cache), deadline)
+            answer = plan_goal(loaded, measure, prepare_planners(plan_cache), CancelToken(deadline))
         click.echo(plan_as_json(answer, loaded) if as_json else format_plan(answer, loaded))
     return 3 if isinstance(answer, Unsolvable | GaveUp) else 0
 

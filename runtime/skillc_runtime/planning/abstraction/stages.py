@@ -7,12 +7,12 @@ scene. Nor is anything claimed about skills that planners cannot use.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
 
 from skillc_model.pddl.problem import Problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.initial_state import TooManyValues
@@ -27,8 +27,8 @@ BOUND_S = 2.0
 """The time limit for proving that a plan for a part of the scene is optimal for the whole scene."""
 
 Pose: TypeAlias = Callable[[AbstractionSize | None], PosedProblem]
-Answer: TypeAlias = Callable[[PosedProblem, float], PlanResult]
-Search: TypeAlias = Callable[[Problem, float], PlanResult]
+Answer: TypeAlias = Callable[[PosedProblem, CancelToken], PlanResult]
+Search: TypeAlias = Callable[[Problem, CancelToken], PlanResult]
 Explain: TypeAlias = Callable[[PosedProblem], str]
 
 
@@ -36,19 +36,20 @@ Explain: TypeAlias = Callable[[PosedProblem], str]
 class PlanningStages:
     """Functions that pose a problem, answer it with a validated plan, search without validation, and explain failure.
 
-    Times are in s.
+    `cancel` ends all of them together.
     """
 
     pose: Pose
     answer: Answer
     search: Search
     explain: Explain
+    cancel: CancelToken
 
 
 def plan_in_stages(
-    stages: PlanningStages, state: WorldState, end: float, size: AbstractionSize | None, *, prove: bool
+    stages: PlanningStages, state: WorldState, size: AbstractionSize | None, *, prove: bool
 ) -> PlanResult:
-    """Return the answer for the smallest part of the scene that has one, until the time `end` of the monotonic clock.
+    """Return the answer for the smallest part of the scene that has one.
 
     The first part is as large as `size` says; None is the whole scene. With `prove`, and in a small scene, the part
     grows until a plan is proven to be optimal or nothing is left out.
@@ -60,29 +61,29 @@ def plan_in_stages(
         except TooManyValues as reason:
             return best or GaveUp(str(reason))
         if size is None or not posed.narrowed:
-            return _plan_whole_scene(best, posed, stages, end)
-        answer = stages.answer(posed, STAGE_SHARE * _time_left_s(end))
+            return _plan_whole_scene(best, posed, stages)
+        answer = stages.answer(posed, stages.cancel.share(STAGE_SHARE))
         match answer:
             case Solved():
-                rated = _rate(answer, posed, stages, state, end)
+                rated = _rate(answer, posed, stages, state)
                 best = _limit_claims(rated, posed)
                 if rated.optimal == "proven" or not (prove or posed.candidate_count <= size.whole):
                     return best
             case Unsolvable():
-                why = _explain_unreachable(posed, stages, state, end)
+                why = _explain_unreachable(posed, stages, state)
                 if why is not None:
                     return _no_plan(why, posed)
             case GaveUp():
-                if _time_left_s(end) <= 0.0:
+                if stages.cancel.reason is not None:
                     return best or answer
             case _:
                 assert_never(answer)
         size = size.wider()
 
 
-def _plan_whole_scene(best: Solved | None, posed: PosedProblem, stages: PlanningStages, end: float) -> PlanResult:
+def _plan_whole_scene(best: Solved | None, posed: PosedProblem, stages: PlanningStages) -> PlanResult:
     """Return the answer for the whole scene, or the best answer for a part if there is none in time."""
-    answer = stages.answer(posed, _time_left_s(end))
+    answer = stages.answer(posed, stages.cancel)
     match answer:
         case Solved():
             return _limit_claims(replace(answer, left_out=posed.left_out), posed)
@@ -108,32 +109,26 @@ def _no_plan(why: str, posed: PosedProblem) -> Unsolvable | GaveUp:
     return GaveUp(why) if posed.restricted else Unsolvable(why)
 
 
-def _rate(solved: Solved, posed: PosedProblem, stages: PlanningStages, state: WorldState, end: float) -> Solved:
+def _rate(solved: Solved, posed: PosedProblem, stages: PlanningStages, state: WorldState) -> Solved:
     """Return a plan of a narrowed problem, rated for the whole scene."""
     found = replace(solved, left_out=posed.left_out, at_least_s=None)
     if solved.optimal != "proven":
         return replace(found, optimal="best found")
-    bound = _search_lower_bound(posed, stages, state, end)
+    bound = _search_lower_bound(posed, stages, state)
     least_s = bound.bound_s if isinstance(bound, Solved) else 0.0
     if least_s >= solved.plan.duration_s:
         return found
     return replace(found, optimal="optimal for the filtered problem", at_least_s=least_s or None)
 
 
-def _explain_unreachable(posed: PosedProblem, stages: PlanningStages, state: WorldState, end: float) -> str | None:
+def _explain_unreachable(posed: PosedProblem, stages: PlanningStages, state: WorldState) -> str | None:
     """Return why the whole scene has no plan; None if it may have one."""
     relaxed = relax_scene(posed, state)
-    if relaxed is None or not isinstance(stages.search(relaxed, STAGE_SHARE * _time_left_s(end)), Unsolvable):
+    if relaxed is None or not isinstance(stages.search(relaxed, stages.cancel.share(STAGE_SHARE)), Unsolvable):
         return None
     return stages.explain(replace(posed, problem=relaxed))
 
 
-def _search_lower_bound(
-    posed: PosedProblem, stages: PlanningStages, state: WorldState, end: float
-) -> PlanResult | None:
+def _search_lower_bound(posed: PosedProblem, stages: PlanningStages, state: WorldState) -> PlanResult | None:
     problem = relax_scene(posed, state)
-    return None if problem is None else stages.search(problem, min(BOUND_S, _time_left_s(end)))
-
-
-def _time_left_s(end: float) -> float:
-    return max(end - time.monotonic(), 0.0)
+    return None if problem is None else stages.search(problem, stages.cancel.limited(BOUND_S))

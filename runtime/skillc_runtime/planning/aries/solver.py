@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import platform
 import re
-import time
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from itertools import count
@@ -12,6 +11,7 @@ from pathlib import Path
 
 from skillc_model.pddl.costs import MOST_UNITS
 from skillc_model.pddl.problem import Problem, action_durations
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.aries.flat import FlatProblem, NotTemporal, flatten_problem
 from skillc_runtime.planning.aries.messages import action_name, encode_problem
 from skillc_runtime.planning.plan import GaveUp
@@ -36,6 +36,8 @@ PROGRAMS = {
 }
 GRACE_S = 0.5
 """How long aries may take after its time limit to print its best schedule."""
+MAX_S = 86_400
+"""The longest time limit that it is given."""
 
 _ENVIRONMENT = {"ARIES_LCP_SYMMETRY_BREAKING": "simple"}
 """The default symmetry breaking of version 0.5.0 panics on many problems."""
@@ -67,39 +69,40 @@ class Aries:
         self._program = program
         self._limits = limits or machine_limits()
 
-    def schedule(self, problem: Problem, deadline_s: float) -> Schedule | GaveUp:
-        """Return the best schedule within `deadline_s` seconds; stop when one more instance does not shorten it."""
-        end = time.monotonic() + deadline_s
+    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
+        """Return the best schedule before `cancel` ends the search; stop when one more instance does not shorten it."""
         try:
             flat = flatten_problem(_with_finer_units(problem))
             with make_workplace() as folder:
                 (Path(folder) / "problem.upp").write_bytes(encode_problem(flat))
-                return self._search_all_depths(flat, Path(folder), end)
+                return self._search_all_depths(flat, Path(folder), cancel)
         except NotTemporal as why:
             return GaveUp(f"aries does not support the problem: {why}; the planners for --minimise work do")
         except OSError as error:
             return GaveUp(f"aries cannot use its working folder: {error.filename}: {error.strerror}")
 
-    def _search_all_depths(self, flat: FlatProblem, folder: Path, end: float) -> Schedule | GaveUp:
+    def _search_all_depths(self, flat: FlatProblem, folder: Path, cancel: CancelToken) -> Schedule | GaveUp:
         answer: Schedule | _NoSchedule | GaveUp = _NoSchedule()
         depths = count(1)
         while isinstance(answer, _NoSchedule):
-            answer = self._search_depth(next(depths), flat, folder, end)
+            answer = self._search_depth(next(depths), flat, folder, cancel)
         while isinstance(answer, Schedule):
-            deeper = self._search_depth(next(depths), flat, folder, end)
+            deeper = self._search_depth(next(depths), flat, folder, cancel)
             if not isinstance(deeper, Schedule) or deeper.makespan_s >= answer.makespan_s:
                 return answer
             answer = deeper
         return answer
 
-    def _search_depth(self, depth: int, flat: FlatProblem, folder: Path, end: float) -> Schedule | _NoSchedule | GaveUp:
-        seconds = int(end - time.monotonic())
+    def _search_depth(
+        self, depth: int, flat: FlatProblem, folder: Path, cancel: CancelToken
+    ) -> Schedule | _NoSchedule | GaveUp:
+        seconds = int(min(cancel.remaining_s, MAX_S))
         if seconds < 1:
             return GaveUp("aries gave up: it ran out of time")
         searching = ("solve", "--optimal", "--min-depth", str(depth), "--max-depth", str(depth))
         command = (self._program, "--log-level", "error", *searching, "--timeout", str(seconds), "problem.upp")
         with RunningProcess(command, folder, "output.txt", self._limits, environment=_ENVIRONMENT) as search:
-            wait_for_end((search,), end + GRACE_S)
+            wait_for_end((search,), CancelToken(cancel.remaining_s + GRACE_S, cancel))
             return _read_result(search.outcome(), flat)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import signal
 import sys
-import time
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.prepare import remove_axioms
 from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.text import format_domain, format_problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.fast_downward.heuristics import Heuristic, choose_heuristics, read_task_features
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.plan_text import PlanTextError, cost_plan
@@ -84,23 +84,22 @@ class FastDownward:
         self._programs = programs
         self._limits = limits or machine_limits()
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
-        """Solve a problem within `deadline_s` seconds; "best found" if there was no time for a proof."""
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+        """Solve a problem before `cancel` ends the search; "best found" if there was no time for a proof."""
         if problem.goal == FALSE:
             return Unsolvable("no skill can change what the goal asks for")
-        end = time.monotonic() + deadline_s
         try:
             with make_workplace() as folder:
-                return self._plan(remove_axioms(add_complements(problem)), Path(folder), end)
+                return self._plan(remove_axioms(add_complements(problem)), Path(folder), cancel)
         except OSError as error:
             return GaveUp(f"Fast Downward cannot use its working folder: {error.filename}: {error.strerror}")
 
-    def _plan(self, problem: Problem, folder: Path, end: float) -> PlanResult:
+    def _plan(self, problem: Problem, folder: Path, cancel: CancelToken) -> PlanResult:
         (folder / "domain.pddl").write_text(format_domain(problem.domain), "utf-8")
         (folder / "problem.pddl").write_text(format_problem(problem), "utf-8")
         command = (*self._programs.translate, "--sas-file", "task.sas", "domain.pddl", "problem.pddl")
         with RunningProcess(command, folder, "translated.txt", self._limits) as translator:
-            wait_for_end((translator,), end)
+            wait_for_end((translator,), cancel)
             translated = translator.outcome()
         if not isinstance(translated, ProcessEnded) or not (folder / "task.sas").is_file():
             return GaveUp(f"Fast Downward did not accept the problem: {_describe_failure(translated)}")
@@ -108,9 +107,9 @@ class FastDownward:
             chosen = choose_heuristics(read_task_features(folder / "task.sas"))
         except ValueError:
             return GaveUp("Fast Downward did not accept the problem: its translator wrote an invalid task")
-        return self._race(problem, folder, end, chosen)
+        return self._race(problem, folder, cancel, chosen)
 
-    def _race(self, problem: Problem, folder: Path, end: float, chosen: Sequence[Heuristic]) -> PlanResult:
+    def _race(self, problem: Problem, folder: Path, cancel: CancelToken, chosen: Sequence[Heuristic]) -> PlanResult:
         """Return what A* proves with one heuristic after the other, or else the best plan of LAMA."""
         searched: list[ProcessResult] = []
         finding = ("--alias", "seq-sat-lama-2011", "--plan-file", "found", "task.sas")
@@ -126,25 +125,19 @@ class FastDownward:
                 )
                 with RunningProcess(command, folder, f"proving{index}.txt", self._limits, folder / "task.sas") as proof:
                     if finder is None:
-                        wait_for_end((proof,), min(end, time.monotonic() + HEAD_START_S))
-                        if not _has_proved(proof.outcome()) and time.monotonic() < end:
+                        wait_for_end((proof,), cancel.limited(HEAD_START_S))
+                        if not _has_proved(proof.outcome()) and cancel.reason is None:
                             finder = beside.enter_context(
                                 RunningProcess((*self._programs.driver, *finding), folder, "finding.txt", self._limits)
                             )
-                    wait_for_end((proof,), _search_end(heuristic, end))
+                    wait_for_end((proof,), cancel.share(heuristic.share))
                     searched.append(proof.outcome())
-                if _has_proved(searched[-1]) or time.monotonic() >= end:
+                if _has_proved(searched[-1]) or cancel.reason is not None:
                     break
             answer = _read_proof(problem, folder, searched[-1])
             if answer is None and finder is not None:
-                wait_for_end((finder,), end)
+                wait_for_end((finder,), cancel)
         return answer or _read_best_plan(problem, folder, searched)
-
-
-def _search_end(heuristic: Heuristic, end: float) -> float:
-    """Return the end of a search with a heuristic, on the monotonic clock."""
-    now = time.monotonic()
-    return now + heuristic.share * max(end - now, 0.0)
 
 
 def _has_proved(searched: ProcessResult) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
@@ -13,6 +12,7 @@ from skillc_model.pddl.formulas import Equal, Negation, conjunction
 from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import Planner, Solved
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.schedule import Schedule
@@ -23,20 +23,20 @@ CRITICAL_PATH_SHARE = 0.5
 """The share of the time for the critical path; the rest is for the devices."""
 
 
-def makespan_lower_bound_s(posed: PosedProblem, schedule: Schedule, planner: Planner, deadline_s: float) -> float:
+def makespan_lower_bound_s(posed: PosedProblem, schedule: Schedule, planner: Planner, cancel: CancelToken) -> float:
     """Return a time in s that every plan takes at least; the search for a better bound stops if `schedule` meets it.
 
     0 for a problem that leaves out something that may matter, or whose durations are estimates.
     """
     if posed.narrowed or posed.restricted or posed.assumptions:
         return 0.0
-    end, problem = time.monotonic() + deadline_s, posed.problem
-    bound = critical_path_s(problem, CRITICAL_PATH_SHARE * deadline_s)
+    problem = posed.problem
+    bound = critical_path_s(problem, cancel.share(CRITICAL_PATH_SHARE))
     names = {iri: name for name, iri in problem.names.items()}
     for device, busy_s in _work_by_device_s(schedule, posed.library):
         if busy_s <= bound or schedule.makespan_s <= bound + TOLERANCE_S:
             break  # no device has to work longer than it does in this schedule
-        answer = planner.plan(price_device_work(problem, names[device]), max(end - time.monotonic(), 0.0))
+        answer = planner.plan(price_device_work(problem, names[device]), cancel)
         if isinstance(answer, Solved):
             bound = max(bound, answer.bound_s)
     return bound

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, makespan_lower_bound_s
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
@@ -33,18 +33,13 @@ ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
 
 @dataclass(frozen=True, slots=True)
 class MakespanProblem:
-    """The goal, the world, the library, the steps that are excluded, and the deadline on the monotonic clock in s."""
+    """The goal, the world, the library, the steps that are excluded, and what ends the search."""
 
     library: SkillLibrary
     state: WorldState
     goal: Condition
     without: tuple[Step, ...]
-    deadline: float
-
-    @property
-    def left_s(self) -> float:
-        """The remaining time in s."""
-        return max(self.deadline - time.monotonic(), 0.0)
+    cancel: CancelToken
 
 
 def minimise_makespan(
@@ -52,7 +47,7 @@ def minimise_makespan(
     state: WorldState,
     goal: Condition,
     planners: Planners,
-    deadline_s: float = DEADLINE_S,
+    cancel: CancelToken | None = None,
     without: Sequence[Step] = (),
 ) -> ScheduleResult:
     """Return a plan with times from `state` to the goal, which was simulated in the world model.
@@ -60,8 +55,10 @@ def minimise_makespan(
     The plan with the least work is scheduled. If its makespan cannot be proven to be minimal, the scheduler searches
     for a shorter one; without a scheduler, or if it fails, the note of the answer has the reason.
     """
-    problem = MakespanProblem(library, state, goal, tuple(without), time.monotonic() + deadline_s)
-    least_work = solve(library, state, goal, planners.for_work, LEAST_WORK_SHARE * deadline_s, without)
+    cancel = cancel or CancelToken(DEADLINE_S)
+    problem = MakespanProblem(library, state, goal, tuple(without), cancel)
+    first_part = cancel.share(LEAST_WORK_SHARE)
+    least_work = solve(library, state, goal, planners.for_work, first_part, without)
     if isinstance(least_work, Unsolvable) or (isinstance(least_work, GaveUp) and not least_work.searched):
         return least_work
     if isinstance(least_work, Solved) and not least_work.plan.steps:
@@ -73,8 +70,8 @@ def minimise_makespan(
     problem = replace(problem, library=posed.library)
     first = _schedule_least_work(least_work, problem) if isinstance(least_work, Solved) else least_work
     if isinstance(first, Scheduled):
-        seconds = min(LOWER_BOUND_DEADLINE_S, problem.left_s)
-        lower_bound_s = makespan_lower_bound_s(posed, first.schedule, planners.for_work[0], seconds)
+        part = cancel.limited(LOWER_BOUND_DEADLINE_S)
+        lower_bound_s = makespan_lower_bound_s(posed, first.schedule, planners.for_work[0], part)
         first = _rate(replace(first, left_out=posed.left_out, assumptions=posed.assumptions), lower_bound_s)
         if first.optimal == "proven":
             return first
@@ -102,7 +99,7 @@ def _improve(
     """Return what the scheduler finds if its makespan is shorter, else the first schedule with a note."""
     if scheduler is None:
         return _add_note(first, "a temporal planner may find a shorter one: pip install 'skillc[temporal]'")
-    answer = scheduler.schedule(posed.problem, problem.left_s)
+    answer = scheduler.schedule(posed.problem, problem.cancel)
     if isinstance(answer, GaveUp):
         return _add_note(first, answer.why)
     try:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -21,6 +20,7 @@ from skillc_model.pddl.translate import Untranslatable
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.plan import LeftOut, Step
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
 from skillc_runtime.planning.problem.initial_state import InitialState
@@ -28,7 +28,7 @@ from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.object_selection import IndividualsByClass, group_by_class, select_objects
 from skillc_runtime.planning.problem.relevance import RelevantDomain, keep_relevant_actions
 from skillc_runtime.planning.problem.unplannable_skills import select_skills_that_may_matter
-from skillc_runtime.planning.search.grounding import Grounding, GroundingTimeout
+from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
@@ -153,8 +153,8 @@ def _describe_unknown_durations(initial: InitialState, problem: Problem) -> Iter
         return
     actions = {each.name: each for each in problem.domain.actions if isinstance(each.cost, ComputedCost)}
     used = set(unknown)
-    with suppress(GroundingTimeout):
-        grounding = Grounding(problem, time.monotonic() + APPLICABILITY_S)
+    with suppress(Cancelled):
+        grounding = Grounding(problem, CancelToken(APPLICABILITY_S))
         used &= {
             _cost_of(actions[each.words[0]], each.words[1:]) for each in grounding.actions if each.words[0] in actions
         }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -11,9 +10,10 @@ from typing import TypeAlias, assert_never
 
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
 from skillc_model.pddl.problem import Problem
+from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.plan_text import cost_plan
-from skillc_runtime.planning.search.grounding import GroundAction, Grounding, GroundingTimeout
+from skillc_runtime.planning.search.grounding import GroundAction, Grounding
 from skillc_runtime.planning.search.h_max import HMax
 
 Test: TypeAlias = Callable[[int], bool]
@@ -28,14 +28,13 @@ class AStar:
         """`advice` is appended to the reason when the planner gives up."""
         self._advice = f"; {advice}" if advice else ""
 
-    def plan(self, problem: Problem, deadline_s: float) -> PlanResult:
-        """Solve a problem within `deadline_s` seconds; the plan is proven to be the shortest."""
-        end = time.monotonic() + deadline_s
-        grounding = Grounding(problem, end)
+    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+        """Solve a problem before `cancel` ends the search; the plan is proven to be the shortest."""
+        grounding = Grounding(problem, cancel)
         try:
             actions, goal = grounding.actions, grounding.goal()
-        except GroundingTimeout:
-            return self._gave_up("it ran out of time before it knew all actions")
+        except Cancelled as why:
+            return self._gave_up(f"{why} before it knew all actions")
         if not grounding.is_possible(goal):
             return Unsolvable("the goal cannot be reached even if nothing were ever undone")
         numbers = {atom: number for number, atom in enumerate(sorted(grounding.reachable, key=_sort_key))}
@@ -45,11 +44,11 @@ class AStar:
             goal=_compile_test(goal, numbers),
             heuristic=HMax(actions, goal, numbers),
         )
-        found = _search(task, end)
+        found = _search(task, cancel)
         if isinstance(found, _Exhausted):
             return Unsolvable("no sequence of skills reaches the goal")
-        if isinstance(found, _OutOfTime):
-            return self._gave_up(f"it ran out of time after {found.states} states")
+        if isinstance(found, _Stopped):
+            return self._gave_up(f"{found.why} after {found.states} states")
         answer = cost_plan(problem, (actions[index].words for index in found))
         if answer.exact:
             return Solved(answer.plan, "proven", self.name)
@@ -93,13 +92,14 @@ class _Exhausted:
 
 
 @dataclass(frozen=True, slots=True)
-class _OutOfTime:
-    """The deadline has passed; `states` were expanded."""
+class _Stopped:
+    """The search was ended after `states` were expanded."""
 
+    why: str
     states: int
 
 
-def _search(task: _Task, end: float) -> tuple[int, ...] | _Exhausted | _OutOfTime:
+def _search(task: _Task, cancel: CancelToken) -> tuple[int, ...] | _Exhausted | _Stopped:
     """Return the operators of a cheapest plan. The heuristic is consistent, so no state is expanded twice."""
     tie_breaker = count()
     costs = {task.start: 0}
@@ -112,8 +112,8 @@ def _search(task: _Task, end: float) -> tuple[int, ...] | _Exhausted | _OutOfTim
             continue
         if task.goal(state):
             return tuple(_trace_back(state, parents))[::-1]
-        if time.monotonic() > end:
-            return _OutOfTime(len(closed))
+        if (why := cancel.reason) is not None:
+            return _Stopped(why, len(closed))
         closed.add(state)
         for index, operator in enumerate(task.operators):
             if not operator.applies(state):

@@ -5,7 +5,6 @@ The reachable atoms are computed with deletions ignored.
 
 from __future__ import annotations
 
-import time
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -31,13 +30,10 @@ from skillc_model.pddl.formulas import (
     disjunction,
 )
 from skillc_model.pddl.problem import Problem
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.typed_variables import list_typed_variables
 
 Values: TypeAlias = Mapping[str, str]
-
-
-class GroundingTimeout(Exception):
-    """The ground actions were not all found in time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,11 +58,11 @@ class GroundAction:
 class Grounding:
     """The ground actions of a problem that relaxed reachability allows.
 
-    GroundingTimeout if the monotonic clock reaches `end` before they are found.
+    Cancelled if `cancel` ends the search before they are found; by default nothing does.
     """
 
-    def __init__(self, problem: Problem, end: float = float("inf")) -> None:
-        self._problem, self._end = problem, end
+    def __init__(self, problem: Problem, cancel: CancelToken | None = None) -> None:
+        self._problem, self._cancel = problem, cancel or CancelToken()
         types = {each.type for each in list_typed_variables(problem.domain)}
         self._members = {type_: problem.domain.of_type(problem.objects, type_) for type_ in types}
         self._costs = {(each.function, each.arguments): each.seconds for each in problem.costs}
@@ -173,8 +169,7 @@ class Grounding:
     def _ground(self, action: Action, known: Mapping[tuple[str, ...], GroundAction]) -> Iterator[GroundAction]:
         condition = conjunction((action.precondition, action.hold))
         for values in self._bindings(action, conjuncts(condition), {}):
-            if time.monotonic() > self._end:
-                raise GroundingTimeout
+            self._cancel.check()
             words = (action.name, *(values[each.name] for each in action.parameters))
             if words in known:
                 yield known[words]

@@ -7,7 +7,6 @@ p true of the action's cost + the maximum cost of its conditions.  Bonet and Gef
 
 from __future__ import annotations
 
-import time
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -16,7 +15,8 @@ from itertools import product
 
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Formula, Negation
 from skillc_model.pddl.problem import Problem
-from skillc_runtime.planning.search.grounding import GroundAction, Grounding, GroundingTimeout
+from skillc_runtime.cancellation import Cancelled, CancelToken
+from skillc_runtime.planning.search.grounding import GroundAction, Grounding
 
 MAX_CASES = 64
 Literals = frozenset[int]
@@ -117,16 +117,16 @@ def _list_rules(action: GroundAction, numbers: Mapping[Atom, int]) -> Iterable[R
             yield RelaxedRule(conditions, tuple(results), action.units)
 
 
-def critical_path_s(problem: Problem, deadline_s: float) -> float:
-    """Return a lower bound in s on the makespan of any plan: infinity if there is none, 0 if time runs out.
+def critical_path_s(problem: Problem, cancel: CancelToken) -> float:
+    """Return a lower bound in s on the makespan of any plan: infinity if there is none, 0 if it was cancelled.
 
     This is h-max with durations as costs: an atom can be true when the last condition of an action has become true and
     the action has ended. Haslum and Geffner, "Heuristic planning with time and resources", 2001.
     """
-    grounding = Grounding(problem, time.monotonic() + deadline_s)
+    grounding = Grounding(problem, cancel)
     try:
         actions, goal = grounding.actions, grounding.goal()
-    except GroundingTimeout:
+    except Cancelled:
         return 0.0
     atoms = sorted(grounding.reachable, key=lambda each: (each.predicate, each.terms))
     numbers = {atom: number for number, atom in enumerate(atoms)}
