@@ -8,6 +8,7 @@ from types import MappingProxyType
 from skillc_compiler.checks import run_checks
 from skillc_compiler.diagnostics.consequences import without_consequences
 from skillc_compiler.diagnostics.followers import without_followers
+from skillc_compiler.diagnostics.prefixes import with_prefix
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
 from skillc_compiler.diagnostics.unplannable import report_unplannable
 from skillc_compiler.lower.library import lower_program
@@ -62,7 +63,8 @@ def find_problems(files: Outcome[tuple[ParsedFile, ...]], program: Outcome[Progr
     """Check a program; return all diagnostics except those that only follow from others."""
     found = (*program.diagnostics, *run_checks(program.value))
     own_faults = without_followers(found, files.diagnostics, files.value)
-    return (*files.diagnostics, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
+    syntax = (with_prefix(problem, program.value) for problem in files.diagnostics)
+    return (*syntax, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
 
 
 def lower_and_report(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:

@@ -13,6 +13,8 @@ from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
 FORMAT = 3
+KEEP_S = 2.0
+"""How long a paused tool goes on pressing, in s, if no running skill states it."""
 
 
 class Parameter(msgspec.Struct, frozen=True, kw_only=True):
@@ -50,14 +52,14 @@ class Post(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class PausePolicy(msgspec.Struct, frozen=True):
-    """Where a skill may be paused, and for how long a paused tool goes on pressing before it is taken off.
+    """Where a skill may be paused, and for how many seconds a paused tool goes on pressing before it is taken off.
 
-    Anywhere: at any time; between steps: only before a call of its body starts; never: not while it runs, and then
-    `keep_s` means nothing.
+    Anywhere: at any time; between steps: only before a call of its body starts; never: not while it runs. `keep_s` is
+    None if the skill states no time: then others that run decide, else `KEEP_S`.
     """
 
     where: OneOf["anywhere", "between steps", "never"] = "anywhere"
-    keep_s: float = 2.0
+    keep_s: float | None = None
 
 
 class Skill(msgspec.Struct, frozen=True, kw_only=True):

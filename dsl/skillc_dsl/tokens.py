@@ -33,7 +33,8 @@ KEYWORDS: MappingProxyType[Group, tuple[str, ...]] = MappingProxyType(
         ),
         "member": (
             *("in", "opt", "infer", "any", "out", "range", "refine", "pre", "hold", "post", "sensed", "duration"),
-            *("uses", "shares", "let", "prefer", "run", "python", "do", "scene", "goal", "verify"),
+            *("uses", "shares", "pause", "anywhere", "between", "steps", "keep"),
+            *("let", "prefer", "run", "python", "do", "scene", "goal", "verify"),
         ),
         "flag": ("scoped", "noplan", "fallback", "endless"),
         "trait": ("functional", "symmetric", "transitive", "inverse", "sub"),
@@ -51,7 +52,18 @@ KEYWORDS: MappingProxyType[Group, tuple[str, ...]] = MappingProxyType(
 NAMES_ELSEWHERE: frozenset[str] = frozenset(
     (
         *("use", "prefix", "import", "disjoint", "of", "any", "range", "sensed", "duration", "prefer", "python"),
-        *("scene", "goal", *KEYWORDS["flag"], *KEYWORDS["trait"], *KEYWORDS["property"]),
+        *(
+            "scene",
+            "goal",
+            "pause",
+            "anywhere",
+            "between",
+            "steps",
+            "keep",
+            *KEYWORDS["flag"],
+            *KEYWORDS["trait"],
+            *KEYWORDS["property"],
+        ),
         *("all", "race", "lead", "invert", "once", "retry", "repeat", "timeout", "wait", "until", "max", "check"),
     )
 )

@@ -94,6 +94,7 @@ skill Everything {
     scoped
     noplan
     fallback
+    pause    between steps keep 500 ms
     pre      given limits
     pre      exists x: Class (x contain arm and x.size > 2 cm)
     pre      forall x: lab:Class-1 (x is Product implies not (x has weight or x == arm))

@@ -19,6 +19,8 @@ from skillc_dsl.highlighting import SkillLexer
         ("a.range == 5 N/m", "5 N/m", Number),
         ("pre not a has b", "not", Operator.Word),
         ("a == true", "true", Keyword.Constant),
+        ("pause between steps keep 2 s", "steps", Keyword),
+        ("arm.steps == 2", "steps", Name),
         ("## What it is.", "## What it is.", String.Doc),
         ("a # why", "# why", Comment.Single),
         ('scene "a # b.ttl"', '"a # b.ttl"', String.Double),

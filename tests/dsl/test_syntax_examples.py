@@ -198,16 +198,48 @@ def test_a_condition_is_kept_as_written_on_one_line() -> None:
 
 
 @pytest.mark.parametrize(
-    "word", ["any", "max", "range", "goal", "scene", "check", "wait", "duration", "of", "retry", "all"]
+    "word",
+    [
+        *("any", "max", "range", "goal", "scene", "check", "wait", "duration", "of", "retry", "all"),
+        *("pause", "anywhere", "between", "steps", "keep"),
+    ],
 )
 def test_words_with_one_place_are_names_elsewhere(word: str) -> None:
     members = implementation(f"refine {word}: {word}\nlet {word} = {word}.{word} + {word}({word})\npre given {word}")
     assert len(members) == 3
 
 
-@pytest.mark.parametrize("word", ["never", "after", "until", "sensed", "check", "wait", "range", "any"])
+@pytest.mark.parametrize(
+    "word", ["never", "after", "until", "sensed", "check", "wait", "range", "any", "anywhere", "between", "steps"]
+)
 def test_words_with_one_place_are_relations_elsewhere(word: str) -> None:
     assert shape(condition(f"a {word} b")) == ("Relation", ("NameReference", "a"), word, ("NameReference", "b"))
+
+
+@pytest.mark.parametrize("word", ["pause", "anywhere", "between", "steps", "keep"])
+def test_words_of_pauses_are_called_skills_elsewhere(word: str) -> None:
+    (body,) = implementation(f"do seq {{ wait time\n{word}(arm)\n{word}[{word}]({word}: 2) -> {word} }}")
+    assert isinstance(body, s.Body) and isinstance(body.node, s.Block)
+    assert [type(node) for node in body.node.children] == [s.Wait, s.CallSkill, s.CallSkill]
+
+
+@pytest.mark.parametrize(
+    ("line", "where", "keep"),
+    [
+        ("pause anywhere", "anywhere", None),
+        ("pause between steps", "between steps", None),
+        ("pause never", "never", None),
+        ("pause anywhere keep 2 s", "anywhere", ("Quantity", 2.0, "s")),
+        ("pause between\n steps keep\n -1 min", "between steps", ("Quantity", -1.0, "min")),
+    ],
+)
+def test_a_pause_says_where_and_how_long(line: str, where: str, keep: object) -> None:
+    skill = read(f"skill Wipe {{ pre ready {line} scoped pre done }}").declarations[0]
+    assert isinstance(skill, s.SkillDeclaration)
+    before, pause, flag, after = skill.members
+    assert isinstance(pause, s.Pause) and isinstance(flag, s.Flag)
+    assert isinstance(before, s.Requirement) and isinstance(after, s.Requirement)
+    assert pause.where == where and (pause.keep and shape(pause.keep)) == keep
 
 
 def test_every_place_holds_what_it_names() -> None:

@@ -14,7 +14,11 @@ pytestmark = pytest.mark.asyncio(loop_scope="session")
 BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "relation", "skill", "task", "use")
 DIMENSIONS = " ".join(units.DIMENSIONS)
 EXACT = [
-    ("infer at", "    |", "duration endless fallback hold in infer noplan opt out post pre range scoped shares uses"),
+    (
+        "infer at",
+        "    |",
+        "duration endless fallback hold in infer noplan opt out pause post pre range scoped shares uses",
+    ),
     ("do seq {", "        par |", "all any lead race"),
     ("do seq {", "        Move(arm, |", "target: speed:"),
     ("do seq {", "        Move(speed: 1 m/s, |", "arm arm: target:"),
@@ -35,6 +39,10 @@ EXACT = [
     ("infer at", "    pre panel fixedTo |", "at"),
     ("infer at", "    opt  far: Length = 3 |", "m cm mm"),
     ("infer at", "    uses |", "panel arm push at"),
+    ("infer at", "    pause |", "anywhere between never"),
+    ("infer at", "    pause between |", "steps"),
+    ("infer at", "    pause anywhere |", "keep"),
+    ("infer at", "    pause anywhere keep 2 |", "s ms min"),
     ("class Panel", "relation on(Panel, Location) |", "functional inverse symmetric transitive sub"),
     ("infer at", "    in x: Vector of |", DIMENSIONS),
     ("class Panel", "property wind(Panel): Vector of |", DIMENSIONS),

@@ -32,6 +32,7 @@ HOVERS = [
     ("done\n", 2, ("post  done:  panel.isClean == true",)),
     ("Fault", 2, ("a value of `deviceState`",)),
     ("slowly", 2, ("impl slowly of Press",)),
+    ("Move(arm", 2, ("skill Move", "pause anywhere keep 250 ms")),
     ("target: above", 2, ("in target: Pose", "parameter of `Move`")),
 ]
 DEFINITIONS = [
@@ -107,7 +108,7 @@ async def test_references_are_found_in_all_files(desk: Desk) -> None:
         places = await desk.client.text_document_references_async(params)
         assert places is not None
         found[declarations] = [(unquote(place.uri).rpartition("/")[2], place.range.start.line) for place in places]
-    assert found[True] == [("motion.skill", 3), ("motion.skill", 12), ("press.skill", 26)]
+    assert found[True] == [("motion.skill", 3), ("motion.skill", 13), ("press.skill", 26)]
     assert found[False] == found[True][1:]
 
 

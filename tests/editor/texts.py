@@ -9,6 +9,7 @@ skill Move {
     opt  speed:  Speed = 0.1 m/s  range 0.01 m/s .. 0.5 m/s
 
     uses arm
+    pause anywhere keep 250 ms
     noplan
 }
 

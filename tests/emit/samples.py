@@ -17,7 +17,16 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.pddl.names import assign_names
-from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_model.skills import (
+    Implementation,
+    Parameter,
+    PausePolicy,
+    Post,
+    Primitive,
+    Requirement,
+    Skill,
+    SkillLibrary,
+)
 from skillc_rdf.vocabulary.types import (
     ClassTerm,
     ClassType,
@@ -192,6 +201,7 @@ PICK = Skill(
     hold=(READY,),
     post=(post("held", "gripper contain object"), post("gone", "from contain object", positive=False)),
     duration=Literal(15.0),
+    pause=PausePolicy("between steps", 0.5),
     uses=("arm",),
     implementations=("close",),
     source=HERE,

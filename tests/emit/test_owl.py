@@ -81,6 +81,10 @@ def test_values_are_typed_and_types_are_things() -> None:
     pick = SAMPLE["Pick"]
     assert made.value(pick, SKILLC.duration) == Literal(15.0, datatype=XSD.double)
     assert made.value(pick, SKILLC.durationUnit) == Literal("s")
+    assert made.value(pick, SKILLC.pause) == Literal("between steps")
+    assert made.value(pick, SKILLC.keep) == Literal(0.5, datatype=XSD.double)
+    assert made.value(pick, SKILLC.keepUnit) == Literal("s")
+    assert {word for word in made.predicates(SAMPLE["Wipe"]) if word in (SKILLC.pause, SKILLC.keep)} == set()
 
 
 @pytest.mark.parametrize("name", [case.name for case in cases()])

@@ -55,6 +55,8 @@ def in_owl(library: SkillLibrary) -> str:
         assert {str(made.value(each, RDFS.label)) for each in made.objects(base[skill.name], SKIROS.hasParam)} == {
             each.name for each in skill.parameters
         }
+        place, keep_s = (made.value(base[skill.name], word) for word in (SKILLC.pause, SKILLC.keep))
+        assert (str(place or "anywhere"), keep_s and keep_s.toPython()) == (skill.pause.where, skill.pause.keep_s)
         texts = {str(made.value(each, SKILLC.conditionText)) for each in made.subjects(SKILLC.conditionText)}
         assert {each.text for each in (*skill.pre, *skill.hold, *skill.post)} <= texts
         for way in library.implementations_of(skill.name):

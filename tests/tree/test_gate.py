@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from skillc_model import tree
-from skillc_model.skills import Compound, PausePolicy, Skill
+from skillc_model.skills import KEEP_S, Compound, PausePolicy, Skill
 from skillc_runtime.execution.tree.gate import AtLine, AtSkill, Breakpoint, Gate, StepKind, keep_s
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
@@ -147,11 +147,16 @@ def test_a_waiting_call_can_be_halted_and_starts_no_more() -> None:
     assert debugged.run.tick() is Status.HALTED and debugged.stage.said() == []
 
 
-def test_the_shortest_stated_time_to_keep_the_force_counts() -> None:
-    body, library = nested(outer=PausePolicy("anywhere", 0.5), inner=PausePolicy("anywhere", 7.0))
+@pytest.mark.parametrize(
+    ("outer", "inner", "shortest"), [(0.5, 7.0, 0.5), (10.0, None, 10.0), (10.0, KEEP_S, KEEP_S), (None, None, KEEP_S)]
+)
+def test_the_shortest_stated_time_to_keep_the_force_counts(
+    outer: float | None, inner: float | None, shortest: float
+) -> None:
+    body, library = nested(outer=PausePolicy("anywhere", outer), inner=PausePolicy("anywhere", inner))
     debugged = Debugged(body, library)
     debugged.run.tick()
-    assert keep_s(debugged.run.active_calls) == 2.0
+    assert keep_s(debugged.run.active_calls) == KEEP_S
     while "start c" not in debugged.stage.said("start"):
         debugged.run.tick()
-    assert keep_s(debugged.run.active_calls) == 0.5
+    assert keep_s(debugged.run.active_calls) == shortest

@@ -49,6 +49,8 @@ def _times(program: Program) -> Iterator[Diagnostic]:
     for skill in program.skills.values():
         if skill.duration:
             yield from _time(skill.duration, parameter_intervals(skill.parameters), "duration")
+        if skill.pause and skill.pause.keep:
+            yield from _time(skill.pause.keep, {}, "keep")
     for implementation in program.implementations:
         known = parameter_intervals(implementation.parameters, implementation.lets)
         if implementation.duration:

@@ -117,6 +117,7 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
         for parameter in skill.parameters:
             yield from _parameter_constraints(parameter, parameter.name, parameter.span)
         yield from _time_constraint(skill.duration, "by `duration`")
+        yield from _time_constraint(skill.pause.keep if skill.pause else None, "by `keep`")
     for implementation in program.implementations:
         for new in implementation.refinements:
             yield from _parameter_constraints(new, new.written.name.text, new.written.name.span)

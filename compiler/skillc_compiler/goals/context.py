@@ -57,6 +57,7 @@ def _skill(skill: library.Skill) -> Skill:
         requirements=(),
         duration=None,
         devices=(),
+        pause=None,
         flags=frozenset({"scoped"}) if skill.scoped else frozenset(),
         name_span=_span(skill.source),
         span=_span(skill.source),

@@ -23,7 +23,7 @@ from skillc_dsl.source import Span
 from skillc_dsl.tokens import KEYWORDS
 from skillc_dsl.units import UNITS
 
-_WITHIN_A_LINE = frozenset(("range", "any", "sensed", "of"))
+_WITHIN_A_LINE = frozenset(("range", "any", "sensed", "of", "anywhere", "between", "steps", "keep"))
 _BEGINNING = frozenset((*KEYWORDS["declaration"], *KEYWORDS["member"], *KEYWORDS["flag"])) - _WITHIN_A_LINE
 _VALUES = frozenset(("true", "false"))
 _CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA"), "PROPERTY": ("LPAR",)}

@@ -106,6 +106,8 @@ class FileOccurrences(BodyOccurrences):
                     yield from self.value(known, value)
                 case s.DeviceUse(parameter=parameter):
                     yield from self.reference(known, parameter)
+                case s.Pause(keep=keep):
+                    yield from self.value(known, keep) if keep else ()
                 case s.Parameter() | s.Flag():
                     pass
                 case _:

@@ -93,6 +93,7 @@ def _of_program(analysis: Analysis, symbol: _OfProgram) -> str:
 def _skill(analysis: Analysis, skill: Skill) -> str:
     lines = [f"    {format_parameter(analysis, parameter)}" for parameter in skill.parameters]
     lines += [f"    {analysis.text_of(requirement.span)}" for requirement in skill.requirements]
+    lines += [f"    {analysis.text_of(skill.pause.span)}"] if skill.pause else []
     ways = [way.name for way in analysis.program.implementations_of.get(skill.name, ())]
     found = f"implementations: {', '.join(f'`{way}`' for way in ways)}" if ways else "no implementation here"
     return format_page("\n".join((f"skill {skill.name}", *lines)), skill.doc, found)

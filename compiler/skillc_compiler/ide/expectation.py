@@ -15,7 +15,7 @@ from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.units import DIMENSIONS, TIME, UNITS
 
 _COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL")
-_TIMES = ("DURATION", "WAIT", "TIMEOUT")
+_TIMES = ("DURATION", "KEEP", "WAIT", "TIMEOUT")
 _SAME_AS_LEFT = ("PLUS", "MINUS")
 
 

@@ -10,6 +10,7 @@ from skillc_compiler.program.typed import (
     Event,
     Implementation,
     Parameter,
+    Pause,
     Property,
     Requirement,
     Skill,
@@ -41,6 +42,7 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         scoped="scoped" in typed.flags,
         planned="noplan" not in typed.flags,
         fallback="fallback" in typed.flags,
+        pause=_pause(typed.pause),
         implementations=tuple(implementations),
         source=start_position(typed.span),
     )
@@ -135,6 +137,12 @@ def _parameter(typed: Parameter) -> library.Parameter:
 
 def _expression(valued: TypedExpression | None) -> Expression | None:
     return fold(valued.meaning) if valued else None
+
+
+def _pause(typed: Pause | None) -> library.PausePolicy:
+    if typed is None:
+        return library.PausePolicy()
+    return library.PausePolicy(typed.where, constant_number(typed.keep.meaning) if typed.keep else None)
 
 
 def _devices(typed: Skill, kind: str) -> tuple[str, ...]:

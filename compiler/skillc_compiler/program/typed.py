@@ -69,6 +69,15 @@ class Requirement:
 
 
 @dataclass(frozen=True, slots=True)
+class Pause:
+    """A `pause` line; `keep` is None if it states no time."""
+
+    where: s.PausePlace
+    keep: TypedExpression | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Skill:
     """The description of a skill."""
 
@@ -78,6 +87,7 @@ class Skill:
     requirements: tuple[Requirement, ...]
     duration: TypedExpression | None
     devices: tuple[s.DeviceUse, ...]
+    pause: Pause | None
     flags: frozenset[str]
     name_span: Span
     span: Span

@@ -102,6 +102,8 @@ def skill_values(skill: Skill) -> Iterator[TypedExpression]:
         yield from (value for value in (parameter.default, parameter.low, parameter.high) if value)
     if skill.duration:
         yield skill.duration
+    if skill.pause and skill.pause.keep:
+        yield skill.pause.keep
 
 
 def implementation_values(implementation: Implementation) -> Iterator[TypedExpression]:

@@ -14,7 +14,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import TIME
 
-Member = TypeVar("Member", s.Duration, s.Prefer)
+Member = TypeVar("Member", s.Duration, s.Prefer, s.Pause)
 CONSTANT_SCOPE = Scope("a default or range, which is a constant,")
 
 

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import Parameter, Skill
-from skillc_compiler.program.types import type_of
-from skillc_compiler.resolve.members import resolve_constant, resolve_duration, resolve_requirements
+from skillc_compiler.program.typed import Parameter, Pause, Skill
+from skillc_compiler.program.types import Measure, type_of
+from skillc_compiler.resolve.members import (
+    resolve_constant,
+    resolve_duration,
+    resolve_requirements,
+    single_member,
+)
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.type_names import resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
+from skillc_dsl.units import TIME
 
 
 def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
@@ -24,6 +30,7 @@ def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
         requirements=tuple(resolve_requirements(context, before, after, written.members, {})),
         duration=resolve_duration(context, before, written.members),
         devices=tuple(_devices(context, written, parameters)),
+        pause=_pause(context, written),
         flags=frozenset(m.flag for m in written.members if isinstance(m, s.Flag)),
         name_span=written.name.span,
         span=written.span,
@@ -74,6 +81,12 @@ def _parameter(context: FileContext, written: s.Parameter) -> Parameter:
         doc=written.doc,
         span=written.name.span,
     )
+
+
+def _pause(context: FileContext, written: s.SkillDeclaration) -> Pause | None:
+    """Return where the skill may be paused; a second `pause` line is reported."""
+    found = single_member(context, written.members, s.Pause, "pause")
+    return Pause(found.where, resolve_constant(context, found.keep, Measure(TIME)), found.span) if found else None
 
 
 def _devices(

@@ -11,8 +11,8 @@ from skillc_dsl.formatting.columns import KEYWORD, ColumnCell, MemberLine, align
 from skillc_dsl.formatting.inline import Branch, index_of, is_token
 from skillc_dsl.formatting.steps import StepFormatter, has_braces
 
-_LOOSE = ("duration", "shares")
-"""Long keywords, which do not widen their column."""
+_LOOSE = ("duration", "shares", "pause")
+"""Long keywords, which do not widen their column, as what follows them is in no other column."""
 
 
 class MemberFormatter(StepFormatter):

@@ -19,6 +19,8 @@ from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_conti
 from skillc_dsl.parsing.lexer import empty_token_after, token_span
 from skillc_dsl.parsing.nesting import DEEPEST, report_too_deep
 from skillc_dsl.parsing.repairs import Fault, repair
+from skillc_dsl.parsing.reserved import report_reserved
+from skillc_dsl.parsing.token_repairs import join_tokens
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
@@ -49,6 +51,7 @@ class Recovery:
             if len(before) > _MOST_STATES:
                 index = self._leave_too_deep(index)
                 continue
+            self._read_reserved_as_relation(index)
             try:
                 feed(self.tokens[index])
                 self._since = 0 if _is_inserted(self.tokens[index]) else self._since + 1
@@ -75,6 +78,14 @@ class Recovery:
         position = self._resume(index)
         self._since = _CALM if begins_line(self.tokens, position) else 0
         return position
+
+    def _read_reserved_as_relation(self, index: int) -> None:
+        """Report a relation that is called like a word of the language, and let it be parsed as a relation."""
+        problem = report_reserved(self._state.state_stack, self.tokens, index, self.path)
+        if problem is not None:
+            token = self.tokens[index]
+            self._report(problem)
+            self.tokens[index] = join_tokens("NAME", token, token, token.value)
 
     def _leave_too_deep(self, index: int) -> int:
         """Report text that is nested too deep; return the index of the next declaration or of the end."""

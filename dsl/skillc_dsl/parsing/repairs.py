@@ -14,9 +14,12 @@ from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.parsing.token_repairs import join_tokens, report_missing_space
 from skillc_dsl.source import Span
 
-_INSERTED = ("RPAR", "RSQB", "COMMA", "EQUAL", "OF", "DOTS", "LBRACE", "COLON", "LPAR", "IN", "SEQ", "PYTHON", "ARROW")
+_INSERTED = (
+    *("RPAR", "RSQB", "COMMA", "EQUAL", "OF", "DOTS", "LBRACE", "COLON", "LPAR", "IN", "SEQ", "PYTHON", "ARROW"),
+    *("STEPS", "KEEP"),
+)
 _SPACED = ("EQUAL", "DOTS", "LBRACE", "ARROW")
-_WORDS = ("OF", "PYTHON")
+_WORDS = ("OF", "PYTHON", "STEPS", "KEEP")
 _SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
 _KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", "LESS", END}
 

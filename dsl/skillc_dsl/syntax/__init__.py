@@ -38,6 +38,8 @@ from skillc_dsl.syntax.members import Event as Event
 from skillc_dsl.syntax.members import Flag as Flag
 from skillc_dsl.syntax.members import Let as Let
 from skillc_dsl.syntax.members import Parameter as Parameter
+from skillc_dsl.syntax.members import Pause as Pause
+from skillc_dsl.syntax.members import PausePlace as PausePlace
 from skillc_dsl.syntax.members import Prefer as Prefer
 from skillc_dsl.syntax.members import Range as Range
 from skillc_dsl.syntax.members import Refinement as Refinement

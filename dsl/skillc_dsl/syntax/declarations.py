@@ -14,6 +14,7 @@ from skillc_dsl.syntax.members import (
     Flag,
     Let,
     Parameter,
+    Pause,
     Prefer,
     Refinement,
     Requirement,
@@ -22,7 +23,7 @@ from skillc_dsl.syntax.members import (
 )
 from skillc_dsl.syntax.values import Name, Text, TypeName
 
-SkillMember: TypeAlias = Parameter | Requirement | Duration | DeviceUse | Flag
+SkillMember: TypeAlias = Parameter | Requirement | Duration | DeviceUse | Pause | Flag
 ImplementationMember: TypeAlias = Refinement | Requirement | Duration | Let | Prefer | Body | RunPython | Verify
 
 

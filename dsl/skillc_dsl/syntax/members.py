@@ -11,6 +11,7 @@ from skillc_dsl.syntax.nodes import Node
 from skillc_dsl.syntax.values import Name, Number, Text, TypeName, Value
 
 Direction: TypeAlias = Literal["in", "opt", "infer", "out"]
+PausePlace: TypeAlias = Literal["anywhere", "between steps", "never"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,15 @@ class DeviceUse:
 
     kind: Literal["uses", "shares"]
     parameter: Name
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """`pause anywhere|between steps|never [keep value]`"""
+
+    where: PausePlace
+    keep: Value | None
     span: Span
 
 

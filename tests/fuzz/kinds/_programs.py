@@ -100,6 +100,10 @@ class _Writer:
             lines.append(f"    duration {self._value(names, 2)}")
         if self.random.random() < 0.3:
             lines.append(f"    {pick(['uses', 'shares'])} {pick(names)}")
+        if self.random.random() < 0.3:
+            lines.append(
+                f"    pause {pick(['anywhere', 'between steps', 'never'])}{pick(['', ' keep 2 s', ' keep 0 N'])}"
+            )
         self.skills[name] = names
         return [*lines, "}", f"impl {name.lower()} of {name} {{", f"    {_PYTHON}", "}"]
 

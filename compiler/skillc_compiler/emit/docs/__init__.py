@@ -7,6 +7,7 @@ from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
+from skillc_compiler.emit.docs.pausing import describe_pause
 from skillc_dsl.units import to_si
 from skillc_model.conditions import Expression, Literal
 from skillc_model.format_condition import format_expression, format_literal
@@ -34,6 +35,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
         parameters=[_parameter(each, vocabulary) for each in skill.parameters],
         conditions=[(title, listed) for title, listed in conditions if listed],
         duration=format_expression(skill.duration, vocabulary) if skill.duration else "",
+        pause=describe_pause(skill.pause),
         implementations=[
             (each, _difference(each, skill, vocabulary), _body(each)) for each in library.implementations_of(skill.name)
         ],

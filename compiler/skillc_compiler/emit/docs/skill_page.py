@@ -13,6 +13,7 @@ from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.linking import LinkWriter
 from skillc_compiler.emit.docs.listing import format_excerpt
 from skillc_compiler.emit.docs.mentions import find_called_skills, find_terms
+from skillc_compiler.emit.docs.pausing import describe_pause
 from skillc_compiler.emit.docs.written import WrittenDeclarations
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import draw_implementation
@@ -85,6 +86,7 @@ def _traits(skill: Skill, declared: s.SkillDeclaration, written: WrittenDeclarat
         *(["for use in `with`: what it sets up is undone at the end"] if skill.scoped else []),
         *([] if skill.planned else ["not used in planning"]),
         *(["another implementation takes over when one fails"] if skill.fallback else []),
+        *filter(None, [describe_pause(skill.pause)]),
     ]
     return [prose.line(each) for each in said]
 

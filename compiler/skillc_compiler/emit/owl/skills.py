@@ -33,7 +33,16 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.format_type import SI_UNITS
-from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_model.skills import (
+    Implementation,
+    Parameter,
+    PausePolicy,
+    Post,
+    Primitive,
+    Requirement,
+    Skill,
+    SkillLibrary,
+)
 from skillc_rdf.vocabulary.types import ClassType, NumberType, Position
 
 Statement = tuple[str, str, Object]
@@ -52,6 +61,11 @@ def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     if skill.duration:
         yield iri, f"{SKILLC}duration", convert_value(skill.duration, NumberType("Time"), library.vocabulary)
         yield iri, f"{SKILLC}durationUnit", SI_UNITS["Time"]
+    if skill.pause != PausePolicy():
+        yield iri, f"{SKILLC}pause", skill.pause.where
+    if skill.pause.keep_s is not None:
+        yield iri, f"{SKILLC}keep", skill.pause.keep_s
+        yield iri, f"{SKILLC}keepUnit", SI_UNITS["Time"]
     for parameter in skill.parameters:
         yield from _parameter(iri, parameter, library)
     for kind, listed in (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post)):

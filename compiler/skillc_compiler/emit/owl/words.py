@@ -53,7 +53,8 @@ RELATIONS = (
 PROPERTIES = tuple(f"{SKILLC}{name}" for name in ("desiredState", "operator", "conditionText"))
 _NOTES = """
     comparedValue conditionProperty conditionRelation definedAt defaultValue dimension direction duration durationUnit
-    greatestValue implements isList leastValue parameterType preference python rank sensed sha256 unit
+    greatestValue implements isList keep keepUnit leastValue parameterType pause preference python rank sensed sha256
+    unit
 """
 ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())
 

@@ -64,6 +64,17 @@ class MemberBuilder(NodeBuilder):
         kind: Literal["uses", "shares"] = "uses" if keyword_at(children, 0) == "uses" else "shares"
         return s.DeviceUse(kind, self.as_name(children[1]), self.over(children))
 
+    def pause(self, children: list[Child]) -> s.Pause:
+        """`pause anywhere|between steps|never [keep value]`"""
+        where = "between steps" if keyword_at(children, 1) == "between" else keyword_at(children, 1)
+        keep = find_part(children, "keep")
+        value = self.value(keep.children[1]) if keep else None
+        return s.Pause(cast(s.PausePlace, where), value, self.over(children))
+
+    def keep(self, children: list[Child]) -> Part:
+        """`keep value`"""
+        return self.part("keep", children)
+
     def flag(self, children: list[Child]) -> s.Flag:
         """`scoped`, `noplan`, `fallback`, `endless`"""
         return s.Flag(

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, assert_never
 
-from skillc_model.skills import PausePolicy
+from skillc_model.skills import KEEP_S, PausePolicy
 from skillc_rdf.vocabulary.types import Position
 
 StepKind: TypeAlias = Literal["into", "over", "out"]
@@ -138,8 +138,7 @@ def is_pause_point(call: Call) -> bool:
 def keep_s(active: Iterable[Call]) -> float:
     """Return for how long a paused tool may go on pressing, in s: the shortest time that an active skill states."""
     policies = [each.pause_policy for call in active for each in (call, *call.enclosing_calls())]
-    stated = [policy.keep_s for policy in policies if policy.keep_s != PausePolicy().keep_s]
-    return min(stated, default=PausePolicy().keep_s)
+    return min((policy.keep_s for policy in policies if policy.keep_s is not None), default=KEEP_S)
 
 
 def format_breakpoint(breakpoint_: Breakpoint) -> str:

@@ -1,4 +1,4 @@
-; Made by skillc from the library control, sha256 1650966bebda31435788176ed171ae9edb26bd198afbd5d392bec428abed0106. Change the .skill files and compile again.
+; Made by skillc from the library control, sha256 b9978db50c7852d63d0c89904e1fa390905bfcf2c471d95b211dc1b1b54b0df8. Change the .skill files and compile again.
 ; durations: a unit is a second
 ; left out: Tour (control.skill:7): its parameter `stops` is no thing, so a planner cannot choose it
 (define (domain control-temporal)
