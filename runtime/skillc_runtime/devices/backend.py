@@ -9,6 +9,10 @@ if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
 
 
+class BackendBroken(RuntimeError):
+    """A cell can never move again; the message says why."""
+
+
 class Clock(Protocol):
     """The clock of a cell."""
 
@@ -40,11 +44,11 @@ class Backend(Protocol):
         ...
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
-        """Whether devices neither move nor push."""
+        """Whether devices neither move nor push; true of a broken cell, whose time stands still."""
         ...
 
     def advance(self, seconds: float) -> None:
-        """Let time pass, in s; raises if the cell breaks."""
+        """Let time pass, in s. BackendBroken if the cell breaks or has broken; other errors of its controllers."""
         ...
 
     def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:

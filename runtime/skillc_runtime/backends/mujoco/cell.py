@@ -7,6 +7,7 @@ from collections.abc import Callable
 import mujoco
 
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
+from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
@@ -19,6 +20,7 @@ from skillc_runtime.world.state.model import WorldModel
 class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
     """A cell built from the facts of a world model, with physics.
 
+    `advance` raises SimulationDiverged if the physics diverges.
     `variation` is how reality differs from the facts. The same facts and the same seed give the same run, bit for bit.
     """
 
@@ -51,14 +53,17 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
 
     def _prepare(self) -> None:
         mujoco.mj_forward(self.model, self.data)
+        self._divergence = DivergenceMonitor(self.model, self.data)
 
     def _move(self, now: float) -> None:
         mujoco.mj_step2(self.model, self.data)
+        self._divergence.check()
         for arm in self.arms.values():
             arm.after_step()
         self._observe(now)
         self._move_bases()
         mujoco.mj_step1(self.model, self.data)
+        self._divergence.check()
 
     def _observe(self, now: float) -> None:
         for button in self._buttons.values():

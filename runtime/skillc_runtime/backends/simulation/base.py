@@ -68,7 +68,12 @@ class SimulatedBase:
         return not self._legs
 
     def drive_to(self, goal: Pose) -> None:
-        """Begin to drive: brake if the base moves, rotate towards the goal, drive straight, rotate to its heading."""
+        """Begin to drive: brake if the base moves, rotate towards the goal, drive straight, rotate to its heading.
+
+        ValueError if the goal is not finite.
+        """
+        if not (np.isfinite(goal.position).all() and np.isfinite(goal.rotation).all()):
+            raise ValueError("a base cannot drive to a pose that has a part which is no number")
         self.stop()
         start = self._legs[0].end if self._legs else self._pose
         way = (goal.position - start.position) * [1.0, 1.0, 0.0]

@@ -25,6 +25,7 @@ from skillc_runtime.backends.simulation.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
@@ -55,6 +56,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self.model: Any = build_model(scene, variation, timestep_s)
         self.data: Any = mujoco.MjData(self.model)
         self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
+        self._broken: str | None = None
         self.arms, self._hands = self._make_arms()
         self._grippers = {a.gripper.individual: self._hands[a.individual] for a in scene.arms if a.gripper}
         names = scene.names
@@ -95,10 +97,12 @@ class ModelledCell(ABC, Generic[A, G]):
     @property
     def broken(self) -> str | None:
         """Why the cell cannot go on; None while it can."""
-        return None
+        return self._broken
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
-        """Whether devices, all if None, neither move nor push."""
+        """Whether devices, all if None, neither move nor push; nothing moves once the cell is broken."""
+        if self._broken is not None:
+            return True
         moving: dict[str, CompliantArmDriver | SimulatedBase] = {**self._drivers, **self._bases}
         return all(each.at_rest for name, each in moving.items() if devices is None or name in devices)
 
@@ -133,9 +137,20 @@ class ModelledCell(ABC, Generic[A, G]):
         return self._buttons[individual]
 
     def advance(self, seconds: float) -> None:
-        """Advance controllers and devices, step by step. ControlError if a controller cannot continue."""
-        for _ in range(round(seconds / self._timestep)):
-            self._advance_one()
+        """Advance controllers and devices, step by step.
+
+        ControlError if a controller cannot continue, BackendBroken if the cell cannot; after that it never advances.
+        """
+        if self._broken is not None:
+            raise BackendBroken(self._broken)
+        try:
+            for _ in range(round(seconds / self._timestep)):
+                self._advance_one()
+        except BackendBroken as error:
+            self._broken = str(error)
+            faults = [SetProperty(arm, DEVICE_STATE, "Fault") for arm in sorted(self._drivers)]
+            self._world.commit(faults, self._broken, "reported")
+            raise
 
     def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
         """Stop devices, all if None, and pushes, and restore releases; return what was not in order.

@@ -82,6 +82,7 @@ def _empty(timestep_s: float) -> Any:
     spec.option.timestep = timestep_s
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 720
     spec.visual.headlight.ambient = [0.4, 0.4, 0.4]
     _add_sky(spec)

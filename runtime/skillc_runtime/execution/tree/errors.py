@@ -5,6 +5,7 @@ from __future__ import annotations
 import traceback
 from pathlib import PurePath
 
+from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.cell import WatchdogTimeout
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.state.model import WorldError
@@ -14,7 +15,7 @@ from skillc_runtime.world.state.transactions import StoreError
 
 def describe_exception(error: BaseException) -> str:
     """Return the message of an exception, with type and line unless the message is meant for users."""
-    if isinstance(error, SkillFailure | WatchdogTimeout | EvaluationError | WorldError | StoreError):
+    if isinstance(error, SkillFailure | BackendBroken | WatchdogTimeout | EvaluationError | WorldError | StoreError):
         return str(error)
     frames = traceback.extract_tb(error.__traceback__)
     where = f" ({PurePath(frames[-1].filename).name}:{frames[-1].lineno})" if frames else ""
