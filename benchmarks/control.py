@@ -20,7 +20,7 @@ from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
-from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits

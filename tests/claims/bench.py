@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
 from msgspec import structs
 
+from own_backend import OwnBackend
 from skillc.services import libraries
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
-from skillc_runtime.execution.task_run import Execution, execute_task
+from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.events import Event
@@ -94,7 +95,7 @@ class Base:
 
 
 @dataclass
-class Bench:
+class Bench(OwnBackend):
     """The cell; `meanwhile` happens once, when its time has come."""
 
     world: WorldModel
@@ -104,7 +105,7 @@ class Bench:
     hand: Hand = field(default_factory=Hand)
     wheels: Base = field(default_factory=Base)
 
-    def is_at_rest(self) -> bool:
+    def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether nothing more is to happen."""
         return not self.meanwhile
 
@@ -116,7 +117,7 @@ class Bench:
         """Return the one base."""
         return {iri("robot"): self.wheels}[individual]
 
-    def secure(self) -> tuple[str, ...]:
+    def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
         """Leave nothing behind, for nothing here moves."""
         return ()
 

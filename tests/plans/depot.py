@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+from own_backend import OwnBackend
 from skillc.services import libraries
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_goal
@@ -14,7 +15,7 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
-from skillc_runtime.execution.task_run import Execution, execute_task
+from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation
@@ -59,7 +60,7 @@ def goal(text: str, state: WorldState) -> Condition:
 
 
 @dataclass
-class Depot:
+class Depot(OwnBackend):
     """The cell; `meanwhile` happens once, when its time has come; `fails` says which start of which step fails."""
 
     world: WorldModel
@@ -73,11 +74,11 @@ class Depot:
         """Return what primitives look at: the depot itself, of which a run shows them only the devices."""
         return self
 
-    def is_at_rest(self) -> bool:
+    def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Tell that nothing here moves."""
         return True
 
-    def secure(self) -> tuple[str, ...]:
+    def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
         """Leave nothing behind, for nothing here moves."""
         return ()
 

@@ -17,7 +17,7 @@ from skillc_runtime import primitives
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
-from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.compliance import ReleaseAxis

@@ -9,9 +9,9 @@ from safety import faults
 from safety.test_faults import is_safe
 from simulation.cells import ARM, SCENES, cell
 from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
-from skillc_runtime.execution import task_run
+from skillc_runtime.execution import preparation
 from skillc_runtime.execution.assignment import NotStarted
-from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event
@@ -88,7 +88,7 @@ def test_a_program_that_ends_leaves_the_arm_safe() -> None:
 def test_a_planner_that_is_gone_when_a_new_plan_is_wanted_ends_the_task(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = "ur5e_whiteboard"
     there, told = cell(scene), []
-    monkeypatch.setattr(task_run, "prepare_task", lambda *_: NotStarted("the planner does not start"))
+    monkeypatch.setattr(preparation, "replan_task", lambda *_: NotStarted("the planner does not start"))
     prepared = faults.reaching(there, scene, f"{scene} MoveLinear tick")
     execution = execute_task(prepared, faults.LIBRARY, there, (told.append,))
     assert execution.status == "failed"

@@ -18,7 +18,7 @@ from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, add_obstacles, draw_variation
 from skillc_runtime.evaluation.trials.trial_cell import draw_disturbed_variation
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
-from skillc_runtime.execution.task_run import Execution, execute_task
+from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.labelled_text import format_fact
@@ -79,7 +79,7 @@ def test_a_pad_that_bounces_is_felt_and_the_wipe_fails() -> None:
     execution = wiped("clean_whiteboard", stiff)
     assert execution.status == "failed" and execution.failure is not None
     assert "contact with lab:Whiteboard-1 was lost for" in execution.failure.message
-    after = execution.cell.world.snapshot()
+    after = execution.backend.world.snapshot()
     share = after.value(LAB + "Whiteboard-1", CONTACT_SHARE)
     assert isinstance(share, float) and share < 0.75
     assert after.value(LAB + "Whiteboard-1", IS_CLEAN) is False
@@ -88,17 +88,17 @@ def test_a_pad_that_bounces_is_felt_and_the_wipe_fails() -> None:
 def test_a_pad_as_it_should_be_keeps_its_contact() -> None:
     execution = wiped("clean_whiteboard")
     assert execution.status == "succeeded" and execution.verified
-    assert execution.cell.world.snapshot().value(LAB + "Whiteboard-1", CONTACT_SHARE) == pytest.approx(1.0, abs=0.02)
+    assert execution.backend.world.snapshot().value(LAB + "Whiteboard-1", CONTACT_SHARE) == pytest.approx(1.0, abs=0.02)
 
 
 def test_an_obstacle_is_not_taken_for_the_surface() -> None:
     execution = wiped("clean_desk", lambda facts, seed: add_obstacles(draw_variation(facts, seed), facts))
     assert execution.status == "failed"
     assert execution.failure is not None and "lab:Desk-1.isClean is false" in execution.failure.message
-    after = execution.cell.world.snapshot()
+    after = execution.backend.world.snapshot()
     coverage = after.value(LAB + "Desk-1", COVERAGE)
     assert isinstance(coverage, float) and 0.5 < coverage < 1.0, "what the eraser reached is clean all the same"
-    assert draw_disturbed_variation("obstacle", execution.cell.scene, 1).surfaces[0].obstacle is not None
+    assert draw_disturbed_variation("obstacle", execution.backend.scene, 1).surfaces[0].obstacle is not None
 
 
 PLACING = {FRAME_ID: "placing", BASE_FRAME_ID: "map"}
@@ -140,4 +140,4 @@ def test_a_part_that_slips_out_while_it_is_carried_fails_the_run() -> None:
     (picked,) = moved((PICK,), (SetProperty(LAB + "Eraser-1", WEIGHT, 7.0),))
     assert picked.status == "failed"
     assert picked.failure is not None and "slips out of lab:Robotiq-1" in picked.failure.message
-    assert not picked.cell.world.snapshot().holds(LAB + "Robotiq-1", CONTAIN, LAB + "Eraser-1")
+    assert not picked.backend.world.snapshot().holds(LAB + "Robotiq-1", CONTAIN, LAB + "Eraser-1")

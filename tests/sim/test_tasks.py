@@ -21,7 +21,7 @@ from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
-from skillc_runtime.execution.task_run import Execution, execute_task
+from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -51,7 +51,7 @@ def start(name: str, seed: int) -> tuple[PreparedTask, SimulatedCell]:
 
 def at_rest(execution: Execution, arm: str) -> bool:
     """Whether an arm neither moves nor is asked to push, and is stiff along every axis."""
-    driver = execution.cell.arm(arm)
+    driver = execution.backend.arm(arm)
     pushes = abs(driver.compliance.commanded_wrench).max() > 0.1
     return (
         not pushes

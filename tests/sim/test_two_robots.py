@@ -16,7 +16,7 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
-from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.labelled import LabelledIri

@@ -23,7 +23,7 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
 from skillc_runtime.evaluation.report.write import write_figure, write_report
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
-from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.film.film import Film, FilmFiles, Moment
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError

@@ -126,6 +126,13 @@ def replan_task(
     return prepared
 
 
+def arrange_prepared(assignment: Assignment, solved: Solved, library: SkillLibrary) -> PreparedTask:
+    """Return an assignment with the body of a plan for it; PlanError if the plan does not work."""
+    arrangement = arrange_plan(solved.plan, library, assignment.state)
+    steps = tuple(solved.plan.steps[number] for number in step_numbers(arrangement))
+    return PreparedTask(assignment, build_plan_body(solved.plan, arrangement, library), PlannedSteps(solved, steps))
+
+
 @dataclass(frozen=True, slots=True)
 class _Search:
     planners: Planners
@@ -138,9 +145,7 @@ def _prepare_plan(
     result = _plan(assignment.state, objective, library, without, search)
     if not isinstance(result, Solved):
         return NotStarted(result.message)
-    arrangement = arrange_plan(result.plan, library, assignment.state)
-    steps = tuple(result.plan.steps[number] for number in step_numbers(arrangement))
-    return PreparedTask(assignment, build_plan_body(result.plan, arrangement, library), PlannedSteps(result, steps))
+    return arrange_prepared(assignment, result, library)
 
 
 def _plan(

@@ -1,26 +1,24 @@
-"""One attempt at a task: a body runs in a cell from its first tick until everything is at rest."""
+"""One attempt at a task: a body that runs in a cell from its first tick until everything is at rest."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.cell import Cell
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PlannedSteps, PreparedTask
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.progress import invalidation_reason, measure_progress
 from skillc_runtime.execution.success_facts import Claim
+from skillc_runtime.execution.tree.gate import Gate
+from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
-from skillc_runtime.planning.plan import describe_quality
+from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import Listener, Note, PlanMade, PlanStep
+from skillc_runtime.recording.events import Listener, Note
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.world.state.labelled import label
-from skillc_runtime.world.state.world_state import WorldState
 
 TICK_S = 0.01
 """The tree is ticked at 100 Hz of the cell's time: every ten control periods."""
@@ -29,36 +27,35 @@ SETTLE_S = 5.0
 """How long, after the end, everything that moves may take to come to rest."""
 
 
-class SteppedCell(Cell, Protocol):
-    """A cell whose time passes only in `advance`."""
+@dataclass(frozen=True, slots=True)
+class CellOrigin:
+    """What a simulated cell was built from: the file of its scene, empty if it came from elsewhere, and the seed."""
 
-    def is_at_rest(self) -> bool:
-        """Whether nothing moves any more."""
-        ...
-
-    def advance(self, seconds: float) -> None:
-        """Let time pass, in s; raises if the cell breaks."""
-        ...
-
-    def secure(self) -> Sequence[str]:
-        """Stop everything, release all forces and make the arms stiff; return what had to be corrected."""
-        ...
+    scene: str = ""
+    seed: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class RunContext:
-    """What all attempts at a task share.
+    """What all attempts of a task run share.
 
-    `after_tick` is called after every tick; when `interrupted` returns true everything is halted. `failures` collects
-    the steps of plans that fail.
+    `listeners` get the events. `failures` collects the steps of plans that fail. `gate` holds calls back where the run
+    pauses; `locks` are those of the devices that it holds.
     """
 
     library: SkillLibrary
-    cell: SteppedCell
+    backend: Backend
     listeners: Sequence[Listener]
-    after_tick: Callable[[], None]
-    interrupted: Callable[[], bool]
     failures: FailedSteps
+    gate: Gate
+    locks: DeviceLocks
+    origin: CellOrigin
+
+    def emit_notes(self, messages: Sequence[str]) -> None:
+        """Emit messages for users."""
+        for message in messages:
+            for listener in self.listeners:
+                listener(Note(time=self.backend.clock.now, message=message))
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,92 +81,82 @@ class AttemptResult:
             return f"the plan no longer leads to the goal: {self.invalidated}"
         return self.failure.message if self.failure else "the goal does not hold after the plan"
 
-
-def run_attempt(prepared: PreparedTask, context: RunContext, nodes_before: int) -> AttemptResult:
-    """Run a body until it ends or its plan becomes invalid; then wait until everything is at rest.
-
-    The nodes of its tree are numbered from `nodes_before` + 1.
-    """
-    cell = context.cell
-    _emit_plan(prepared, context)
-    failures = None if prepared.planned is None else context.failures
-    run = TreeRun(prepared.body, context.library, cell, context.listeners, None, nodes_before, failures)
-    try:
-        invalidated = _tick_until_ended(run, prepared, context)
-    finally:
-        run.halt("the program ends")
-        _emit_notes(cell.secure(), context)
-    _wait_until_at_rest(cell, run)
-    run.check_devices()
-    return AttemptResult(prepared, run.status, run.failure, run.outcome, run.last_node, invalidated, run.claims)
-
-
-def _tick_until_ended(run: TreeRun, prepared: PreparedTask, context: RunContext) -> str | None:
-    """Tick until the run has ended; return why its plan became invalid, if it did."""
-    cell, invalidated = context.cell, None
-    seen = cell.world.snapshot()
-    while run.tick() is Status.RUNNING:
-        if cell.world.snapshot() is not seen:
-            seen = cell.world.snapshot()
-            invalidated = _check_plan(run, prepared, context.library, seen)
-        if context.interrupted():
-            run.halt("interrupted")
-        elif invalidated is not None:
-            run.halt(f"the plan no longer leads to the goal: {invalidated}")
-        else:
-            _advance(cell, TICK_S, run)
-            context.after_tick()
-    return invalidated
-
-
-def _emit_notes(messages: Sequence[str], context: RunContext) -> None:
-    emit = Listeners(context.listeners)
-    for message in messages:
-        emit(Note(time=context.cell.now, message=message))
-
-
-def _emit_plan(prepared: PreparedTask, context: RunContext) -> None:
-    if prepared.planned is None:
-        return
-    solved, skills = prepared.planned.solved, context.library.skills
-    steps = tuple(
-        PlanStep(
-            skill=step.skill,
-            arguments={name: label(iri, context.library.vocabulary) for name, iri in step.arguments.items()},
-            source=skills[step.skill].source,
+    def steps_with_status(self, *statuses: str) -> tuple[Step, ...]:
+        """Return the steps of the plan that ended with a status, in the order of the body; none without a plan."""
+        planned = self.prepared.planned
+        if planned is None:
+            return ()
+        return tuple(
+            step for step, outcome in measure_progress(planned.steps, self.tree).steps if outcome.status in statuses
         )
-        for step in solved.plan.steps
-    )
-    event = PlanMade(
-        time=context.cell.now,
-        planner=solved.planner,
-        optimal=solved.optimal,
-        cost=solved.plan.duration_s,
-        steps=steps,
-        quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
-    )
-    Listeners(context.listeners)(event)
 
 
-def _check_plan(run: TreeRun, prepared: PreparedTask, library: SkillLibrary, state: WorldState) -> str | None:
-    """Return why the rest of a plan no longer leads to the goal; None if it does, or if nothing was planned."""
-    match prepared:
-        case PreparedTask(Assignment(objective=AchieveGoal(goal)), planned=PlannedSteps(steps=steps)):
-            return invalidation_reason(measure_progress(steps, run.outcome), goal, library, state)
-        case _:
-            return None
+class Attempt:
+    """Runs a body until it ends or its plan becomes invalid, then waits until its devices are at rest.
 
+    `ticking` while the tree runs; `ended` once everything is at rest.
+    """
 
-def _wait_until_at_rest(cell: SteppedCell, run: TreeRun) -> None:
-    for _ in range(round(SETTLE_S / TICK_S)):
-        if cell.is_at_rest():
+    def __init__(self, prepared: PreparedTask, context: RunContext, nodes_before: int) -> None:
+        """Build the tree, whose nodes are numbered from `nodes_before` + 1; nothing starts."""
+        cell = context.backend.cell
+        failures = None if prepared.planned is None else context.failures
+        self.prepared, self._context = prepared, context
+        self.tree = TreeRun(
+            prepared.body,
+            context.library,
+            cell,
+            context.listeners,
+            context.locks,
+            nodes_before,
+            failures,
+            context.gate,
+        )
+        self.ticking, self.ended = True, False
+        self._invalidated: str | None = None
+        self._seen = cell.world.snapshot()
+        self._settling_ticks = 0
+
+    def tick(self, devices: frozenset[str] | None) -> None:
+        """Tick the tree once, or wait for `devices`, all if None, to come to rest after its end."""
+        if self.ticking and self.tree.tick() is Status.RUNNING:
+            self._halt_if_invalid()
+        if self.tree.status is Status.RUNNING:
             return
-        _advance(cell, TICK_S, run)
+        if self.ticking:
+            self.ticking = False
+            self._context.emit_notes(self._context.backend.secure(devices))
+        backend, limit = self._context.backend, round(SETTLE_S / TICK_S)
+        if backend.broken is not None or backend.is_at_rest(devices) or self._settling_ticks >= limit:
+            self.tree.check_devices()
+            self.ended = True
+        self._settling_ticks += 1
 
+    def halt(self, reason: str) -> None:
+        """Halt the tree; the attempt ends when everything is at rest."""
+        self.tree.halt(reason)
 
-def _advance(cell: SteppedCell, seconds: float, run: TreeRun) -> None:
-    """Let time pass; an error of the cell fails the run, which halts everything."""
-    try:
-        cell.advance(seconds)
-    except Exception as error:  # noqa: BLE001  the task's boundary: it reports, halts and ends
-        run.abort(error)
+    def invalidate(self, reason: str) -> None:
+        """Halt the tree because its plan is not to be followed any more."""
+        self._invalidated = reason
+        self.tree.halt(f"the plan no longer leads to the goal: {reason}")
+
+    def result(self) -> AttemptResult:
+        """Return how the attempt ended."""
+        tree = self.tree
+        return AttemptResult(
+            self.prepared, tree.status, tree.failure, tree.outcome, tree.last_node, self._invalidated, tree.claims
+        )
+
+    def _halt_if_invalid(self) -> None:
+        """Halt the tree if the world has changed so that the plan no longer leads to the goal."""
+        state = self._context.backend.cell.world.snapshot()
+        if state is self._seen:
+            return
+        self._seen = state
+        match self.prepared:
+            case PreparedTask(Assignment(objective=AchieveGoal(goal)), planned=PlannedSteps(steps=steps)):
+                progress = measure_progress(steps, self.tree.outcome)
+                reason = invalidation_reason(progress, goal, self._context.library, state)
+                if reason is not None:
+                    self.invalidate(reason)

@@ -1,139 +1,320 @@
-"""Runs a task to its end: prepare, attempt, and replan while another plan may succeed."""
+"""A task run: the state machine that prepares, attempts, pauses and replans a task. The loop of its cell ticks it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from time import perf_counter
-from typing import Generic, TypeVar
+from dataclasses import replace
 
-from skillc_model.skills import SkillLibrary
-from skillc_runtime.execution.assignment import (
-    AchieveGoal,
-    ExecuteBody,
-    NotStarted,
-    PreparedTask,
-    replan_task,
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
+from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
+from skillc_runtime.execution.conclusion import (
+    MAX_ATTEMPTS,
+    Ended,
+    NeedsPlan,
+    collect_facts,
+    conclude,
+    continue_plan,
+    no_other_plan,
+    skip_failed_step,
 )
-from skillc_runtime.execution.attempt import AttemptResult, RunContext, SteppedCell, run_attempt
-from skillc_runtime.execution.plans.failed_steps import FailedSteps
-from skillc_runtime.execution.plans.progress import measure_progress
-from skillc_runtime.execution.success_facts import collect_success_facts
+from skillc_runtime.execution.device_claims import DeviceClaims
+from skillc_runtime.execution.pausing import PauseFollower
+from skillc_runtime.execution.preparation import DevicesBusy, NextAttempt, Outdated, StartPreparation
+from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
+from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, RunSettings, refusal
+from skillc_runtime.execution.world_edit import edit_world
+from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import FORMAT, Listener, Replanned, TaskEnded, TaskStarted
+from skillc_runtime.recording import commands
+from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, assumed_facts
-from skillc_runtime.recording.listeners import Listeners
-from skillc_runtime.recording.states import EndState
-from skillc_runtime.world.eval.conditions import evaluate
-
-MAX_ATTEMPTS = 4
-"""How many plans are tried for one goal."""
-
-_END_STATES: Mapping[Status, EndState] = {
-    Status.SUCCESS: "succeeded",
-    Status.FAILURE: "failed",
-    Status.HALTED: "stopped",
-}
-
-CellT = TypeVar("CellT", bound=SteppedCell)
+from skillc_runtime.recording.states import EndState, State
+from skillc_runtime.world.state.model import WorldError
+from skillc_runtime.world.state.transactions import StoreError
 
 
-@dataclass(frozen=True, slots=True)
-class Execution(Generic[CellT]):
-    """How a task ended: its attempts, the cell it ran in, the wall-clock time it took.
+class TaskRun:
+    """One execution of a task, from its submission to its end; `id` names it in its cell.
 
-    `facts` are those that a success rests on.
+    It has no loop: `tick` is called once a tick of the cell, and never waits. `attempts` are those that have ended;
+    `failure` is why the run did not succeed, `facts` are those that its success rests on. `reason` says why it is in
+    its state, or for what it waits.
     """
 
-    attempts: tuple[AttemptResult, ...]
-    status: EndState
-    failure: Failure | None
-    cell: CellT
-    wall_time_s: float
-    facts: tuple[KnownFact, ...] = ()
+    def __init__(
+        self,
+        run_id: str,
+        assignment: Assignment,
+        context: RunContext,
+        claims: DeviceClaims,
+        start_preparation: StartPreparation,
+        settings: RunSettings,
+    ) -> None:
+        """Submit a task; nothing starts before the first tick."""
+        self.id, self.assignment = run_id, assignment
+        self.state: State = "queued"
+        self.reason = ""
+        self.end: EndState | None = None
+        self.attempts: list[AttemptResult] = []
+        self.failure: Failure | None = None
+        self.facts: tuple[KnownFact, ...] = ()
+        self._context, self._claims, self._settings = context, claims, settings
+        self._next = NextAttempt(start_preparation)
+        self._submitted_at = context.backend.clock.now
+        self._attempt: Attempt | None = None
+        self._pause = PauseFollower(context.gate, context.backend.clock)
+        self._ending: Ending | None = None
+        self._emit(make_start_event(assignment, context))
+
+    @property
+    def ended(self) -> bool:
+        """Whether the run has ended."""
+        return self.end is not None
+
+    @property
+    def needs_time(self) -> bool:
+        """Whether the clock of the cell must go on for this run: not while it only plans, or waits to begin."""
+        return self._attempt is not None
+
+    @property
+    def waits_for_decision(self) -> bool:
+        """Whether a step failed and somebody has to decide how to go on."""
+        return self.state == "paused" and self._attempt is None
+
+    @property
+    def allowed(self) -> tuple[str, ...]:
+        """The names of the commands that are allowed now."""
+        return ALLOWED_AFTER_FAILURE if self.waits_for_decision else ALLOWED[self.state]
 
     @property
     def verified(self) -> bool | None:
         """Whether a success rests on no fact that is only assumed; None if the task did not succeed."""
-        return _is_verified(self.status, self.facts)
+        return None if self.state != "succeeded" else not assumed_facts(self.facts)
+
+    def request(self, command: commands.Command, tick: int) -> Refusal | None:
+        """Do what is requested in a tick of the loop; return why not if it is refused, and nothing has changed."""
+        if self.ended:
+            return refusal(command, self.state, ())
+        refused = refusal(command, self.state, self.allowed)
+        if refused is None and (why := self._obey(command)) is not None:
+            refused = Refusal(command.name, self.state, self.allowed, why)
+        self._emit(Requested(time=self._now, command=command, tick=tick, refused=str(refused or "")))
+        self._settle_state()
+        return refused
+
+    def tick(self, tick: int) -> bool:
+        """Do the work of one tick of the loop, whose number is `tick`; return whether anything happened."""
+        before = self.state
+        self._check_deadline()
+        if self.state == "queued":
+            self._begin() if self._next.prepared is not None else self._prepare()
+        if self.state == "planning":
+            self._take_preparation(tick)
+        if self._attempt is not None:
+            self._tick_attempt(self._attempt)
+        return self._attempt is not None or self.state != before
+
+    def abort(self, error: BaseException) -> None:
+        """Fail because of an error of the cell."""
+        if self._attempt is not None:
+            self._attempt.tree.abort(error)
+
+    def wait(self, seconds: float) -> None:
+        """Wait for up to `seconds` of wall time for the preparation; to be used if nothing else goes on."""
+        if self._next.preparation is not None:
+            self._next.preparation.wait(seconds)
+
+    def close(self, reason: str) -> None:
+        """End at once, because the program ends: the devices are secured, but nobody waits until they are at rest."""
+        if not self.ended:
+            self._stop("stopped", Failure(kind="halted", message=reason))
+            if self._attempt is not None:
+                self._context.backend.secure(self._devices)
+                self._finish("stopped", Failure(kind="halted", message=reason))
 
     @property
-    def last(self) -> AttemptResult:
-        """The attempt that ended the task."""
-        return self.attempts[-1]
+    def _now(self) -> float:
+        return self._context.backend.clock.now
 
+    @property
+    def _devices(self) -> frozenset[str] | None:
+        return self._claims.devices_of(self.id)
 
-def execute_task(
-    prepared: PreparedTask,
-    library: SkillLibrary,
-    cell: CellT,
-    listeners: Sequence[Listener] = (),
-    after_tick: Callable[[], None] = lambda: None,
-    interrupted: Callable[[], bool] = lambda: False,
-) -> Execution[CellT]:
-    """Run a prepared task to its end; `after_tick` is called after every tick.
-
-    A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one;
-    `MAX_ATTEMPTS` plans are tried. An implementation that failed is not tried again until something that it depends on
-    has changed. When `interrupted` returns true everything is halted, forces are released and arms are stiff again.
-    """
-    began = perf_counter()
-    emit, name = Listeners(listeners), prepared.assignment.name
-    context = RunContext(library, cell, listeners, after_tick, interrupted, FailedSteps(library))
-    emit(TaskStarted(time=cell.now, format=FORMAT, task=name, library=library.name, hash=library.hash))
-    attempts = [run_attempt(prepared, context, 0)]
-    while isinstance(following := _next_attempt(attempts, context), PreparedTask):
-        emit(Replanned(time=cell.now, reason=attempts[-1].reason))
-        attempts.append(run_attempt(following, context, attempts[-1].last_node))
-    status, failure = _final_status(attempts[-1], following)
-    facts = _success_facts(attempts[-1], cell) if status == "succeeded" else ()
-    verified = _is_verified(status, facts)
-    emit(TaskEnded(time=cell.now, task=name, status=status, failure=failure, verified=verified, facts=facts))
-    return Execution(tuple(attempts), status, failure, cell, perf_counter() - began, facts)
-
-
-def _success_facts(last: AttemptResult, cell: SteppedCell) -> tuple[KnownFact, ...]:
-    """Return the facts that a success rests on: those of the goal, or of the posts of the body's calls."""
-    match last.prepared.assignment.objective:
-        case AchieveGoal(goal):
-            return collect_success_facts([(goal, {})], cell.world)
-        case ExecuteBody():
-            return collect_success_facts(last.claims, cell.world)
-
-
-def _is_verified(status: EndState, facts: tuple[KnownFact, ...]) -> bool | None:
-    return None if status != "succeeded" else not assumed_facts(facts)
-
-
-def _next_attempt(attempts: Sequence[AttemptResult], context: RunContext) -> PreparedTask | NotStarted | None:
-    """Return what to run next, why another plan is needed but there is none, or None if the task has ended."""
-    last, assignment = attempts[-1], attempts[-1].prepared.assignment
-    objective = assignment.objective
-    if not isinstance(objective, AchieveGoal) or (last.status is Status.HALTED and last.invalidated is None):
+    def _obey(self, command: commands.Command) -> str | None:
+        """Do what an allowed command says; return why it is not possible, if so."""
+        gate, tree = self._context.gate, self._attempt.tree if self._attempt is not None else None
+        active = tree.active_calls if tree is not None else ()
+        match command:
+            case commands.Stop(reason=reason):
+                self._stop("stopped", Failure(kind="halted", message=reason))
+            case commands.Pause(reason=reason):
+                gate.close(reason)
+                if tree is not None:
+                    self._pause.begin(tree)
+            case commands.Resume():
+                gate.open()
+            case commands.StepInto():
+                gate.step("into", active)
+            case commands.StepOver():
+                gate.step("over", active)
+            case commands.StepOut():
+                gate.step("out", active)
+            case commands.Approve():
+                self._enter("queued", "approved")
+            case commands.Replan():
+                return self._replan()
+            case commands.Retry() | commands.Skip() | commands.EditWorld():
+                return self._try(command)
+        if tree is not None and self.state in ("pausing", "paused") and gate.reason is None:
+            self._pause.resume(tree)
         return None
-    state = context.cell.world.snapshot()
-    if last.status is Status.SUCCESS and evaluate(objective.goal, state, {}):
+
+    def _try(self, command: commands.Retry | commands.Skip | commands.EditWorld) -> str | None:
+        """Do what may turn out to be impossible; return why, and then nothing has changed."""
+        world, library = self._context.backend.cell.world, self._context.library
+        try:
+            match command:
+                case commands.EditWorld():
+                    edit_world(world, command)
+                    return None
+                case commands.Skip(who=who, why=why):
+                    self._next.prepared = skip_failed_step(self.attempts[-1], library, world, f"{who}: {why}")
+                case commands.Retry():
+                    self._next.prepared = continue_plan(self.attempts[-1], library, world.snapshot())
+        except (PlanError, WorldError, StoreError) as error:
+            return str(error)
+        self._enter("queued", command.name)
         return None
-    if last.status is Status.FAILURE and not _has_failed_step(last, context.failures):
+
+    def _prepare(self) -> None:
+        """Start to plan for the world as it is now."""
+        self._enter("planning", self.attempts[-1].reason if self.attempts else "")
+        assignment = replace(self.assignment, state=self._context.backend.cell.world.snapshot())
+        self._next.plan(assignment, self._context.failures)
+
+    def _take_preparation(self, tick: int) -> None:
+        answer = self._next.take()
+        if answer is None:
+            return
+        self._emit(make_arrival_event(answer, self._context.library, self._now, tick))
+        if isinstance(answer, NotStarted):
+            reason, last = answer.reason, self.attempts[-1] if self.attempts else None
+            self._finish("failed", no_other_plan(last, reason) if last else Failure(kind="plan", message=reason))
+        elif self._settings.approve:
+            self._enter("planned", "waits for approval")
+        else:
+            self._begin()
+
+    def _begin(self) -> None:
+        """Begin an attempt if the plan still works and its devices are free; else plan again, or wait."""
+        state = self._context.backend.cell.world.snapshot()
+        match self._next.begin(self.id, self._claims, self._context.library, state):
+            case PreparedTask() as prepared:
+                self._start_attempt(prepared)
+            case DevicesBusy(holder):
+                self._enter("queued", f"waits for devices that {holder} holds")
+            case Outdated(problem, times) if times == MAX_ATTEMPTS:
+                message = f"the world changed {times} times so that a plan no longer worked: {problem}"
+                self._finish("failed", Failure(kind="plan", message=message))
+            case Outdated():
+                self._prepare()
+
+    def _start_attempt(self, prepared: PreparedTask) -> None:
+        context, last = self._context, self.attempts[-1] if self.attempts else None
+        if last is not None:
+            self._emit(Replanned(time=self._now, reason=last.reason))
+        if (event := make_plan_event(prepared, context.library, self._now)) is not None:
+            self._emit(event)
+        context.gate.forget_waiting()
+        self._pause = PauseFollower(context.gate, context.backend.clock)
+        self._attempt = Attempt(prepared, context, last.last_node if last else 0)
+        self._enter("running")
+
+    def _tick_attempt(self, attempt: Attempt) -> None:
+        attempt.tick(self._devices)
+        if attempt.ticking:
+            self._pause.follow(attempt.tree)
+            self._settle_state()
+        elif attempt.ended:
+            self._attempt = None
+            self.attempts.append(attempt.result())
+            self._conclude(self.attempts[-1])
+
+    def _conclude(self, last: AttemptResult) -> None:
+        """Decide how to go on after an attempt."""
+        if self._ending is not None:
+            return self._finish(self._ending.state, self._ending.failure)
+        backend = self._context.backend
+        conclusion = conclude(self.attempts, self._context.failures, backend.cell.world.snapshot())
+        if self._settings.ask_after_failure and last.status is Status.FAILURE and backend.broken is None:
+            self._context.gate.open()
+            return self._enter("paused", last.reason)
+        match conclusion:
+            case NeedsPlan() if backend.broken is None:
+                return self._prepare()
+            case NeedsPlan():
+                return self._finish("failed", last.failure)
+            case Ended(state, failure):
+                return self._finish(state, failure)
+
+    def _replan(self) -> str | None:
+        """Halt what runs, and plan again; return why that is not possible, if so."""
+        if not isinstance(self.assignment.objective, AchieveGoal):
+            return "only a goal can be planned for again"
+        self._context.gate.open()
+        if self._attempt is not None:
+            self._attempt.invalidate("another plan was requested")
+        else:
+            self._prepare()
         return None
-    if len(attempts) == MAX_ATTEMPTS:
-        return NotStarted(f"the task was tried {MAX_ATTEMPTS} times")
-    return replan_task(replace(assignment, state=state), context.library, context.failures)
 
+    def _check_deadline(self) -> None:
+        limit = self._settings.deadline_s
+        if limit is not None and self._ending is None and self._now - self._submitted_at >= limit and not self.ended:
+            message = f"the task did not end within its deadline of {limit:g} s"
+            self._stop("failed", Failure(kind="timeout", message=message))
 
-def _has_failed_step(last: AttemptResult, failures: FailedSteps) -> bool:
-    """Whether a step of the plan failed, or a body that was not planned: another plan may avoid it."""
-    planned = last.prepared.planned
-    if planned is None:
-        return True
-    return any(step in failures.steps for step in measure_progress(planned.steps, last.tree).with_status("failure"))
+    def _stop(self, state: EndState, failure: Failure) -> None:
+        """Halt everything; the run ends when its devices are at rest."""
+        if self._ending is not None:
+            return None
+        self._context.gate.open()
+        self._ending = Ending(state, failure)
+        self._next.discard()
+        if self._attempt is None:
+            return self._finish(state, failure)
+        self._enter("stopping", failure.message)
+        self._attempt.halt(failure.message)
+        return None
 
+    def _finish(self, state: EndState, failure: Failure | None) -> None:
+        world = self._context.backend.cell.world
+        self._attempt = None
+        self._claims.release(self.id)
+        self.state = self.end = state
+        self.reason, self.failure = failure.message if failure else "", failure
+        self.facts = collect_facts(self.attempts[-1], world) if state == "succeeded" else ()
+        self._emit(
+            TaskEnded(
+                time=self._now,
+                task=self.assignment.name,
+                status=state,
+                failure=failure,
+                verified=self.verified,
+                facts=self.facts,
+            )
+        )
 
-def _final_status(last: AttemptResult, refusal: NotStarted | None) -> tuple[EndState, Failure | None]:
-    """Return how the last attempt ended, or a failure if another plan was needed and there was none."""
-    if refusal is None:
-        return _END_STATES[last.status], last.failure
-    message = f"{last.reason}; no other plan was found: {refusal.reason}"
-    source = last.failure.source if last.failure else None
-    return "failed", Failure(kind="plan", message=message, source=source)
+    def _settle_state(self) -> None:
+        """Take over how far a pause is."""
+        if self._attempt is not None and self._ending is None:
+            self._enter(self._pause.state, self._pause.reason)
+
+    def _enter(self, state: State, reason: str = "") -> None:
+        if (state, reason) != (self.state, self.reason):
+            self.state, self.reason = state, reason
+            self._emit(StateChanged(time=self._now, state=state, reason=reason))
+
+    def _emit(self, event: Event) -> None:
+        for listener in self._context.listeners:
+            listener(event)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import get_args
 
 from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.states import EndState, State
 
 ENDS: frozenset[str] = frozenset(get_args(EndState))
@@ -42,6 +43,27 @@ TRANSITIONS: dict[State, frozenset[State]] = {
     "interrupted": frozenset(),
 }
 """The states that can follow each state; from each that is no end, `interrupted` as well."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunSettings:
+    """How a task is run.
+
+    `approve`: each plan waits for approval. `deadline_s`: the task fails if it has not ended so long after its
+    submission, in s of the cell. `ask_after_failure`: a failed step waits for a decision instead of another plan.
+    """
+
+    approve: bool = False
+    deadline_s: float | None = None
+    ask_after_failure: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """How a run that is stopping will end."""
+
+    state: EndState
+    failure: Failure
 
 
 @dataclass(frozen=True, slots=True)

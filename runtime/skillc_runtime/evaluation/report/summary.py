@@ -11,7 +11,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
-from skillc_runtime.execution.task_run import Execution
+from skillc_runtime.execution.execute import Execution
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome

@@ -12,7 +12,7 @@ from skillc_runtime.evaluation.report import page
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 from skillc_runtime.evaluation.report.wiping_figure import FigureFiles, render_figure
-from skillc_runtime.execution.task_run import Execution
+from skillc_runtime.execution.execute import Execution
 from skillc_runtime.film.film import FilmFiles
 
 FIGURE = "wiping"

@@ -27,7 +27,7 @@ from skillc_runtime.execution.assignment import (
     PreparedTask,
     prepare_task,
 )
-from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known_facts import assumed_facts
 from skillc_runtime.scene.load import load_scene

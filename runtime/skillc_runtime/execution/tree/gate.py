@@ -74,6 +74,10 @@ class Gate:
         self.reason, self._step = None, None
         self.waiting = []
 
+    def forget_waiting(self) -> None:
+        """Forget the calls of a tree that has ended; if the run is to pause, it still is."""
+        self.waiting = []
+
     def step(self, kind: StepKind, active: Iterable[Call]) -> None:
         """Open, and hold back the call after a step; `active` are the innermost active calls."""
         around = set(map(id, self._calls_to_finish(kind, tuple(active))))

@@ -59,10 +59,11 @@ class WorldModel:
         """Return the write that decides the evidence for a current fact; None for a fact given at the start."""
         return self.ledger.deciding_write(fact, self._state)
 
-    def commit(self, changes: Iterable[Change], origin: str = "", evidence: Evidence = "assumed") -> ChangeEvent:
+    def commit(self, changes: Iterable[Change], origin: str = "", evidence: Evidence | None = "assumed") -> ChangeEvent:
         """Apply all changes, or none if the world would violate an axiom: WorldError names it.
 
-        `evidence` may be `sensed` or `reported` only if a device was read for these changes now.
+        `evidence` may be `sensed` or `reported` only if a device was read for these changes now; it is None for what a
+        person states.
         If others wrote to the store in the meantime, the changes are applied to the version that they left. StoreError
         when the store cannot save the changes; the world then stays as it was.
         """
@@ -128,7 +129,7 @@ class WorldModel:
         for event in events:
             self._notify(event)
 
-    def _commit(self, changes: tuple[Change, ...], origin: str, evidence: Evidence) -> ChangeEvent:
+    def _commit(self, changes: tuple[Change, ...], origin: str, evidence: Evidence | None) -> ChangeEvent:
         event = self._check(changes, origin, evidence)
         while not self._store.append(event, self._sequence):
             before = self._sequence

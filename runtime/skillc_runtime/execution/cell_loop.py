@@ -1,0 +1,162 @@
+"""The loop of a cell: it owns the clock, takes requests, and ticks the task runs, several on disjoint devices."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from itertools import count
+from queue import Empty, Full, Queue
+
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.execution.assignment import Assignment
+from skillc_runtime.execution.attempt import TICK_S, CellOrigin, RunContext
+from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.preparation import StartPreparation
+from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.execution.task_state import Refusal, RunSettings
+from skillc_runtime.execution.tree.gate import Gate
+from skillc_runtime.recording.commands import Command, Stop
+from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.listeners import Listeners
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
+
+MAX_REQUESTS = 1000
+"""How many requests may wait for the next tick; stops are not among them."""
+
+
+class TooManyRequests(Exception):
+    """So many requests wait for the next tick that no more are taken."""
+
+
+@dataclass(eq=False, slots=True)
+class Request:
+    """A command for a task run; `answered` once it was obeyed or refused in a tick, `refused` is why then."""
+
+    run: TaskRun
+    command: Command
+    answered: bool = False
+    refused: Refusal | None = None
+
+    def answer(self, tick: int) -> None:
+        """Let the run obey or refuse."""
+        self.refused = self.run.request(self.command, tick)
+        self.answered = True
+
+
+@dataclass(slots=True)
+class CellLoop:
+    """Ticks the task runs of a cell; whoever drives it calls `tick` again and again, at the pace that it wants.
+
+    `runs` are those that have not ended, in the order of their submission. `ticks` counts the ticks in which anything
+    happened: requests and plans are recorded with this number, so that a run can be repeated. `after_tick` are called
+    after each of them. `request` and `stop` may be called from other threads and from signal handlers.
+    """
+
+    backend: Backend
+    library: SkillLibrary
+    start_preparation: StartPreparation
+    origin: CellOrigin = field(default_factory=CellOrigin)
+    after_tick: Sequence[Callable[[], None]] = ()
+    runs: list[TaskRun] = field(default_factory=list)
+    ticks: int = 0
+    _claims: DeviceClaims = field(default_factory=DeviceClaims)
+    _requests: Queue[Request] = field(default_factory=lambda: Queue(MAX_REQUESTS))
+    _stops: dict[str | None, str] = field(default_factory=dict)
+    _numbers: count[int] = field(default_factory=lambda: count(1))
+
+    def submit(
+        self,
+        assignment: Assignment,
+        listeners: Sequence[Listener] = (),
+        settings: RunSettings | None = None,
+        gate: Gate | None = None,
+        run_id: str = "",
+    ) -> TaskRun:
+        """Add a task run; it begins with the next tick, or when other runs give back the devices that it needs.
+
+        `gate` has its breakpoints. Its id is the name of the task with a number unless `run_id` is given.
+        """
+        name = run_id or f"{assignment.name}-{next(self._numbers)}"
+        heard = (Listeners(listeners),) if listeners else ()
+        context = RunContext(
+            self.library,
+            self.backend,
+            heard,
+            FailedSteps(self.library),
+            gate or Gate(),
+            ClaimedLocks(self._claims, name),
+            self.origin,
+        )
+        run = TaskRun(name, assignment, context, self._claims, self.start_preparation, settings or RunSettings())
+        self.runs.append(run)
+        return run
+
+    def request(self, run: TaskRun, command: Command) -> Request:
+        """Give a command to a run in the next tick. TooManyRequests if as many as possible wait; a stop always goes."""
+        request = Request(run, command)
+        if isinstance(command, Stop):
+            self.stop(command.reason, run)
+            return request
+        try:
+            self._requests.put_nowait(request)
+        except Full:
+            raise TooManyRequests(f"{MAX_REQUESTS} requests wait for the next tick; try again later") from None
+        return request
+
+    def stop(self, reason: str, run: TaskRun | None = None) -> None:
+        """Stop a run in the next tick, or all."""
+        self._stops[None if run is None else run.id] = reason
+
+    def tick(self) -> bool:
+        """Do one tick; return whether anything happened. If not, at most planning goes on, and time stands still."""
+        happened = self._take_requests()
+        for run in self.runs:
+            happened |= run.tick(self.ticks)
+        if any(run.needs_time for run in self.runs):
+            self._advance()
+            happened = True
+        self.runs = [run for run in self.runs if not run.ended]
+        if happened:
+            self.ticks += 1
+            for hook in self.after_tick:
+                hook()
+        return happened
+
+    def wait(self, seconds: float) -> None:
+        """Wait for up to `seconds` of wall time for a plan; to be called after a tick in which nothing happened."""
+        waiting = next((run for run in self.runs if run.state == "planning"), None)
+        if waiting is not None:
+            waiting.wait(seconds)
+
+    def close(self, reason: str) -> None:
+        """End all runs at once, because the program ends."""
+        for run in self.runs:
+            run.close(reason)
+        self.runs = []
+
+    def _take_requests(self) -> bool:
+        """Give the stops, then the requests that wait to their runs; return whether there were any."""
+        stops, self._stops = self._stops, {}
+        for run in self.runs if stops else ():
+            reason = stops.get(run.id, stops.get(None))
+            if reason is not None:
+                run.request(Stop(reason), self.ticks)
+        waiting = self._requests.qsize()
+        for _ in range(waiting):
+            try:
+                self._requests.get_nowait().answer(self.ticks)
+            except Empty:
+                break
+        return bool(stops) or waiting > 0
+
+    def _advance(self) -> None:
+        """Let time pass; an error of the cell fails all runs."""
+        if self.backend.broken is not None:
+            return
+        try:
+            self.backend.advance(TICK_S)
+        except FOREIGN_ERRORS as error:  # the boundary to the cell: every run reports, halts and ends
+            for run in self.runs:
+                run.abort(error)

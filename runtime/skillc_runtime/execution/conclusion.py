@@ -1,0 +1,123 @@
+"""Decides after an attempt whether its task has ended, and how a plan whose step failed can go on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.execution.assignment import AchieveGoal, ExecuteBody, PreparedTask, arrange_prepared
+from skillc_runtime.execution.attempt import AttemptResult
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.success_facts import collect_success_facts
+from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.planning.validation import PlanError, compute_effects
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.known_facts import KnownFact
+from skillc_runtime.recording.states import EndState
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+MAX_ATTEMPTS = 4
+"""How many plans are tried for one goal."""
+
+_END_STATES: dict[Status, EndState] = {
+    Status.SUCCESS: "succeeded",
+    Status.FAILURE: "failed",
+    Status.HALTED: "stopped",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """The task has ended."""
+
+    state: EndState
+    failure: Failure | None
+
+
+@dataclass(frozen=True, slots=True)
+class NeedsPlan:
+    """Another plan may still lead to the goal."""
+
+
+Conclusion: TypeAlias = Ended | NeedsPlan
+
+
+def conclude(attempts: Sequence[AttemptResult], failures: FailedSteps, state: WorldState) -> Conclusion:
+    """Return whether a task has ended with its last attempt, after which the world is in `state`."""
+    last, ended = attempts[-1], Ended(_END_STATES[attempts[-1].status], attempts[-1].failure)
+    objective = last.prepared.assignment.objective
+    if not isinstance(objective, AchieveGoal) or (last.status is Status.HALTED and last.invalidated is None):
+        return ended
+    if last.status is Status.SUCCESS and evaluate(objective.goal, state, {}):
+        return ended
+    if last.status is Status.FAILURE and not _has_failed_step(last, failures):
+        return ended
+    if len(attempts) == MAX_ATTEMPTS:
+        return Ended("failed", no_other_plan(last, f"the task was tried {MAX_ATTEMPTS} times"))
+    return NeedsPlan()
+
+
+def _has_failed_step(last: AttemptResult, failures: FailedSteps) -> bool:
+    """Whether a step of the plan failed, or a body that was not planned: another plan may avoid it."""
+    planned = last.prepared.planned is not None
+    return not planned or any(step in failures.steps for step in last.steps_with_status("failure"))
+
+
+def no_other_plan(last: AttemptResult, reason: str) -> Failure:
+    """Return the failure of a task that needed another plan after its last attempt."""
+    message = f"{last.reason}; no other plan was found: {reason}"
+    return Failure(kind="plan", message=message, source=last.failure.source if last.failure else None)
+
+
+def collect_facts(last: AttemptResult, world: WorldModel) -> tuple[KnownFact, ...]:
+    """Return the facts that a success rests on: those of the goal, or of the posts of the body's calls."""
+    match last.prepared.assignment.objective:
+        case AchieveGoal(goal):
+            return collect_success_facts([(goal, {})], world)
+        case ExecuteBody():
+            return collect_success_facts(last.claims, world)
+
+
+def continue_plan(last: AttemptResult, library: SkillLibrary, state: WorldState) -> PreparedTask:
+    """Return the failed step and those after it, or the whole of a body that was not planned.
+
+    PlanError if the rest of the plan is no longer possible.
+    """
+    assignment, planned = replace(last.prepared.assignment, state=state), last.prepared.planned
+    if planned is None:
+        return PreparedTask(assignment, last.prepared.body, None)
+    return _prepare_steps(last, last.steps_with_status("failure", "halted", "idle"), library, state)
+
+
+def skip_failed_step(last: AttemptResult, library: SkillLibrary, world: WorldModel, origin: str) -> PreparedTask:
+    """Write the effects of the failed step as assumptions, and return the steps after it.
+
+    PlanError if nothing was planned, or the rest is not possible; the world is as before then.
+    """
+    failed = last.steps_with_status("failure")
+    if not failed:
+        raise PlanError("only a step of a plan can be skipped")
+    try:
+        changes = [each for step in failed for each in compute_effects(step, library, world.snapshot())]
+        after = WorldModel(world.snapshot()).commit(changes).after
+        prepared = _prepare_steps(last, last.steps_with_status("halted", "idle"), library, after)
+        world.commit(changes, origin, "assumed")
+    except (EvaluationError, WorldError) as error:
+        raise PlanError(str(error)) from error
+    return replace(prepared, assignment=replace(prepared.assignment, state=world.snapshot()))
+
+
+def _prepare_steps(
+    last: AttemptResult, steps: tuple[Step, ...], library: SkillLibrary, state: WorldState
+) -> PreparedTask:
+    """Return some steps of the plan as a body; PlanError if they are not possible."""
+    assert last.prepared.planned is not None, "steps come from a plan"
+    solved = last.prepared.planned.solved
+    rest = replace(solved, plan=Plan(steps, solved.plan.duration_s))
+    return arrange_prepared(replace(last.prepared.assignment, state=state), rest, library)

@@ -1,0 +1,98 @@
+"""Runs one task in a cell to its end: a short driver of a loop with one task run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Generic, TypeVar
+
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.execution.assignment import Assignment, PreparedTask
+from skillc_runtime.execution.attempt import AttemptResult
+from skillc_runtime.execution.cell_loop import CellLoop
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.preparation import Preparation, Ready, StartPreparation, prepare_here
+from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.known_facts import KnownFact
+from skillc_runtime.recording.states import EndState
+
+WAIT_S = 0.05
+"""How long the driver waits for a plan before it looks for requests again, in s of wall time."""
+
+BackendT = TypeVar("BackendT", bound=Backend)
+
+
+@dataclass(frozen=True, slots=True)
+class Execution(Generic[BackendT]):
+    """How a task ended: its attempts, the back-end in whose cell it ran, the wall-clock time it took.
+
+    `facts` are those that a success rests on, `verified` is whether none of them is only assumed.
+    """
+
+    attempts: tuple[AttemptResult, ...]
+    status: EndState
+    failure: Failure | None
+    backend: BackendT
+    wall_time_s: float
+    facts: tuple[KnownFact, ...] = ()
+    verified: bool | None = None
+
+    @property
+    def last(self) -> AttemptResult:
+        """The attempt that ended the task."""
+        return self.attempts[-1]
+
+
+def execute_task(
+    prepared: PreparedTask,
+    library: SkillLibrary,
+    backend: BackendT,
+    listeners: Sequence[Listener] = (),
+    after_tick: Callable[[], None] = lambda: None,
+    interrupted: Callable[[], bool] = lambda: False,
+) -> Execution[BackendT]:
+    """Run a prepared task to its end; `after_tick` is called after every tick.
+
+    A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one, planned
+    in this process. When `interrupted` returns true everything is halted, and forces are released.
+    """
+    began = perf_counter()
+    loop = CellLoop(backend, library, _prepare_after(prepared, library), after_tick=(after_tick,))
+    run = loop.submit(prepared.assignment, listeners)
+    drive(loop, run, interrupted)
+    return describe_execution(run, backend, perf_counter() - began)
+
+
+def drive(loop: CellLoop, run: TaskRun, interrupted: Callable[[], bool] = lambda: False) -> None:
+    """Tick a loop until a run has ended, or has been stopped because `interrupted` returned true."""
+    stopped = False
+    try:
+        while not run.ended:
+            if not stopped and interrupted():
+                stopped = True
+                loop.stop("interrupted", run)
+            if not loop.tick():
+                loop.wait(WAIT_S)
+    finally:
+        loop.close("the program ends")
+
+
+def describe_execution(run: TaskRun, backend: BackendT, wall_time_s: float) -> Execution[BackendT]:
+    """Return how a run ended."""
+    assert run.end is not None, "a run that has ended"
+    return Execution(tuple(run.attempts), run.end, run.failure, backend, wall_time_s, run.facts, run.verified)
+
+
+def _prepare_after(prepared: PreparedTask, library: SkillLibrary) -> StartPreparation:
+    """Return a preparation whose first answer is known; further plans are made in this process."""
+    first = [prepared]
+    plan = prepare_here(library)
+
+    def start(assignment: Assignment, failures: FailedSteps) -> Preparation:
+        return Ready(first.pop()) if first else plan(assignment, failures)
+
+    return start

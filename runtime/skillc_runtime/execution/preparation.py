@@ -1,0 +1,121 @@
+"""How a task run gets to its next attempt: a plan made beside the loop that still works, and free devices."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol, TypeAlias
+
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask, replan_task
+from skillc_runtime.execution.device_claims import DeviceClaims, find_claim
+from skillc_runtime.execution.planning_job import find_arrival_problem
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.world.state.world_state import WorldState
+
+
+class Preparation(Protocol):
+    """The planning of an assignment beside the loop, with all checks before anything moves."""
+
+    def poll(self) -> PreparedTask | NotStarted | None:
+        """Return the answer, None if there is none yet; never waits."""
+        ...
+
+    def wait(self, seconds: float) -> PreparedTask | NotStarted | None:
+        """Wait for the answer for up to `seconds` of wall time."""
+        ...
+
+    def kill(self) -> None:
+        """End the planning within a few seconds."""
+        ...
+
+
+StartPreparation: TypeAlias = Callable[[Assignment, FailedSteps], Preparation]
+"""Starts to plan an assignment without the steps that failed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """The preparation of a task that is prepared already."""
+
+    answer: PreparedTask | NotStarted
+
+    def poll(self) -> PreparedTask | NotStarted:
+        """Return the answer."""
+        return self.answer
+
+    def wait(self, seconds: float) -> PreparedTask | NotStarted:
+        """Return the answer."""
+        return self.answer
+
+    def kill(self) -> None:
+        """Do nothing."""
+
+
+def prepare_here(library: SkillLibrary) -> StartPreparation:
+    """Return what plans in this process while everything else waits: for a process that itself can be killed."""
+    return lambda assignment, failures: Ready(replan_task(assignment, library, failures))
+
+
+@dataclass(frozen=True, slots=True)
+class DevicesBusy:
+    """A prepared task cannot begin before another run, `holder`, gives its devices back."""
+
+    holder: str
+
+
+@dataclass(frozen=True, slots=True)
+class Outdated:
+    """The world has changed since a task was prepared, so that it cannot run, for the `times`th time."""
+
+    problem: str
+    times: int
+
+
+class NextAttempt:
+    """The way to the next attempt: a preparation that goes on, or a prepared task that waits to begin."""
+
+    def __init__(self, start: StartPreparation) -> None:
+        self.preparation: Preparation | None = None
+        self.prepared: PreparedTask | None = None
+        self._start, self._outdated = start, 0
+
+    def plan(self, assignment: Assignment, failures: FailedSteps) -> None:
+        """Start to plan."""
+        self.prepared, self.preparation = None, self._start(assignment, failures)
+
+    def take(self) -> PreparedTask | NotStarted | None:
+        """Return the answer of the preparation if it has arrived; a prepared task then waits to begin."""
+        answer = self.preparation.poll() if self.preparation is not None else None
+        if answer is not None:
+            self.preparation = None
+        if isinstance(answer, PreparedTask):
+            self.prepared = answer
+        return answer
+
+    def begin(
+        self, run: str, claims: DeviceClaims, library: SkillLibrary, state: WorldState
+    ) -> PreparedTask | DevicesBusy | Outdated:
+        """Return the prepared task if it works in `state`, the present one, and its devices are free: `run` has them.
+
+        It still waits if devices are busy, and is discarded if it does not work any more.
+        """
+        prepared = self.prepared
+        assert prepared is not None, "nothing is prepared"
+        if state is not prepared.assignment.state:
+            problem = find_arrival_problem(prepared, library, state)
+            if problem is not None:
+                self.prepared, self._outdated = None, self._outdated + 1
+                return Outdated(problem, self._outdated)
+            self.prepared = prepared = replace(prepared, assignment=replace(prepared.assignment, state=state))
+        holder = claims.claim(run, find_claim(prepared.body, state))
+        if holder is not None:
+            return DevicesBusy(holder)
+        self.prepared = None
+        return prepared
+
+    def discard(self) -> None:
+        """End the preparation, or forget the prepared task."""
+        if self.preparation is not None:
+            self.preparation.kill()
+        self.preparation = self.prepared = None
