@@ -1,18 +1,20 @@
-"""Follows a request to pause until the devices are still, and takes tools off after a while."""
+"""Pauses a task run on request, at breakpoints and after steps: until its devices are still, and tools taken off."""
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, assert_never
 
 from skillc_runtime.devices.backend import Clock
 from skillc_runtime.execution.attempt import SETTLE_S
 from skillc_runtime.execution.tree.gate import Gate, keep_s
 from skillc_runtime.execution.tree.run import TreeRun
+from skillc_runtime.recording.commands import Pause, Resume, StepInto, StepOut, StepOver
 
+PauseCommand: TypeAlias = Pause | Resume | StepInto | StepOver | StepOut
 PauseState: TypeAlias = Literal["running", "pausing", "paused"]
 
 
-class PauseFollower:
+class PauseControl:
     """Pauses a tree where its skills allow it, as soon as the gate has a reason.
 
     `state` is how far the pause is, and `reason` why, or for what it waits.
@@ -24,11 +26,27 @@ class PauseFollower:
         self.state: PauseState = "running"
         self.reason = ""
 
-    def begin(self, tree: TreeRun) -> None:
-        """Begin to pause, as the gate says; if tools approach again after a pause, withdraw them."""
-        self.state, self.reason = "pausing", self._gate.reason or ""
-        if tree.paused:
-            tree.pause()
+    def obey(self, command: PauseCommand, tree: TreeRun) -> None:
+        """Begin to pause, or let the tree go on, to the end of a step if one is requested."""
+        match command:
+            case Pause(reason=reason):
+                self._gate.close(reason)
+                self.state, self.reason = "pausing", reason
+                if tree.paused:  # its tools approach again
+                    tree.pause()
+                return
+            case Resume():
+                self._gate.open()
+            case StepInto():
+                self._gate.step("into", tree.active_calls)
+            case StepOver():
+                self._gate.step("over", tree.active_calls)
+            case StepOut():
+                self._gate.step("out", tree.active_calls)
+            case _:
+                assert_never(command)
+        self.state, self.reason = "running", ""
+        tree.resume()
 
     def follow(self, tree: TreeRun) -> None:
         """Go on with a pause, after a tick of the tree."""
@@ -38,11 +56,6 @@ class PauseFollower:
             self._follow_paused(tree)
         else:
             self._pause_if_allowed(tree, self._gate.reason)
-
-    def resume(self, tree: TreeRun) -> None:
-        """Let the tree go on; the gate is open, or waits for the end of a step."""
-        self.state, self.reason = "running", ""
-        tree.resume()
 
     def _pause_if_allowed(self, tree: TreeRun, reason: str) -> None:
         active = tree.active_calls

@@ -17,7 +17,7 @@ from skillc_runtime.execution.conclusion import (
     skip_failed_step,
 )
 from skillc_runtime.execution.device_claims import DeviceClaims
-from skillc_runtime.execution.pausing import PauseFollower
+from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import DevicesBusy, NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, RunSettings, refusal
@@ -62,7 +62,7 @@ class TaskRun:
         self._next = NextAttempt(start_preparation)
         self._submitted_at = context.backend.clock.now
         self._attempt: Attempt | None = None
-        self._pause = PauseFollower(context.gate, context.backend.clock)
+        self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._emit(make_start_event(assignment, context))
 
@@ -142,31 +142,18 @@ class TaskRun:
 
     def _obey(self, command: commands.Command) -> str | None:
         """Do what an allowed command says; return why it is not possible, if so."""
-        gate, tree = self._context.gate, self._attempt.tree if self._attempt is not None else None
-        active = tree.active_calls if tree is not None else ()
         match command:
             case commands.Stop(reason=reason):
                 self._stop("stopped", Failure(kind="halted", message=reason))
-            case commands.Pause(reason=reason):
-                gate.close(reason)
-                if tree is not None:
-                    self._pause.begin(tree)
-            case commands.Resume():
-                gate.open()
-            case commands.StepInto():
-                gate.step("into", active)
-            case commands.StepOver():
-                gate.step("over", active)
-            case commands.StepOut():
-                gate.step("out", active)
             case commands.Approve():
                 self._enter("queued", "approved")
             case commands.Replan():
                 return self._replan()
             case commands.Retry() | commands.Skip() | commands.EditWorld():
                 return self._try(command)
-        if tree is not None and self.state in ("pausing", "paused") and gate.reason is None:
-            self._pause.resume(tree)
+            case _:
+                assert self._attempt is not None, "a pause concerns what runs"
+                self._pause.obey(command, self._attempt.tree)
         return None
 
     def _try(self, command: commands.Retry | commands.Skip | commands.EditWorld) -> str | None:
@@ -226,7 +213,7 @@ class TaskRun:
         if (event := make_plan_event(prepared, context.library, self._now)) is not None:
             self._emit(event)
         context.gate.forget_waiting()
-        self._pause = PauseFollower(context.gate, context.backend.clock)
+        self._pause = PauseControl(context.gate, context.backend.clock)
         self._attempt = Attempt(prepared, context, last.last_node if last else 0)
         self._enter("running")
 
