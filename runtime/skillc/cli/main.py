@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib
 import pkgutil
+import signal
 import sys
 from difflib import get_close_matches
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import Any
 import click
 
 from skillc.cli import streams
+from skillc.cli.interrupts import Interrupted, raising_on_signals
 from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
 from skillc.services import crash_reports
 from skillc.services.errors import OutputError
@@ -20,9 +22,8 @@ from skillc.services.errors import OutputError
 COMMANDS = Path(__file__).parent / "commands"
 INTERNAL = 70
 """EX_SOFTWARE of sysexits.h."""
-INTERRUPTED = 130
 BROKEN_PIPE = 141
-"""The exit codes that shells give to a process ended by SIGINT and by SIGPIPE: 128 + the signal's number."""
+"""The exit code that shells give to a process ended by SIGPIPE."""
 
 
 class Commands(click.Group):
@@ -42,11 +43,14 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; an internal error becomes one message and a crash report."""
         try:
-            return super().invoke(ctx)
+            with raising_on_signals():
+                return super().invoke(ctx)
         except (click.ClickException, click.exceptions.Exit, click.Abort, OutputError):
             raise
-        except KeyboardInterrupt:
-            sys.exit(INTERRUPTED)
+        except KeyboardInterrupt as error:
+            interrupted = error if isinstance(error, Interrupted) else Interrupted(signal.SIGINT)
+            click.echo(interrupted, err=True)
+            sys.exit(interrupted.exit_code)
         except Exception as error:  # noqa: BLE001 - the boundary of the process
             click.echo(crash_reports.write_report(error, sys.argv[1:]), err=True)
             sys.exit(INTERNAL)
@@ -90,7 +94,7 @@ def skillc() -> None:
     """A compiler and runtime for robot skills.
 
     Exit codes: 0 success, 1 errors in the input, 2 wrong command line, 3 task failed or no plan, 70 internal error,
-    130 interrupted, 141 output closed.
+    130 interrupted (143 by SIGTERM, 129 by SIGHUP), 141 output closed.
     """
 
 

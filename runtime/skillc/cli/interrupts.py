@@ -1,0 +1,59 @@
+"""Lets a command that a signal ends clean up first: programs that it started, temporary files, locks."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+NUMBERS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+SHELL_OFFSET = 128
+"""Shells give a process that was ended by a signal this exit code plus the signal's number."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """A signal asks the program to end."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+    @property
+    def exit_code(self) -> int:
+        """The exit code that shells give to a process that the signal ended."""
+        return SHELL_OFFSET + self.number
+
+    def __str__(self) -> str:
+        return "interrupted" if self.number == signal.SIGINT else f"ended by {signal.Signals(self.number).name}"
+
+
+@contextmanager
+def raising_on_signals() -> Iterator[None]:
+    """Raise Interrupted in the main thread at the first signal that asks the program to end; exit at the second one.
+
+    Signals that are ignored stay ignored, as `nohup` wants it. In other threads this does nothing.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in NUMBERS}
+    received = False
+
+    def handle(number: int, _frame: FrameType | None) -> None:
+        nonlocal received
+        if received:
+            os._exit(SHELL_OFFSET + number)
+        received = True
+        raise Interrupted(number)
+
+    try:
+        for number, former in before.items():
+            if former is not signal.SIG_IGN:
+                signal.signal(number, handle)
+        yield
+    finally:
+        for number, former in before.items():
+            signal.signal(number, former)
