@@ -107,6 +107,7 @@ def test_a_page_shows_what_its_skill_says() -> None:
         "0.01 m/s .. 0.3 m/s",
         "arm.deviceState != Fault",
         "(measured)",
+        "may be paused at any time; a tool that presses is then taken off after 2 s",
         "par lead",
     ):
         assert words in text

@@ -22,6 +22,7 @@ IN_DECLARATION = frozenset(
         "empty-block",
         "missing-body",
         "no-implementation",
+        "never-ends",
         "no-output",
         "no-effect",
         "not-scoped",
