@@ -13,6 +13,9 @@ from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.devices.arm_driver import GuardedPush, PushProgress
 from skillc_runtime.motion.pose import Array
 
+LIFT_M = 0.02
+"""How far a tool is taken off what it presses on; half the travel of its push where that is less."""
+
 
 class ComplianceControl:
     """Implements `ComplianceInterface`; directions (3,) are unit vectors in the world frame.
@@ -23,6 +26,7 @@ class ComplianceControl:
     def __init__(self, task: ArmTask, release_damping: float) -> None:
         self._task, self._release_damping = task, release_damping
         self.active_pushes: tuple[ActivePush, ...] = ()
+        self._paused = False
 
     @property
     def commanded_stiffness(self) -> Array:
@@ -38,6 +42,10 @@ class ComplianceControl:
     def pushing(self) -> bool:
         """Whether the tool pushes, or its last push has not faded out yet."""
         return self._task.tool.compliance.pushing
+
+    @property
+    def _in_contact(self) -> bool:
+        return any(push.pressed_s is not None for push in self.active_pushes)
 
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction (3,), which then moves with the reference tool frame; stiffness in N/m.
@@ -93,9 +101,40 @@ class ComplianceControl:
         self._forget(push)
         self.push_off()
 
+    def pause(self) -> None:
+        """Hold the tool along released axes, unless a push is in contact; it is held if that loses contact."""
+        self._paused = True
+        if not self._in_contact:
+            self._hold()
+
+    def withdraw(self, push: PushProgress) -> None:
+        """Take the tool off what it presses on, with its approach speed, and hold it there."""
+        self._paused, in_contact = True, self._in_contact
+        self._hold()
+        for active in self.active_pushes:
+            if active is push and in_contact:
+                self._lift(active.push)
+
+    def resume(self) -> None:
+        """Yield again as before `pause` or `withdraw`; a push that was held approaches again.
+
+        While the tool is still being taken off, this does nothing; it is to be called again.
+        """
+        tool, now = self._task.tool, self._task.now
+        if tool.compliance.held:
+            if tool.lifting(now):
+                return
+            tool.let_go_released(now)
+            for active in self.active_pushes:
+                active.approach()
+                self._approach(active.push)
+        self._paused = False
+
     def evaluate(self, active: ActivePush, state: ArmState) -> str | None:
         """Advance a push by a control period; return why it was abandoned and the arm must stop, or None."""
         match active.step(state, self._task.contact_wrench, self._task.period):
+            case "approach" if self._paused:
+                self._hold()
             case "approach":
                 self._approach(active.push)
             case "press":
@@ -109,15 +148,31 @@ class ComplianceControl:
                 assert_never(never)
         return None
 
+    def forget_pushes(self) -> None:
+        """Let no push continue that was started, for an arm that stops by itself."""
+        self.active_pushes = ()
+
     def secure(self) -> bool:
         """Stop pushing and restore all releases; tell whether any were left."""
-        self.active_pushes = ()
+        self.active_pushes, self._paused = (), False
         compliance, left = self._task.tool.compliance, not self._task.tool.compliance.stiff
         while compliance.released:
             self.restore()
         if not compliance.stiff:
             self.restore_rotation()
         return left
+
+    def _hold(self) -> None:
+        """Hold the tool along released axes, and all pushes."""
+        if self._task.joints is not None or not self._task.tool.compliance.released or self._task.tool.compliance.held:
+            return
+        self._task.tool.hold_released(self._task.now)
+        for active in self.active_pushes:
+            active.hold()
+
+    def _lift(self, push: GuardedPush) -> None:
+        way = min(LIFT_M, push.travel.distance_m / 2) * self._task.measured.in_base(push.along)
+        self._task.tool.lift(way, push.approach_m_s, self._task.now)
 
     def _forget(self, push: PushProgress) -> None:
         self.active_pushes = tuple(each for each in self.active_pushes if each is not push)

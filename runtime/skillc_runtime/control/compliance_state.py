@@ -43,6 +43,7 @@ class ComplianceSetpoint:
 class ComplianceState:
     """The nested setpoints, innermost last; `applied` follows them with the command time of the gains.
 
+    While `held`, released axes have the stiffness of the gains and the tool does not push, whatever the setpoints are.
     Stiffness (6,) in N/m and N m/rad, force (3,) in N, directions (3,) are unit vectors; stiffness of a release in N/m.
     """
 
@@ -50,9 +51,11 @@ class ComplianceState:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
         self._unasked = stiffness.copy()
         self._setpoints = [ComplianceSetpoint(stiffness, np.zeros(3), np.eye(3), UNLIMITED_SPEED)]
+        self.held = False
         self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
         self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
-        self._target, self._arrived_at = np.zeros(6), self.wanted
+        self._followed = self.wanted
+        self._target, self._arrived_at = np.zeros(6), self._followed
         self._ratio = gains.damping_ratio
         self.applied = self._compliance()
 
@@ -74,17 +77,17 @@ class ComplianceState:
     @property
     def pushing(self) -> bool:
         """Whether the tool pushes, or its last push has not faded out yet."""
-        return self._arrived_at is not self.wanted or bool(self.wanted.force.any())
+        return self._arrived_at is not self._followed or bool(self._followed.force.any())
 
     def step(self, period: float) -> Compliance:
         """Let stiffness and wrench follow the setpoint for `period` s; the arrays of the result are reused."""
-        wanted = self._setpoints[-1]
-        if wanted is not self._arrived_at:
-            self._target[:3] = wanted.force
-            self._stiffness.step(wanted.stiffness, period)
+        followed = self._followed
+        if followed is not self._arrived_at:
+            self._target[:3] = followed.force
+            self._stiffness.step(followed.stiffness, period)
             self._wrench.step(self._target, period)
             if self._stiffness.arrived and self._wrench.arrived:
-                self._arrived_at = wanted
+                self._arrived_at = followed
         return self.applied
 
     def release(self, direction: Array, stiffness: float) -> None:
@@ -95,7 +98,7 @@ class ComplianceState:
         wanted[axis] = stiffness
         self._wrench.value[:3] = frame.T @ self.wanted.frame @ self._wrench.value[:3]
         self._setpoints.append(replace(self.wanted, stiffness=wanted, frame=frame))
-        self.applied = self._compliance()
+        self._follow()
 
     def restore(self, error: Array) -> None:
         """Undo the last release; C is kept until the next one.
@@ -107,7 +110,8 @@ class ComplianceState:
         back = self.wanted.stiffness[:3] != before.stiffness[:3]
         self._wrench.value[:3] -= back * self._stiffness.value[:3] * error
         kept = before if self.released else replace(self.wanted, frame=before.frame)
-        self._push_as(replace(kept, stiffness=self.wanted.stiffness))
+        self.held = self.held and self.released
+        self._replace(replace(kept, stiffness=self.wanted.stiffness))
 
     def regained_axes(self) -> Array:
         """Return the axes (3, n) of C, in the tool frame, that `restore` would make stiff again."""
@@ -124,11 +128,11 @@ class ComplianceState:
             raise ValueError("the arm does not yield along the direction in which it shall push")
         force, fastest, sign = np.zeros(3), UNLIMITED_SPEED.copy(), np.sign(self.wanted.frame[:, axis] @ direction)
         force[axis], fastest[axis] = sign * force_n, sign * fastest_m_s
-        self._push_as(replace(self.wanted, force=force, fastest=fastest))
+        self._replace(replace(self.wanted, force=force, fastest=fastest))
 
     def push_off(self) -> None:
         """Stop pushing."""
-        self._push_as(replace(self.wanted, force=np.zeros(3), fastest=UNLIMITED_SPEED))
+        self._replace(replace(self.wanted, force=np.zeros(3), fastest=UNLIMITED_SPEED))
 
     def yields(self, direction: Array) -> bool:
         """Tell whether a direction (3,) of the tool frame is released."""
@@ -140,11 +144,44 @@ class ComplianceState:
         """Release, or restore, the rotations about x and y of C."""
         stiffness = self.wanted.stiffness.copy()
         stiffness[3:5] = 0.0 if free else self._setpoints[0].stiffness[3:5]
-        self._setpoints[-1] = replace(self.wanted, stiffness=stiffness)
+        self._replace(replace(self.wanted, stiffness=stiffness))
 
-    def _push_as(self, setpoint: ComplianceSetpoint) -> None:
+    def hold(self, error: Array) -> None:
+        """Make released axes stiff, and stop pushing, until `let_go`; rotations stay as they are.
+
+        error (3,): tool minus reference in m along the axes of C. The caller sets it to zero on the axes that regain
+        stiffness.
+        """
+        self._wrench.value[:3] -= self._yields() * self._stiffness.value[:3] * error
+        self.held = True
+        self._follow()
+
+    def let_go(self) -> None:
+        """Follow the setpoints again after `hold`."""
+        self.held = False
+        self._follow()
+
+    def released_axes(self) -> Array:
+        """Return the axes (3, n) of C, in the tool frame, that are released."""
+        return self.wanted.frame[:, self._yields()]
+
+    def _yields(self) -> Array:
+        """Return which axes (3,) of C are released."""
+        released: Array = self.wanted.stiffness[:3] != self._unasked[:3]
+        return released
+
+    def _replace(self, setpoint: ComplianceSetpoint) -> None:
         """Replace the innermost setpoint, at once."""
         self._setpoints[-1] = setpoint
+        self._follow()
+
+    def _follow(self) -> None:
+        """Follow the innermost setpoint; while held, with stiffness and without a push."""
+        wanted = self.wanted
+        if self.held:
+            stiffness = np.concatenate([self._unasked[:3], wanted.stiffness[3:]])
+            wanted = ComplianceSetpoint(stiffness, np.zeros(3), wanted.frame, UNLIMITED_SPEED)
+        self._followed = wanted
         self.applied = self._compliance()
 
     def _frame_for(self, direction: Array) -> Array:
@@ -159,7 +196,7 @@ class ComplianceState:
         return _turned(frame, direction) if alone else frame
 
     def _compliance(self) -> Compliance:
-        frame, fastest = self.wanted.frame, self.wanted.fastest
+        frame, fastest = self._followed.frame, self._followed.fastest
         return Compliance(self._stiffness.value, self._wrench.value, frame, self._ratio, fastest)
 
 

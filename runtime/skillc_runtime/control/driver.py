@@ -71,12 +71,14 @@ class CompliantArmDriver:
     def abort(self, reason: str) -> None:
         """Stop motion, overlays and push; the reason is reported in `fault`."""
         self.fault = reason
+        self.compliance.forget_pushes()
         self._task.stop()
         self._task.tool.let_go(self._task.now)
 
     def hold_still(self, reason: str) -> None:
         """Hold the arm at its position, at once, and stop pushing; the reason is reported in `fault`."""
         self.fault = reason
+        self.compliance.forget_pushes()
         self._task.hold_still()
 
     def secure(self) -> bool:

@@ -1,5 +1,6 @@
 """Evaluates a guarded push once a control period: the approach of the tool to a surface, then the contact.
 
+A tool that is held, in a pause, approaches again afterwards.
 The measured force contains the force that accelerates the tool, so it is used only after the tool has approached with
 a steady speed.
 """
@@ -91,10 +92,14 @@ def advance_approach(approach: Approach, speed: float, force_n: float, period: f
 
 @dataclass(frozen=True, slots=True)
 class Pressing:
-    """A tool in contact after an approach with `speed` m/s; it has moved too fast for that for `fast` s."""
+    """A tool in contact for `lasted` s after an approach with `speed` m/s.
+
+    It has moved too fast for that for `fast` s.
+    """
 
     speed: float
     fast: float = 0.0
+    lasted: float = 0.0
 
     @property
     def falling(self) -> bool:
@@ -104,7 +109,13 @@ class Pressing:
 
 def advance_pressing(pressed: Pressing, speed: float, period: float) -> Pressing:
     """Advance by `period` s with `speed` m/s in the direction of the push."""
-    return replace(pressed, fast=pressed.fast + period if speed > FALL_SHARE * pressed.speed else 0.0)
+    fast = pressed.fast + period if speed > FALL_SHARE * pressed.speed else 0.0
+    return replace(pressed, fast=fast, lasted=pressed.lasted + period)
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A tool that neither approaches nor presses."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,13 +134,21 @@ class ActivePush:
 
     def __init__(self, push: GuardedPush, axis: Array) -> None:
         self.push, self._axis = push, axis
-        self._phase: Approach | Pressing = begin_approach(push)
+        self._phase: Approach | Pressing | Held = begin_approach(push)
         self._surface_m: float | None = None
 
     @property
-    def has_touched(self) -> bool:
-        """Whether contact was made at some time."""
-        return self._surface_m is not None
+    def pressed_s(self) -> float | None:
+        """For how long the tool has been in contact, in s; None if it is not."""
+        return self._phase.lasted if isinstance(self._phase, Pressing) else None
+
+    def hold(self) -> None:
+        """Neither approach nor press until `approach`."""
+        self._phase = Held()
+
+    def approach(self) -> None:
+        """Approach after `hold`."""
+        self._phase = begin_approach(self.push)
 
     def step(self, state: ArmState, contact_wrench: Callable[[], Array], period: float) -> PushAction:
         """Advance by `period` s; `contact_wrench` returns the wrench (6,) on the tool, N and N m, base axes."""
@@ -146,8 +165,10 @@ class ActivePush:
                 self._phase = advance_pressing(self._phase, speed, period)
                 if not self._phase.falling:
                     return "go on"
-                self._phase = begin_approach(self.push)
+                self.approach()
                 return "approach"
+            case Held():
+                return "go on"
             case _:
                 assert_never(self._phase)
 

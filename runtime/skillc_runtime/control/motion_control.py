@@ -51,7 +51,7 @@ class MotionControl:
     def stationary(self) -> bool:
         """Whether the reference stands still: its motion has ended and no overlay is left, or they are paused."""
         task = self._task
-        return (task.joints or task.tool.reference_generator).stationary(task.now)
+        return (task.joints or task.tool).stationary(task.now)
 
     @property
     def tracking_error_message(self) -> str | None:

@@ -10,10 +10,15 @@ from skillc_runtime.control.gains import Gains
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.joint import JointReference
 from skillc_runtime.motion.pose import Array, Pose, log
+from skillc_runtime.motion.reference import Reference
 from skillc_runtime.motion.reference_generator import ReferenceGenerator
+from skillc_runtime.motion.shift import NO_SHIFT, constant_shift
 
 NEAR_M, NEAR_RAD = 0.005, 0.05
 """Error below which the tool has reached its reference; while it pushes, friction may add to it."""
+
+RETURN_M_S, RETURN_M_S2 = 0.02, 0.05
+"""Speed and acceleration with which the reference returns to its motion after a hold: released axes yield meanwhile."""
 
 
 class ToolTask:
@@ -27,21 +32,25 @@ class ToolTask:
         self.compliance = ComplianceState(gains)
         self._stiffness, self._force_limit = gains.linear_stiffness, gains.limits.force_n
         self._law = law
+        self._acceleration_m_s2 = gains.limits.acceleration_m_s2
+        self._shift = NO_SHIFT
         self.reference = self.reference_generator.sample(0.0)
 
     def command(self, state: ArmState, now: float, period: float) -> Command:
         """Return the command for the next `period` s."""
-        self.reference = self.reference_generator.sample(now)
+        self.reference = self._sample(now)
         return self._law.command(state, self.reference, self.compliance.applied, period)
 
     def restart_from(self, state: ArmState, joints: JointReference, tool: Pose, twist: Array, now: float) -> None:
         """Come to rest from joints with the tool at `tool`, in base, and a twist (6,), m/s and rad/s."""
+        self._shift = NO_SHIFT
         self._law.reset(state, joints.q, joints.dq)
         self.reference_generator.restart_from(tool, twist, now)
         self.reference = self.reference_generator.sample(now)
 
     def restart_here(self, state: ArmState, q: Array, now: float) -> None:
         """Hold the tool at its present pose, with joints q (nv,) in rad, after it was moved on the hand."""
+        self._shift = NO_SHIFT
         self._law.reset(state, q, np.zeros_like(q))
         self.reference_generator.restart_from(self._law.tool, np.zeros(6), now)
 
@@ -67,13 +76,49 @@ class ToolTask:
 
     def restore(self, now: float) -> None:
         """Undo the last release: hold the tool, along the released axis, where it is now. Abandons a motion."""
-        reference, wanted = self.reference_generator.sample(now).pose, self.compliance.wanted
-        away = self._law.tool.position - reference.position
+        reference, away = self._error(now)
         regained = reference.rotation @ self.compliance.regained_axes()
-        self.compliance.restore((reference.rotation @ wanted.frame).T @ away)
+        self.compliance.restore((reference.rotation @ self.compliance.wanted.frame).T @ away)
         resting = self.reference_generator.path_pose(now)
-        place = Pose(resting.position + regained @ (regained.T @ away), resting.rotation)
-        self.reference_generator.jump_to(place, np.eye(3) - regained @ regained.T, now)
+        beside = regained @ (regained.T @ (away + self._shift.at(now)[0]))
+        kept = np.eye(3) - regained @ regained.T
+        self.reference_generator.jump_to(Pose(resting.position + beside, resting.rotation), kept, now)
+        self._shift = self._shift.project(kept)
+
+    def hold_released(self, now: float) -> None:
+        """Hold the tool, along released axes, where it is now, without a push. The motion is kept, beside the tool."""
+        reference, away = self._error(now)
+        released = reference.rotation @ self.compliance.released_axes()
+        self.compliance.hold((reference.rotation @ self.compliance.wanted.frame).T @ away)
+        self._shift = constant_shift(self._shift.at(now)[0] + released @ (released.T @ away))
+
+    def lift(self, way: Array, speed: float, now: float) -> None:
+        """Move the held tool beside its motion, by `way` (3,) in m in base, with a speed in m/s."""
+        self._shift = self._shift.towards(self._shift.at(now)[0] + way, speed, self._acceleration_m_s2, now)
+
+    def let_go_released(self, now: float) -> None:
+        """Let released axes yield again after `hold_released`; the tool returns to its motion along the others."""
+        self.compliance.let_go()
+        self._shift = self._shift.towards(np.zeros(3), RETURN_M_S, RETURN_M_S2, now)
+
+    def lifting(self, now: float) -> bool:
+        """Tell whether the tool moves beside its motion."""
+        return not self._shift.done(now)
+
+    def stationary(self, now: float) -> bool:
+        """Tell whether the reference stands still."""
+        return self._shift.done(now) and self.reference_generator.stationary(now)
+
+    def _sample(self, now: float) -> Reference:
+        reference = self.reference_generator.sample(now)
+        if self._shift.is_over(now):
+            return reference
+        return self._shift.add_to(reference, now)
+
+    def _error(self, now: float) -> tuple[Pose, Array]:
+        """Return the pose of the reference, and the tool's position (3,) relative to it in m, in base."""
+        reference = self._sample(now).pose
+        return reference, self._law.tool.position - reference.position
 
     def push(self, direction: Array, force_n: float, fastest_m_s: float, now: float) -> None:
         """Push along a direction (3,) in base; ValueError if the force is not allowed or the direction not released."""
@@ -89,7 +134,7 @@ class ToolTask:
 
     def tracking_error_message(self, state: ArmState, now: float) -> str | None:
         """Return a message about the error of the tool along stiff axes; None if it is small."""
-        reference, wanted = self.reference_generator.sample(now).pose, self.compliance.wanted
+        reference, wanted = self._sample(now).pose, self.compliance.wanted
         C, stiff = reference.rotation @ wanted.frame, wanted.stiffness > 0
         away = C.T @ (state.tool.position - reference.position) * stiff[:3]
         turned = C.T @ log(state.tool.rotation @ reference.rotation.T) * stiff[3:]

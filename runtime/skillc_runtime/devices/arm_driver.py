@@ -79,8 +79,8 @@ class PushProgress(Protocol):
     """A guarded push in progress."""
 
     @property
-    def has_touched(self) -> bool:
-        """Whether contact was made at some time."""
+    def pressed_s(self) -> float | None:
+        """For how long the tool has been in contact, in s; None if it is not."""
         ...
 
 
@@ -256,6 +256,24 @@ class ComplianceInterface(Protocol):
 
     def end_push(self, push: PushProgress) -> None:
         """Stop pushing."""
+        ...
+
+    def pause(self) -> None:
+        """Hold the tool along released directions, unless a push is in contact.
+
+        If that push loses contact, the tool is held then. Motions are not concerned; they have a pause of their own.
+        """
+        ...
+
+    def withdraw(self, push: PushProgress) -> None:
+        """Take the tool off what it presses on, with its approach speed, and hold it there."""
+        ...
+
+    def resume(self) -> None:
+        """Yield again as before `pause` or `withdraw`; a push that was held approaches again.
+
+        While the tool is still being taken off, this does nothing; it is to be called again.
+        """
         ...
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from skillc_runtime.motion.joint import JointReference, JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.stopping_motion import stopping_motion
-from skillc_runtime.motion.time_scaling import TimeScaling
+from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling
 
 
 class JointReferenceGenerator:
@@ -62,11 +62,18 @@ class JointReferenceGenerator:
 
     def pause(self, now: float) -> None:
         """Slow down to a standstill along the motion."""
-        self._time = self._time.towards(0.0, now)
+        self._scale_time(0.0, now)
 
     def resume(self, now: float) -> None:
         """Continue after `pause`."""
-        self._time = self._time.towards(1.0, now)
+        self._scale_time(1.0, now)
+
+    def _scale_time(self, rate: float, now: float) -> None:
+        time, fastest = self._time.at(now)[0], 0.0
+        if self._motion is not None:
+            speeds = [self._motion.at(time + ahead).dq for ahead in (0.0, RAMP_S / 2, RAMP_S)]
+            fastest = float(np.abs(speeds).max())
+        self._time = self._time.towards(rate, now, max(RAMP_S, fastest / self._deceleration))
 
     def sample(self, now: float) -> JointReference:
         """Return the reference at `now`."""

@@ -11,7 +11,7 @@ from skillc_runtime.motion.overlays import FadedOverlay
 from skillc_runtime.motion.pose import Array, Pose, exp, skew
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, resting_reference
 from skillc_runtime.motion.stopping_motion import stopping_motion
-from skillc_runtime.motion.time_scaling import TimeScaling
+from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling
 
 TURN_DECELERATION = 2.0
 """Deceleration of a rotation in a stop, rad/s^2."""
@@ -99,12 +99,29 @@ class ReferenceGenerator:
         return stands and (not self._overlays or self._overlay_time.at(now)[1] == 0.0)
 
     def pause(self, now: float) -> None:
-        """Slow down to a standstill along the motion."""
-        self._time, self._overlay_time = self._time.towards(0.0, now), self._overlay_time.towards(0.0, now)
+        """Slow down to a standstill along the motion; the deceleration adds to that of the motion itself."""
+        self._scale_time(0.0, now)
 
     def resume(self, now: float) -> None:
         """Continue after `pause`."""
-        self._time, self._overlay_time = self._time.towards(1.0, now), self._overlay_time.towards(1.0, now)
+        self._scale_time(1.0, now)
+
+    def _scale_time(self, rate: float, now: float) -> None:
+        time, overlay_time, ramp_s = self._time.at(now)[0], self._overlay_time.at(now)[0], RAMP_S
+        for ahead in (0.0, RAMP_S / 2, RAMP_S):
+            ramp_s = max(ramp_s, self._stopping_time(time + ahead, overlay_time + ahead))
+        self._time = self._time.towards(rate, now, ramp_s)
+        self._overlay_time = self._overlay_time.towards(rate, now, ramp_s)
+
+    def _stopping_time(self, time: float, overlay_time: float) -> float:
+        """Return the time in s in which the motion, at its full speed, stops with the deceleration."""
+        speed = turning = 0.0
+        if time < self._ends:
+            motion = self._trajectory.at(time) if self._trajectory else self._rest
+            speed, turning = float(np.linalg.norm(motion.twist[:3])), float(np.linalg.norm(motion.twist[3:]))
+        for faded, _ in self._overlays.values():
+            speed += float(np.linalg.norm(faded.at(overlay_time)[1]))
+        return max(speed / self._deceleration, turning / TURN_DECELERATION)
 
     def add(self, overlay: Overlay, axes: Array, fade: float, now: float) -> int:
         """Add an overlay along `axes` (3, 3), which fades in for `fade` s; return the handle to remove it with."""
@@ -113,8 +130,9 @@ class ReferenceGenerator:
         return self._next_handle
 
     def remove(self, handle: int, now: float) -> None:
-        """Fade an overlay out; no effect if it has faded out already."""
+        """Fade an overlay out, also while paused; no effect if it has faded out already."""
         if handle in self._overlays:
+            self._overlay_time = self._overlay_time.towards(1.0, now)
             faded, axes = self._overlays[handle]
             self._overlays[handle] = (faded.end_at(self._overlay_time.at(now)[0]), axes)
 

@@ -5,33 +5,35 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 RAMP_S = 0.5
-"""Time from full speed to standstill."""
+"""Least time from full speed to standstill."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimeScaling:
     """A change of the rate of motion time, linear in time, from `rate` to `goal`, 0 or 1.
 
-    It begins at `since` s, when motion time is `time` s. Times `now` are in s.
+    It begins at `since` s, when motion time is `time` s, and would take `ramp_s` s between standstill and full speed.
+    Times `now` are in s.
     """
 
     since: float = 0.0
     time: float = 0.0
     rate: float = 1.0
     goal: float = 1.0
+    ramp_s: float = RAMP_S
 
     def at(self, now: float) -> tuple[float, float, float]:
         """Return motion time in s, its rate, and the change of the rate in 1/s."""
         passed = now - self.since
         if self.rate == self.goal:
             return self.time + self.goal * passed, self.goal, 0.0
-        ramp = abs(self.goal - self.rate) * RAMP_S
+        ramp = abs(self.goal - self.rate) * self.ramp_s
         slope = (self.goal - self.rate) / ramp
         if passed >= ramp:
             return self.time + (self.rate + self.goal) / 2 * ramp + self.goal * (passed - ramp), self.goal, 0.0
         return self.time + self.rate * passed + slope * passed * passed / 2, self.rate + slope * passed, slope
 
-    def towards(self, goal: float, now: float) -> TimeScaling:
+    def towards(self, goal: float, now: float, ramp_s: float = RAMP_S) -> TimeScaling:
         """Return the scaling whose rate changes to `goal` from now on."""
         time, rate, _ = self.at(now)
-        return TimeScaling(now, time, rate, goal)
+        return TimeScaling(now, time, rate, goal, ramp_s)

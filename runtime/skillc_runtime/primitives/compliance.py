@@ -58,6 +58,14 @@ class ReleaseAxis(Primitive):
         """Make the axis stiff again at the current position."""
         self.arm.compliance.restore()
 
+    def pause(self) -> None:
+        """Hold the tool along the axis, unless it presses on something."""
+        self.arm.compliance.pause()
+
+    def resume(self) -> None:
+        """Yield again."""
+        self.arm.compliance.resume()
+
 
 class Push(Primitive):
     """Approaches a surface opposite to `along` (3,) at `approach` m/s, then presses on it with `force` N in the scope.
@@ -75,7 +83,7 @@ class Push(Primitive):
         self.arm = cell.arm(arm)
         self._push = GuardedPush(along, force, approach, Travel(travel))
         self._progress: PushProgress | None = None
-        self._touched_at = 0.0
+        self._taken_off = False
 
     def start(self) -> None:
         """Begin the approach."""
@@ -96,15 +104,36 @@ class Push(Primitive):
     def tick(self) -> Status:
         """Return SUCCESS once the tool presses with the force."""
         raise_fault(self.arm)
-        if self._progress is None or not self._progress.has_touched:
-            return Status.RUNNING
-        self._touched_at = self._touched_at or self.cell.now
-        return Status.SUCCESS if self.cell.now - self._touched_at >= RAMP_S else Status.RUNNING
+        return Status.SUCCESS if self._presses() else Status.RUNNING
 
     def release(self) -> None:
         """Stop pushing."""
         if self._progress is not None:
             self.arm.compliance.end_push(self._progress)
+
+    def pause(self) -> None:
+        """Stop approaching; a tool in contact goes on pressing."""
+        self.arm.compliance.pause()
+
+    def withdraw(self) -> None:
+        """Take the tool off, if it presses."""
+        if self._progress is not None:
+            self._taken_off = self._taken_off or self._progress.pressed_s is not None
+            self.arm.compliance.withdraw(self._progress)
+
+    def approach(self) -> bool:
+        """Approach again; return whether the tool presses with the force, if it did before."""
+        self.arm.compliance.resume()
+        return not self._taken_off or self._presses()
+
+    def resume(self) -> None:
+        """Go on approaching, if the tool had not touched anything yet."""
+        self._taken_off = False
+        self.arm.compliance.resume()
+
+    def _presses(self) -> bool:
+        pressed_s = None if self._progress is None else self._progress.pressed_s
+        return pressed_s is not None and pressed_s >= RAMP_S
 
 
 class Align(Primitive):
@@ -139,6 +168,18 @@ class Align(Primitive):
         """Make the rotation of the tool stiff again."""
         if self._held_at == inf:
             self._hold()
+
+    def pause(self) -> None:
+        """Hold the rotation of the tool."""
+        if self._held_at == inf:
+            self.arm.compliance.restore_rotation()
+
+    def resume(self) -> None:
+        """Release the rotation again, for as long as at the start."""
+        if self._held_at == inf:
+            self._began = self.cell.now
+            self._turns.clear()
+            self.arm.compliance.release_rotation()
 
     def _is_flush(self, now: float) -> bool:
         """Whether the tool has come to rest on the surface: it has hardly turned for a while."""

@@ -63,7 +63,8 @@ class Release(Primitive):
         super().__init__(cell)
         self._arm, self._gripper = cell.arm(arm), cell.gripper(gripper)
         self._hand, self._object, self._to = gripper, object, to
-        self._free_at_m, self._face, self._freed = 0.0, Pose.of((0.0, 0.0, 0.0)), False
+        self._free_at_m = self._opening = 0.0
+        self._face, self._freed = Pose.of((0.0, 0.0, 0.0)), False
 
     def start(self) -> None:
         """Start opening; SkillFailure if another object or none is held."""
@@ -75,7 +76,8 @@ class Release(Primitive):
         self._free_at_m = self._gripper.opening_m + FREE_CLEARANCE_M
         width = state.value(self._object, GRASP_WIDTH)
         opening = RELEASE_CLEARANCE_M + (width if isinstance(width, float) else self._gripper.opening_m)
-        self._gripper.move(min(opening, self._gripper.max_opening_m), self._gripper.max_force_n)
+        self._opening = min(opening, self._gripper.max_opening_m)
+        self._gripper.move(self._opening, self._gripper.max_force_n)
 
     def tick(self) -> Status:
         """Detach the object once it is free; return SUCCESS when the fingers are open."""
@@ -96,6 +98,14 @@ class Release(Primitive):
     def halt(self, reason: str) -> None:
         """Stop the fingers."""
         self._gripper.stop()
+
+    def pause(self) -> None:
+        """Stop the fingers."""
+        self._gripper.stop()
+
+    def resume(self) -> None:
+        """Open further."""
+        self._gripper.move(self._opening, self._gripper.max_force_n)
 
     def _detach(self) -> None:
         """Detach the object and write it to the world model.

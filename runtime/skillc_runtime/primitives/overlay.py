@@ -58,6 +58,14 @@ class AddedMotion(Primitive):
         """Fade out."""
         self.arm.motion.remove_overlay(self._handle)
 
+    def pause(self) -> None:
+        """Slow down to a standstill."""
+        self.arm.motion.pause()
+
+    def resume(self) -> None:
+        """Continue the motion."""
+        self.arm.motion.resume()
+
 
 class OverlayCircle(AddedMotion):
     """A circle in the plane with the normal `plane` (3,): `radius` m, `rate` turns per s."""
