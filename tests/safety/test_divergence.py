@@ -13,7 +13,7 @@ from simulation.cells import ARM, GRIPPER, cell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.divergence import SimulationDiverged
 from skillc_runtime.devices.backend import BackendBroken
-from skillc_runtime.execution.task_run import execute_task
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, TaskEnded
 from skillc_runtime.world.state.terms import DEVICE_STATE

@@ -153,8 +153,6 @@ class CellLoop:
 
     def _advance(self) -> None:
         """Let time pass; an error of the cell fails all runs."""
-        if self.backend.broken is not None:
-            return
         try:
             self.backend.advance(TICK_S)
         except FOREIGN_ERRORS as error:  # the boundary to the cell: every run reports, halts and ends
