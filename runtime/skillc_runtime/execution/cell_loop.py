@@ -51,7 +51,7 @@ class CellLoop:
 
     `runs` are those that have not ended, in the order of their submission. `ticks` counts the ticks in which anything
     happened: requests and plans are recorded with this number, so that a run can be repeated. `after_tick` are called
-    after each of them. `request` and `stop` may be called from other threads and from signal handlers.
+    whenever time has passed. `request` and `stop` may be called from other threads and from signal handlers.
     """
 
     backend: Backend
@@ -118,10 +118,7 @@ class CellLoop:
             self._advance()
             happened = True
         self.runs = [run for run in self.runs if not run.ended]
-        if happened:
-            self.ticks += 1
-            for hook in self.after_tick:
-                hook()
+        self.ticks += happened
         return happened
 
     def wait(self, seconds: float) -> None:
@@ -158,3 +155,5 @@ class CellLoop:
         except FOREIGN_ERRORS as error:  # the boundary to the cell: every run reports, halts and ends
             for run in self.runs:
                 run.abort(error)
+        for hook in self.after_tick:
+            hook()
