@@ -147,7 +147,7 @@ class ComplianceState:
         self._replace(replace(self.wanted, stiffness=stiffness))
 
     def hold(self, error: Array) -> None:
-        """Make released axes stiff, and stop pushing, until `let_go`; rotations stay as they are.
+        """Make axes with less than the stiffness of the gains stiff, and stop pushing, until `let_go`; no rotations.
 
         error (3,): tool minus reference in m along the axes of C. The caller sets it to zero on the axes that regain
         stiffness.
@@ -162,13 +162,13 @@ class ComplianceState:
         self._follow()
 
     def released_axes(self) -> Array:
-        """Return the axes (3, n) of C, in the tool frame, that are released."""
+        """Return the axes (3, n) of C, in the tool frame, that have less than the stiffness of the gains."""
         return self.wanted.frame[:, self._yields()]
 
     def _yields(self) -> Array:
-        """Return which axes (3,) of C are released."""
-        released: Array = self.wanted.stiffness[:3] != self._unasked[:3]
-        return released
+        """Return which axes (3,) of C have less than the stiffness of the gains."""
+        less: Array = self.wanted.stiffness[:3] < self._unasked[:3]
+        return less
 
     def _replace(self, setpoint: ComplianceSetpoint) -> None:
         """Replace the innermost setpoint, at once."""
@@ -179,7 +179,8 @@ class ComplianceState:
         """Follow the innermost setpoint; while held, with stiffness and without a push."""
         wanted = self.wanted
         if self.held:
-            stiffness = np.concatenate([self._unasked[:3], wanted.stiffness[3:]])
+            stiffness = wanted.stiffness.copy()
+            stiffness[:3] = np.maximum(stiffness[:3], self._unasked[:3])
             wanted = ComplianceSetpoint(stiffness, np.zeros(3), wanted.frame, UNLIMITED_SPEED)
         self._followed = wanted
         self.applied = self._compliance()
