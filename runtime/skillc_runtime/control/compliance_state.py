@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
+from numpy.typing import NDArray
 
 from skillc_runtime.control.filters import Lag
 from skillc_runtime.control.gains import Gains
@@ -165,9 +166,9 @@ class ComplianceState:
         """Return the axes (3, n) of C, in the tool frame, that have less than the stiffness of the gains."""
         return self.wanted.frame[:, self._yields()]
 
-    def _yields(self) -> Array:
+    def _yields(self) -> NDArray[np.bool_]:
         """Return which axes (3,) of C have less than the stiffness of the gains."""
-        less: Array = self.wanted.stiffness[:3] < self._unasked[:3]
+        less: NDArray[np.bool_] = self.wanted.stiffness[:3] < self._unasked[:3]
         return less
 
     def _replace(self, setpoint: ComplianceSetpoint) -> None:

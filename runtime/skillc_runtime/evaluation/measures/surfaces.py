@@ -31,7 +31,8 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
 
 def _measure_polishing(evidence: RunEvidence, wiping: Wiping, result: WipingResult) -> PolishingWork:
     truth = evidence.truth
-    commanded, measured = measure_overlay_amplitudes(truth.recording(wiping.tool).between(wiping.start, wiping.end))
+    window = truth.recording(wiping.tool).between(*wiping.longest_undisturbed)
+    commanded, measured = measure_overlay_amplitudes(window)
     seconds = number_of(evidence.state, wiping.surface, POLISH_TIME)
     oscillated = commanded > MIN_AMPLITUDE_M
     return PolishingWork(

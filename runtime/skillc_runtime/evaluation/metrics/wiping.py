@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Recording, join_recordings
+from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_pauses, exclude_standstill, total_s
 from skillc_runtime.evaluation.metrics.lane_dwell import LaneDwell, measure_lane_dwell
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.layout import Layout
@@ -16,9 +16,6 @@ from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
 LOST_N = 0.5
 """Normal force below which contact counts as lost."""
-
-Stroke: TypeAlias = tuple[float, float]
-"""Start and end in s of a motion of a tool over a surface without lifting it."""
 
 VIBRATION_HZ = 15.0
 COVERAGE_PERIOD_S = 0.01
@@ -47,8 +44,9 @@ class WipingSetup:
 class WipingMetrics:
     """The quality of one wiping, from the first wiping reference to the end of the last lane, at every simulation step.
 
+    Pauses are left out, but for the coverage and the greatest force.
     coverage: share of the 5 mm cells that were wiped. Forces in N: mean, rms error about the command (with lost
-    contact), and the greatest before the strokes, while the tool is put down. contact_lost: share of the time.
+    contact), and the greatest outside the strokes, while the tool is put down. contact_lost: share of the time.
     Vibration of the tool above 15 Hz, rms in mm/s. Tilt of the tool against the true normal in degrees. Tracking: rms
     distance from the reference in the plane, in mm. lane_dwell: of the worst stroke, None if the path has no corner.
     """
@@ -67,30 +65,35 @@ class WipingMetrics:
     duration_s: float
 
 
-def measure_wiping(recording: Recording, strokes: Sequence[Stroke], setup: WipingSetup) -> WipingMetrics:
-    """Measure the wiping in all strokes of a recording that begins before the first contact.
+def measure_wiping(
+    recording: Recording, strokes: Sequence[Interval], setup: WipingSetup, pauses: Sequence[Interval] = ()
+) -> WipingMetrics:
+    """Measure the wiping in all strokes, without pauses, of a recording that begins before the first contact.
 
-    ValueError if nothing was recorded in them.
+    A stroke is a motion over the surface without lifting the tool, but for pauses. Coverage includes what is wiped
+    while a pause begins and ends. ValueError if nothing was recorded.
     """
-    windows = [window for stroke in strokes if len((window := recording.between(*stroke)).time) > 1]
+    wiping = exclude_pauses(strokes, pauses)
+    windows = [window for each in wiping if len((window := recording.between(*each)).time) > 1]
     if not windows:
         times = ", ".join(f"{start:g} to {end:g} s" for start, end in strokes)
         raise ValueError(f"nothing was recorded from {times}")
-    window, outside_strokes = join_recordings(windows), recording.without(strokes)
+    window, outside = join_recordings(windows), recording.without(wiping)
+    moving = join_recordings([recording.between(*each) for each in exclude_standstill(strokes, pauses)])
     tilt = _tilt_deg(window, setup.surface)
     return WipingMetrics(
-        coverage=measure_coverage(window, setup).wiped_share,
+        coverage=measure_coverage(moving, setup).wiped_share,
         force_command_n=setup.force_command_n,
         force_mean_n=float(window.force.mean()),
         force_rmse_n=_rms(window.force - setup.force_command_n),
         contact_lost=float((window.force < LOST_N).mean()),
-        first_impact_n=float(outside_strokes.force.max(initial=0.0)),
+        first_impact_n=float(outside.force.max(initial=0.0)),
         vibration_mm_s=1000 * _vibration_m_s(windows),
         tilt_rms_deg=_rms(tilt),
         tilt_max_deg=float(tilt.max()),
         tracking_mm=1000 * _tracking_error_m(window, setup.surface),
         lane_dwell=max(filter(None, map(measure_lane_dwell, windows)), key=lambda dwell: dwell.seconds, default=None),
-        duration_s=sum(end - start for start, end in strokes),
+        duration_s=total_s(wiping),
     )
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from skillc_runtime.devices.ground_truth import GroundTruth, Recording
+from skillc_runtime.devices.ground_truth import GroundTruth, Recording, join_recordings
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import ImplementationChosen
@@ -52,8 +52,12 @@ def _find_wiping_moments(wiping: Wiping, state: WorldState, truth: GroundTruth) 
     name, recording = state.vocabulary.short(wiping.surface), truth.recording(wiping.tool)
     yield Moment(f"{name} grasp", float(recording.time[0]) + GRASPED_S, wiping.arm)
     yield Moment(f"{name} contact", _find_contact_s(recording.between(wiping.began, wiping.end)), wiping.arm)
-    yield Moment(f"{name} corner", _find_corner_s(recording.between(wiping.start, wiping.end)), wiping.arm)
+    yield Moment(f"{name} corner", _find_corner_s(_undisturbed(recording, wiping)), wiping.arm)
     yield Moment(f"{name} last lane", wiping.end, wiping.arm)
+
+
+def _undisturbed(recording: Recording, wiping: Wiping) -> Recording:
+    return join_recordings([recording.between(*each) for each in wiping.undisturbed])
 
 
 def _find_contact_s(recording: Recording) -> float:

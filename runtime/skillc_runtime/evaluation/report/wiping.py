@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from math import inf
 
 from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.evaluation.metrics.wiping import Stroke, WipingSetup, measure_wiping
+from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_pauses
+from skillc_runtime.evaluation.metrics.wiping import WipingSetup, measure_wiping
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.primitives.primitive import Activity
@@ -27,7 +28,8 @@ FORCE = "force"
 class Wiping:
     """A tool that was pressed with `force_n` and followed paths on a surface; `began` is the start of the skill in s.
 
-    Between two strokes the tool was lifted. `arm` is empty if the skill has no arm parameter.
+    Between two strokes the tool was lifted. `pauses` are those since `began`. `arm` is empty if the skill has no arm
+    parameter.
     """
 
     surface: str
@@ -35,12 +37,23 @@ class Wiping:
     tool: str
     force_n: float
     began: float
-    strokes: tuple[Stroke, ...]
+    strokes: tuple[Interval, ...]
+    pauses: tuple[Interval, ...] = ()
 
     @property
     def start(self) -> float:
         """The start of the first path in s."""
         return self.strokes[0][0]
+
+    @property
+    def undisturbed(self) -> tuple[Interval, ...]:
+        """The parts of the strokes in which no pause slows the motion."""
+        return exclude_pauses(self.strokes, self.pauses)
+
+    @property
+    def longest_undisturbed(self) -> Interval:
+        """The longest of these parts."""
+        return max(self.undisturbed, key=lambda part: part[1] - part[0])
 
     @property
     def end(self) -> float:
@@ -61,7 +74,9 @@ def find_wipings(trees: Iterable[NodeOutcome], choices: ChoiceListener, state: W
         pressed = [force.value for force in forces if isinstance(force, Quantity)]
         strokes = tuple(sorted(_find_strokes(node, choices)))
         if surfaces and tools and pressed and strokes:
-            found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], pressed[-1], node.started or 0.0, strokes)
+            began = node.started or 0.0
+            pauses = tuple(pause for pause in choices.pauses if began < pause[1] and pause[0] < strokes[-1][1])
+            found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], pressed[-1], began, strokes, pauses)
     return tuple(found.values())
 
 
@@ -80,7 +95,7 @@ def wiping_setup(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Wipin
 def rate_wiping(wiping: Wiping, state: WorldState, truth: GroundTruth) -> WipingResult:
     """Return the quality of a wiping."""
     recording = truth.recording(wiping.tool).between(wiping.began, wiping.end)
-    metrics = measure_wiping(recording, wiping.strokes, wiping_setup(wiping, state, truth))
+    metrics = measure_wiping(recording, wiping.strokes, wiping_setup(wiping, state, truth), wiping.pauses)
     dwell = metrics.lane_dwell
     return WipingResult(
         surface=state.vocabulary.short(wiping.surface),
@@ -98,7 +113,7 @@ def rate_wiping(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Wiping
     )
 
 
-def _find_strokes(node: NodeOutcome, choices: ChoiceListener) -> Iterator[Stroke]:
+def _find_strokes(node: NodeOutcome, choices: ChoiceListener) -> Iterator[Interval]:
     """Yield the start and end of each path below a node, in the node's last run."""
     for _, path in _find_activities(node, choices, "follow-path"):
         first, last = node.started or 0.0, inf if node.ended is None else node.ended

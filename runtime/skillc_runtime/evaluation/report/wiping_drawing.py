@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth, Recording, join_recordings
+from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_standstill
 from skillc_runtime.evaluation.metrics.lane_dwell import DWELL_SHARE, find_lane_velocity
 from skillc_runtime.evaluation.metrics.wiping import measure_coverage
 from skillc_runtime.evaluation.report.wiping import Wiping, wiping_setup
@@ -28,7 +29,8 @@ class WipingDrawing:
     extent (2,): size of the surface; `covered`: share of it that was wiped. dose (rows along y, columns along x):
     contact time of the cells in s. lanes (n, 2): the commanded path without overlays; tool (n, 2): the measured path.
     time (n,): of lanes, tool and speeds; lane_speed, tool_speed (n,): mm/s along the path; `overlaid` if the path has
-    an overlay. contact_time, force (m,): s and N from the approach on; `force_n` is the commanded force.
+    an overlay. contact_time, force (m,): s and N from the approach on; `force_n` is the commanded force. While paused,
+    nothing but the force is drawn.
     """
 
     surface: str
@@ -45,6 +47,7 @@ class WipingDrawing:
     contact_time: Array
     force: Array
     force_n: float
+    pauses: tuple[Interval, ...] = ()
 
     @property
     def dwell_speed(self) -> float:
@@ -56,7 +59,8 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
     """Return the drawing of one wiping."""
     recording = truth.recording(wiping.tool).between(wiping.began, wiping.end)
     setup = wiping_setup(wiping, state, truth)
-    windows, frame = [recording.between(*stroke) for stroke in wiping.strokes], setup.surface.inverse()
+    moving, frame = exclude_standstill(wiping.strokes, wiping.pauses), setup.surface.inverse()
+    windows = [recording.between(*each) for each in moving]
     window, rows_drawn = join_recordings(windows), _join_strokes(windows)
     covered = measure_coverage(window, setup)
 
@@ -79,6 +83,7 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
         contact_time=recording.time[::DECIMATION] - wiping.start,
         force=recording.force[::DECIMATION],
         force_n=wiping.force_n,
+        pauses=tuple((start - wiping.start, end - wiping.start) for start, end in wiping.pauses),
     )
 
 

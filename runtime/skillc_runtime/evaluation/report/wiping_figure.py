@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 
-LANES, TOOL, TARGET, WIPING = "#000000", "#d55e00", "#0072b2", "#e8e8e8"
+LANES, TOOL, TARGET, WIPING, PAUSED = "#000000", "#d55e00", "#0072b2", "#e8e8e8", "#808080"
 """Colours that people with colour blindness can distinguish; they also differ in lightness."""
 
 UNWIPED, DOSE, DOSE_ALPHA = "#ffffff", "cividis_r", 0.7
@@ -92,6 +92,7 @@ def _draw_speed(axes: Axes, drawing: WipingDrawing) -> None:
     axes.plot(drawing.time, drawing.tool_speed, color=TOOL, linewidth=0.7, label=tool)
     axes.plot(drawing.time, drawing.lane_speed, color=LANES, linewidth=1.2, label="lanes")
     axes.axhline(drawing.dwell_speed, color=TARGET, linewidth=1.0, linestyle=":", label="dwell below")
+    _mark_pauses(axes, drawing)
     axes.set(xlabel="time from the first lane, s", ylabel="speed, mm/s")
     _set_title(axes, "Speed along lanes")
 
@@ -101,11 +102,18 @@ def _draw_force(axes: Axes, drawing: WipingDrawing) -> None:
     contacts = drawing.contact_time[drawing.force > 0]
     first = float(contacts[0] if contacts.size else drawing.contact_time[0]) - BEFORE_CONTACT_S
     axes.axvspan(drawing.time[0], drawing.time[-1], color=WIPING, linewidth=0, label="wiping")
+    _mark_pauses(axes, drawing)
     axes.plot(drawing.contact_time, drawing.force, color=TOOL, linewidth=0.6, label="measured")
     axes.axhline(drawing.force_n, color=TARGET, linewidth=1.2, linestyle=":", label=f"commanded, {drawing.force_n:g} N")
     axes.set(xlabel="time from the first lane, s", ylabel="normal force, N", xlim=(first, drawing.time[-1]))
     axes.set_ylim(bottom=0)
     _set_title(axes, "Force on the surface")
+
+
+def _mark_pauses(axes: Axes, drawing: WipingDrawing) -> None:
+    for number, (start, end) in enumerate(drawing.pauses):
+        label = "_paused" if number else "paused"
+        axes.axvspan(start, end, facecolor="none", edgecolor=PAUSED, hatch="////", linewidth=0.5, label=label)
 
 
 def _set_title(axes: Axes, title: str) -> None:
