@@ -9,20 +9,18 @@ import subprocess
 import sys
 import threading
 import warnings
-from functools import partial
 from pathlib import Path
 
 import pytest
 
-from skillc_runtime.execution.worker_process import Died, Returned, StartMethod, WorkerProcess
+from skillc_runtime.execution.process_start import StartMethod
+from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import VOCABULARY, iri
 
-STARTS = pytest.mark.parametrize("start", ["fork", "spawn"])
 
-
-def numbers(count: int) -> bytes:
+def zeros(count: int) -> bytes:
     return bytes(count)
 
 
@@ -32,26 +30,54 @@ def ignore_termination(ready: Path) -> None:
     signal.pause()
 
 
-def interrupt_group() -> str:
+def interrupt(_request: None) -> str:
     os.kill(os.getpid(), signal.SIGINT)
     os.kill(os.getpid(), signal.SIGHUP)
     return "still here"
 
 
-@STARTS
-def test_a_result_of_any_size_arrives_whole(start: StartMethod) -> None:
-    worker = WorkerProcess(partial(numbers, 3_000_000), start)
-    assert worker.wait(60.0) == Returned(bytes(3_000_000)) == worker.poll()
+def divide(number: int) -> float:
+    if number == 1:
+        os._exit(7)
+    return 1.0 / number
 
 
-@STARTS
+def answer(worker: WorkerProcess, request: object) -> object:
+    worker.ask(request)
+    return worker.wait(60.0)
+
+
+@pytest.fixture(params=["fork", "spawn"])
+def start(request: pytest.FixtureRequest) -> StartMethod:
+    return request.param
+
+
+def test_results_of_any_size_arrive_whole(start: StartMethod) -> None:
+    worker = WorkerProcess(zeros, start)
+    assert worker.poll() is None
+    assert [answer(worker, count) for count in (3_000_000, 0)] == [Returned(bytes(3_000_000)), Returned(b"")]
+    assert worker.poll() == Returned(b"")
+    worker.kill()
+
+
+def test_an_exception_fails_one_request_and_a_death_all_that_follow(start: StartMethod) -> None:
+    worker = WorkerProcess(divide, start)
+    raised = answer(worker, 0)
+    assert isinstance(raised, Raised) and raised.why.startswith("ZeroDivisionError: ")
+    assert answer(worker, 2) == Returned(0.5)
+    assert [answer(worker, 1) for _ in range(2)] == [Died("its process ended with code 7")] * 2
+
+
 def test_signals_of_the_terminal_are_left_to_the_parent(start: StartMethod) -> None:
-    assert WorkerProcess(interrupt_group, start).wait(60.0) == Returned("still here")
+    worker = WorkerProcess(interrupt, start)
+    assert answer(worker, None) == Returned("still here")
+    worker.kill()
 
 
 def test_a_worker_that_ignores_the_request_to_end_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("skillc_runtime.execution.worker_process.CLEANUP_S", 0.2)
-    worker = WorkerProcess(partial(ignore_termination, tmp_path / "ready"))
+    worker = WorkerProcess(ignore_termination)
+    worker.ask(tmp_path / "ready")
     while not (tmp_path / "ready").exists():
         assert worker.wait(0.01) is None
     worker.kill()
@@ -60,9 +86,20 @@ def test_a_worker_that_ignores_the_request_to_end_is_killed(tmp_path: Path, monk
         os.kill(worker.pid, 0)
 
 
+def test_a_result_that_is_already_there_is_not_lost_by_a_kill() -> None:
+    worker = WorkerProcess(zeros)
+    assert answer(worker, 5) == Returned(bytes(5))
+    worker.kill()
+    assert worker.poll() == Returned(bytes(5))
+    worker.ask(6)
+    assert worker.poll() == Died("it was killed")
+
+
 def test_what_cannot_be_sent_back_is_said() -> None:
-    result = WorkerProcess(threading.Lock).wait(60.0)
-    assert isinstance(result, Died) and "cannot pickle" in result.why
+    worker = WorkerProcess(lambda _: threading.Lock())
+    result = answer(worker, None)
+    assert isinstance(result, Raised) and "cannot pickle" in result.why
+    worker.kill()
 
 
 def test_a_fork_beside_other_threads_works_without_a_warning() -> None:
@@ -73,7 +110,9 @@ def test_a_fork_beside_other_threads_works_without_a_warning() -> None:
     def run() -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            results.append(WorkerProcess(partial(numbers, 3), "fork").wait(60.0))
+            worker = WorkerProcess(zeros, "fork")
+            results.append(answer(worker, 3))
+            worker.kill()
 
     from_thread = threading.Thread(target=run)
     from_thread.start()
@@ -93,7 +132,7 @@ class Cycle:
     def __del__(self):
         print("collected", flush=True)
 
-def work():
+def work(_):
     gc.collect()
     print("in the worker")
     return 1
@@ -104,7 +143,10 @@ atexit.register(print, "at exit")
 buffered = open(sys.argv[1], "w")
 buffered.write("from the parent\\n")
 print("before the worker")
-print(WorkerProcess(work, "fork").wait(60.0))
+worker = WorkerProcess(work, "fork")
+worker.ask(None)
+print(worker.wait(60.0))
+worker.kill()
 buffered.close()
 """
 

@@ -100,3 +100,70 @@ class Endless:
         (self.folder / str(os.getpid())).touch()
         while True:
             time.sleep(0.1)
+
+
+class Exits:
+    """Ends its process when it is made, as code does that calls os._exit while it is imported."""
+
+    def __init__(self) -> None:
+        os._exit(5)
+
+    def run(self, seed: int) -> Trial:
+        return good(seed)
+
+
+class Vanishes:
+    """Its process is killed when it is made."""
+
+    def __init__(self) -> None:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+    def run(self, seed: int) -> Trial:
+        return good(seed)
+
+
+class Unprepared:
+    """Cannot be made."""
+
+    def __init__(self) -> None:
+        raise FileNotFoundError("there is no scene")
+
+    def run(self, seed: int) -> Trial:
+        return good(seed)
+
+
+class Waits:
+    """Takes a time to be made."""
+
+    def __init__(self, seconds: float) -> None:
+        time.sleep(seconds)
+
+    def run(self, seed: int) -> Trial:
+        return good(seed)
+
+
+class FailsOnce:
+    """Ends its process when it is made for the first time; a folder counts how often it was made."""
+
+    def __init__(self, folder: Path) -> None:
+        try:
+            (folder / "made").touch(exist_ok=False)
+        except FileExistsError:
+            (folder / str(os.getpid())).touch()
+        else:
+            os._exit(1)
+
+    def run(self, seed: int) -> Trial:
+        return good(seed)
+
+
+@dataclass(frozen=True, slots=True)
+class Slow:
+    """Never ends at one seed."""
+
+    folder: Path
+
+    def run(self, seed: int) -> Trial:
+        if seed == BROKEN - 2:
+            Endless(self.folder).run(seed)
+        return good(seed)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -14,6 +15,7 @@ from skillc.cli.main import skillc
 from skillc.services import libraries, task_loading, trial_runs
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.evaluation.trials import workers
 from skillc_runtime.evaluation.trials.journal import FILE
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.evaluation.trials.workers import Prepare
@@ -34,7 +36,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     seeds_run: list[int] = []
     library = shipped()
 
-    def run_in_processes(_prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
+    def run_in_processes(_prepare: Prepare, seeds: Sequence[int], jobs: int, limit_s: float) -> Iterator[Trial]:
         for seed in seeds:
             seeds_run.append(seed)
             yield good(seed, wiping(tilt_rms_deg=0.9 if seed == TILTED else 0.1))
@@ -105,7 +107,7 @@ def test_a_page_that_cannot_be_written_hides_no_outcome(tmp_path: Path) -> None:
 
 
 def test_interrupted_it_keeps_what_is_done_and_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def interrupted(_prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
+    def interrupted(_prepare: Prepare, seeds: Sequence[int], jobs: int, limit_s: float) -> Iterator[Trial]:
         yield good(seeds[0])
         raise KeyboardInterrupt
 
@@ -113,6 +115,14 @@ def test_interrupted_it_keeps_what_is_done_and_says_so(monkeypatch: pytest.Monke
     result = run("clean_table", "-n", 3, "--out", tmp_path)
     assert result.exit_code == 3
     assert "interrupted" in result.stderr and "1 of 3 trials passed, 2 not done" in result.stdout
+
+
+def test_that_no_process_can_run_trials_is_one_clear_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(trial_runs, "run_in_processes", workers.run_in_processes)
+    monkeypatch.setattr(trial_runs, "TrialRunner", lambda _experiment: os._exit(5))
+    result = run("clean_table", "-n", 3, "--out", tmp_path)
+    assert result.exit_code == 1 and result.stdout == ""
+    assert result.stderr == "error: no process can run the trials: its process ended with code 5\n"
 
 
 @pytest.mark.parametrize(

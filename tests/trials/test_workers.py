@@ -8,12 +8,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
 
-from skillc_runtime.evaluation.trials.workers import run_in_processes
-from trials.runners import BROKEN, KILLED, Faulty, good
+from skillc_runtime.evaluation.trials.workers import PreparationError, Runner, run_in_processes
+from trials.runners import BROKEN, KILLED, Exits, FailsOnce, Faulty, Slow, Unprepared, Vanishes, Waits, good
 
 TESTS = Path(__file__).parents[1]
 PARENT = """
@@ -50,6 +51,40 @@ def test_every_seed_has_its_trial_whatever_happens_to_a_process() -> None:
     assert (trials[KILLED].status, trials[KILLED].reason) == ("crashed", "its process ended with signal 9")
     assert trials[BROKEN].status == "crashed"
     assert (trials[BROKEN].reason or "").startswith("ArithmeticError: nothing adds up (runners.py:")
+
+
+def test_a_trial_that_takes_too_long_is_ended_and_the_others_go_on(tmp_path: Path) -> None:
+    trials = {trial.seed: trial for trial in run_in_processes(partial(Slow, tmp_path), range(4), 2, limit_s=3.0)}
+    assert sorted(trials) == list(range(4))
+    assert (trials[BROKEN - 2].status, trials[BROKEN - 2].reason) == ("crashed", "it took longer than 3 s")
+    assert all(trials[seed] == good(seed) for seed in trials if seed != BROKEN - 2)
+
+
+@pytest.mark.parametrize(
+    ("prepare", "why"),
+    [
+        (Exits, "its process ended with code 5"),
+        (Unprepared, "FileNotFoundError: there is no scene (runners.py:"),
+        (Vanishes, "its process ended with signal 9"),
+    ],
+)
+def test_processes_that_die_at_their_start_end_the_series(prepare: Callable[[], Runner], why: str) -> None:
+    with pytest.raises(PreparationError) as error:
+        list(run_in_processes(prepare, range(50), 2))
+    assert str(error.value).startswith(why)
+
+
+def test_a_preparation_that_never_ends_ends_the_series(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("skillc_runtime.evaluation.trials.workers.PREPARATION_LIMIT_S", 0.1)
+    with pytest.raises(PreparationError, match=r"it took longer than 0\.1 s"):
+        list(run_in_processes(partial(Waits, 600.0), range(5), 2))
+
+
+def test_seeds_of_a_process_that_cannot_start_are_run_by_others(tmp_path: Path) -> None:
+    trials = list(run_in_processes(partial(FailsOnce, tmp_path), range(6), 2))
+    assert sorted(trial.seed for trial in trials) == list(range(6))
+    assert all(trial == good(trial.seed) for trial in trials)
+    assert len(list(tmp_path.iterdir())) > 1
 
 
 def test_no_seeds_need_no_process() -> None:

@@ -21,7 +21,7 @@ from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
 from skillc_runtime.evaluation.trials.journal import Heading, JournalError, TrialJournal, find_missing_seeds
 from skillc_runtime.evaluation.trials.series import Series, judge_series
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.workers import run_in_processes
+from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S, PreparationError, run_in_processes
 
 PAGE = "trials.html"
 StartMonitor: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[Trial], None]]]
@@ -30,19 +30,24 @@ StartMonitor: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[
 
 @dataclass(frozen=True, slots=True)
 class TrialRequest:
-    """The task of the trials, their disturbance and seeds, the number of parallel `jobs`, and the folder to write."""
+    """The task of the trials, their disturbance and seeds, the number of parallel `jobs`, and the folder to write.
+
+    `limit_s` is the time that one trial may take, in s of wall-clock time.
+    """
 
     reference: str
     disturbance: Disturbance
     seeds: Sequence[int]
     jobs: int
     out: Path | None
+    limit_s: float = TRIAL_LIMIT_S
 
 
 def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -> Series:
     """Run the trials that are not recorded yet; return all of them, judged. Ctrl-C ends the running ones.
 
-    RequestError, DiagnosticsError or ServiceError if the library, the scene or the folder cannot be used.
+    RequestError, DiagnosticsError or ServiceError if the library, the scene or the folder cannot be used, or if no
+    process can run trials.
     """
     library, task, scene = find_task_in_scene(request.reference)
     load_world(scene, library.vocabulary, reporter)
@@ -64,7 +69,7 @@ def _run(
         known = () if journal is None else journal.trials
         done = {trial.seed: trial for trial in known if trial.seed in request.seeds}
         left = find_missing_seeds(request.seeds, known)
-        trials = run_in_processes(partial(TrialRunner, experiment), left, request.jobs)
+        trials = run_in_processes(partial(TrialRunner, experiment), left, request.jobs, request.limit_s)
         with watch(experiment.task, len(done)) as show:
             for trial in _until_interrupted(trials, reporter):
                 done[trial.seed] = trial
@@ -85,11 +90,13 @@ def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
 
 
 def _until_interrupted(trials: Iterator[Trial], reporter: Reporter) -> Iterator[Trial]:
-    """Yield trials; on Ctrl-C end the running ones and report it."""
+    """Yield trials; on Ctrl-C end the running ones and report it. ServiceError if no process can run any."""
     try:
         yield from trials
     except KeyboardInterrupt:
         reporter.say("interrupted; with --out, the same command continues with the remaining trials")
+    except PreparationError as error:
+        raise ServiceError(f"no process can run the trials: {error}") from error
 
 
 @contextmanager

@@ -18,15 +18,9 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
+from skillc_runtime.execution.process_start import DEFAULT_START, StartMethod
 from skillc_runtime.execution.selection.preflight import preflight
-from skillc_runtime.execution.worker_process import (
-    DEFAULT_START,
-    POLL_S,
-    Died,
-    StartMethod,
-    WorkerProcess,
-    WorkerResult,
-)
+from skillc_runtime.execution.worker_process import Returned, WorkerProcess, WorkerResult
 from skillc_runtime.planning.arrangement import arrange_plan
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
@@ -35,6 +29,8 @@ from skillc_runtime.world.state.world_state import WorldState
 
 GRACE_S = 2.0
 """How long after its deadline a worker may take to answer that it found no plan in time, before it is killed."""
+POLL_S = 0.05
+"""The interval at which a wait looks whether planning was cancelled."""
 
 Answer: TypeAlias = PreparedTask | NotStarted
 
@@ -67,6 +63,7 @@ class PlanningJob:
             assignment, library, failures or FailedSteps(library), planners, self._cancel.limited(deadline_s)
         )
         self._worker = WorkerProcess(task, start)
+        self._worker.ask(None)
 
     def __enter__(self) -> PlanningJob:
         return self
@@ -96,11 +93,12 @@ class PlanningJob:
         """Wait for up to `seconds` for a result; end the worker if it may not go on."""
         if self._answer is None and (result := self._worker.wait(seconds)) is not None:
             self._answer = self._interpret(result)
+            self._worker.kill()
         elif (why := self._cancel.reason or self._deadline.reason) is not None:
             self.kill(why)
 
     def _interpret(self, result: WorkerResult) -> Answer:
-        if isinstance(result, Died):
+        if not isinstance(result, Returned):
             return NotStarted(f"planning failed: {result.why}")
         if isinstance(result.value, NotStarted):
             return result.value
@@ -144,6 +142,6 @@ class _PlanningTask:
     planners: Planners | None
     cancel: CancelToken
 
-    def __call__(self) -> _Planned | NotStarted:
+    def __call__(self, _request: None) -> _Planned | NotStarted:
         answer = replan_task(self.assignment, self.library, self.failures, self.planners, self.cancel)
         return answer if isinstance(answer, NotStarted) else _Planned(answer.body, answer.planned)

@@ -31,9 +31,23 @@ from skillc_runtime.evaluation.trials.trial import Disturbance
 @click.option(
     "--out", type=FOLDER, help="Record the trials in this folder; trials that are recorded there are not run again."
 )
+@click.option(
+    "--deadline",
+    type=click.FloatRange(min=1.0),
+    default=3600.0,
+    show_default=True,
+    help="Time limit of one trial, in seconds of wall-clock time.",
+)
 @json_option
 def command(
-    task: str, number: int, seed: int, jobs: int | None, disturb: Disturbance, out: Path | None, as_json: bool
+    task: str,
+    number: int,
+    seed: int,
+    jobs: int | None,
+    disturb: Disturbance,
+    out: Path | None,
+    deadline: float,
+    as_json: bool,
 ) -> int:
     """Run TASK (`LIBRARY:NAME`, or a shipped task) in simulation with -n successive seeds, starting at --seed.
 
@@ -48,7 +62,7 @@ def command(
         return TrialProgress(name, disturb, number, done, quiet=as_json)
 
     at_a_time = min(jobs or os.cpu_count() or 1, number)
-    request = TrialRequest(task, disturb, range(seed, seed + number), at_a_time, out)
+    request = TrialRequest(task, disturb, range(seed, seed + number), at_a_time, out, deadline)
     result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)

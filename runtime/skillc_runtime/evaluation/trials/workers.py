@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import threading
-import traceback
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from multiprocessing import get_context, parent_process
-from multiprocessing.connection import Connection, wait
-from multiprocessing.process import BaseProcess
-from pathlib import Path
-from typing import Protocol, TypeAlias, cast
+from typing import Protocol, TypeAlias
 
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.evaluation.trials.trial import Trial
+from skillc_runtime.execution.worker_process import Died, Returned, WorkerProcess, WorkerResult, wait_for_any
+
+PREPARATION_LIMIT_S = 600.0
+"""How long the preparation in a process may take: imports, loading the scene, planning."""
+
+TRIAL_LIMIT_S = 3600.0
+"""How long one trial may take, in s of wall-clock time."""
+
+MAX_FAILED_STARTS = 3
+"""How many preparations may fail in a row."""
 
 
 class Runner(Protocol):
@@ -26,95 +29,132 @@ class Runner(Protocol):
 
 
 Prepare: TypeAlias = Callable[[], Runner]
-"""Makes the runner in the worker process; it is pickled."""
+"""Makes the runner in the worker process."""
 
 
-class Worker:
-    """A worker process and the seed that it runs."""
+class PreparationError(Exception):
+    """No process can run trials; the message is the reason of the last one."""
+
+
+def run_in_processes(
+    prepare: Prepare, seeds: Sequence[int], jobs: int, limit_s: float = TRIAL_LIMIT_S
+) -> Iterator[Trial]:
+    """Yield the trials of all seeds as they finish, `jobs` at a time.
+
+    A trial that raises an exception, whose process dies, or that takes longer than `limit_s` is crashed; the others go
+    on in another process. PreparationError if no process can be prepared. Closing the iterator ends all processes.
+    """
+    pool = _Pool(prepare, seeds, jobs, limit_s)
+    try:
+        while pool.has_work:
+            pool.start_workers()
+            yield from pool.collect()
+    finally:
+        pool.close()
+
+
+class _Pool:
+    """The workers, and the seeds that none of them has been given."""
+
+    def __init__(self, prepare: Prepare, seeds: Sequence[int], jobs: int, limit_s: float) -> None:
+        self._prepare, self._jobs, self._limit_s = prepare, jobs, limit_s
+        self._left = deque(seeds)
+        self._workers: list[_Worker] = []
+        self._failed_starts, self._why = 0, ""
+
+    @property
+    def has_work(self) -> bool:
+        """Whether there are seeds without a trial."""
+        return bool(self._left) or any(each.seed is not None for each in self._workers)
+
+    def start_workers(self) -> None:
+        """Start as many workers as are useful, unless too many have failed in a row."""
+        if self._failed_starts >= MAX_FAILED_STARTS:
+            if not self._workers:
+                raise PreparationError(self._why)
+            return
+        prepared = sum(each.seed is not None for each in self._workers)
+        while len(self._workers) < min(self._jobs, prepared + len(self._left)):
+            self._workers.append(_Worker(self._prepare))
+
+    def collect(self) -> Iterator[Trial]:
+        """Wait for results; yield the trials that have ended, and give their workers the next seeds."""
+        wait_for_any([each.process for each in self._workers], min(each.left_s for each in self._workers))
+        for worker in tuple(self._workers):
+            if (result := worker.check()) is None:
+                continue
+            if worker.seed is not None:
+                yield _make_trial(worker.seed, result)
+            elif isinstance(result, Returned):
+                self._failed_starts = 0
+            else:
+                self._failed_starts, self._why = self._failed_starts + 1, result.why
+                self._remove(worker)
+                continue
+            self._continue(worker, result)
+
+    def close(self) -> None:
+        """End all workers."""
+        for each in self._workers:
+            each.process.kill()
+
+    def _continue(self, worker: _Worker, result: WorkerResult) -> None:
+        """Give a worker the next seed; end it if it has died, or if there is none."""
+        if self._left and not isinstance(result, Died):
+            worker.assign(self._left.popleft(), self._limit_s)
+        else:
+            self._remove(worker)
+
+    def _remove(self, worker: _Worker) -> None:
+        worker.process.kill()
+        self._workers.remove(worker)
+
+
+class _Worker:
+    """A process, and the seed that it runs; None while it prepares."""
 
     def __init__(self, prepare: Prepare) -> None:
-        context = get_context("spawn")
-        self.connection, remote = context.Pipe()
-        self._process: BaseProcess = context.Process(target=_serve, args=(prepare, remote), daemon=True)
-        self._process.start()
-        remote.close()
-        self._seed = 0
+        self.process = WorkerProcess(_Server(prepare))
+        self.seed: int | None = None
+        self._ask(None, PREPARATION_LIMIT_S)
 
-    def assign(self, seed: int) -> None:
+    def assign(self, seed: int, limit_s: float) -> None:
         """Start the trial of a seed."""
-        self._seed = seed
-        self.connection.send(seed)
+        self.seed = seed
+        self._ask(seed, limit_s)
 
-    def receive(self) -> tuple[Trial, bool]:
-        """Return the finished trial, and whether the process still runs."""
-        try:
-            return cast(Trial, self.connection.recv()), True
-        except EOFError:
-            self._process.join()
-            reason = f"its process ended with {_describe_exit(self._process.exitcode)}"
-            return Trial(seed=self._seed, status="crashed", reason=reason), False
+    @property
+    def left_s(self) -> float:
+        """The time that is left for what the process does, in s."""
+        return self._deadline.remaining_s
 
-    def terminate(self) -> None:
-        """End the process."""
-        self._process.terminate()
-        self._process.join()
-        self.connection.close()
+    def check(self) -> WorkerResult | None:
+        """Return the result, if there is one or the time is up."""
+        result = self.process.poll()
+        if result is None and self.left_s <= 0.0:
+            self.process.kill()
+            return Died(f"it took longer than {self._limit_s:g} s")
+        return result
 
-
-def run_in_processes(prepare: Prepare, seeds: Sequence[int], jobs: int) -> Iterator[Trial]:
-    """Yield the trials of all seeds as they finish, `jobs` at a time; a process that dies fails only one trial.
-
-    Closing the iterator ends all processes.
-    """
-    left = deque(seeds)
-    workers: dict[Connection, Worker] = {}
-    try:
-        while left or workers:
-            while left and len(workers) < jobs:
-                worker = Worker(prepare)
-                workers[worker.connection] = worker
-                worker.assign(left.popleft())
-            for connection in wait(list(workers)):
-                trial, alive = workers[cast(Connection, connection)].receive()
-                if alive and left:
-                    workers[cast(Connection, connection)].assign(left.popleft())
-                else:
-                    workers.pop(cast(Connection, connection)).terminate()
-                yield trial
-    finally:
-        for worker in workers.values():
-            worker.terminate()
+    def _ask(self, request: int | None, limit_s: float) -> None:
+        self._limit_s, self._deadline = limit_s, CancelToken(limit_s)
+        self.process.ask(request)
 
 
-def _serve(prepare: Prepare, connection: Connection) -> None:
-    """Run the seeds that arrive on a connection, until it is closed."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-    runner: Runner | None = None
-    while True:
-        try:
-            seed = connection.recv()
-        except EOFError:
-            return
-        try:
-            runner = runner or prepare()
-            trial = runner.run(seed)
-        except Exception as error:  # noqa: BLE001  the process's boundary: the other trials go on
-            trial = Trial(seed=seed, status="crashed", reason=_describe_error(error))
-        connection.send(trial)
+class _Server:
+    """Prepares for the request None, and then runs the trial of each seed that is requested."""
+
+    def __init__(self, prepare: Prepare) -> None:
+        self._prepare = prepare
+        self._runner: Runner | None = None
+
+    def __call__(self, seed: int | None) -> Trial | None:
+        self._runner = self._runner or self._prepare()
+        return None if seed is None else self._runner.run(seed)
 
 
-def _end_with_parent() -> None:
-    parent = parent_process()
-    assert parent is not None
-    parent.join()
-    os._exit(1)
-
-
-def _describe_error(error: Exception) -> str:
-    place = traceback.extract_tb(error.__traceback__)[-1]
-    return f"{type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
-
-
-def _describe_exit(code: int | None) -> str:
-    return f"signal {-code}" if code is not None and code < 0 else f"code {code}"
+def _make_trial(seed: int, result: WorkerResult) -> Trial:
+    if not isinstance(result, Returned):
+        return Trial(seed=seed, status="crashed", reason=result.why)
+    trial: Trial = result.value
+    return trial
