@@ -123,9 +123,7 @@ class Attempt:
             self._halt_if_invalid()
         if self.tree.status is Status.RUNNING:
             return
-        if self.ticking:
-            self.ticking = False
-            self._context.emit_notes(self._context.backend.secure(devices))
+        self._secure(devices)
         backend, limit = self._context.backend, round(SETTLE_S / TICK_S)
         if backend.broken is not None or backend.is_at_rest(devices) or self._settling_ticks >= limit:
             self.tree.check_devices()
@@ -135,6 +133,11 @@ class Attempt:
     def halt(self, reason: str) -> None:
         """Halt the tree; the attempt ends when everything is at rest."""
         self.tree.halt(reason)
+
+    def end_at_once(self, devices: frozenset[str] | None) -> None:
+        """End after `halt` without waiting until `devices`, all if None, are at rest."""
+        self._secure(devices)
+        self.ended = True
 
     def invalidate(self, reason: str) -> None:
         """Halt the tree because its plan is not to be followed any more."""
@@ -147,6 +150,12 @@ class Attempt:
         return AttemptResult(
             self.prepared, tree.status, tree.failure, tree.outcome, tree.last_node, self._invalidated, tree.claims
         )
+
+    def _secure(self, devices: frozenset[str] | None) -> None:
+        """Secure devices once, after the tree has ended."""
+        if self.ticking:
+            self.ticking = False
+            self._context.emit_notes(self._context.backend.secure(devices))
 
     def _halt_if_invalid(self) -> None:
         """Halt the tree if the world has changed so that the plan no longer leads to the goal."""

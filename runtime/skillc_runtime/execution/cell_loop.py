@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import count
-from queue import Empty, Full, Queue
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
@@ -62,8 +62,8 @@ class CellLoop:
     runs: list[TaskRun] = field(default_factory=list)
     ticks: int = 0
     _claims: DeviceClaims = field(default_factory=DeviceClaims)
-    _requests: Queue[Request] = field(default_factory=lambda: Queue(MAX_REQUESTS))
-    _stops: dict[str | None, str] = field(default_factory=dict)
+    _requests: deque[Request] = field(default_factory=deque)
+    _stops: deque[Request] = field(default_factory=deque)
     _numbers: count[int] = field(default_factory=lambda: count(1))
 
     def submit(
@@ -97,17 +97,17 @@ class CellLoop:
         """Give a command to a run in the next tick. TooManyRequests if as many as possible wait; a stop always goes."""
         request = Request(run, command)
         if isinstance(command, Stop):
-            self.stop(command.reason, run)
-            return request
-        try:
-            self._requests.put_nowait(request)
-        except Full:
-            raise TooManyRequests(f"{MAX_REQUESTS} requests wait for the next tick; try again later") from None
+            self._stops.append(request)
+        elif len(self._requests) < MAX_REQUESTS:
+            self._requests.append(request)
+        else:
+            raise TooManyRequests(f"{MAX_REQUESTS} requests wait for the next tick; try again later")
         return request
 
     def stop(self, reason: str, run: TaskRun | None = None) -> None:
         """Stop a run in the next tick, or all."""
-        self._stops[None if run is None else run.id] = reason
+        for each in tuple(self.runs) if run is None else (run,):
+            self._stops.append(Request(each, Stop(reason)))
 
     def tick(self) -> bool:
         """Do one tick; return whether anything happened. If not, at most planning goes on, and time stands still."""
@@ -128,25 +128,18 @@ class CellLoop:
             waiting.wait(seconds)
 
     def close(self, reason: str) -> None:
-        """End all runs at once, because the program ends."""
+        """End all runs at once, because the program ends; requests that still wait are refused."""
         for run in self.runs:
-            run.close(reason)
+            self._stops.append(Request(run, Stop(reason, at_once=True)))
+        self._take_requests()
         self.runs = []
 
     def _take_requests(self) -> bool:
-        """Give the stops, then the requests that wait to their runs; return whether there were any."""
-        stops, self._stops = self._stops, {}
-        for run in self.runs if stops else ():
-            reason = stops.get(run.id, stops.get(None))
-            if reason is not None:
-                run.request(Stop(reason), self.ticks)
-        waiting = self._requests.qsize()
-        for _ in range(waiting):
-            try:
-                self._requests.get_nowait().answer(self.ticks)
-            except Empty:
-                break
-        return bool(stops) or waiting > 0
+        """Give the stops, then the other requests that wait now, to their runs; return whether there were any."""
+        waiting = (*_take_all(self._stops), *_take_all(self._requests))
+        for request in waiting:
+            request.answer(self.ticks)
+        return bool(waiting)
 
     def _advance(self) -> None:
         """Let time pass; an error of the cell fails all runs."""
@@ -157,3 +150,8 @@ class CellLoop:
                 run.abort(error)
         for hook in self.after_tick:
             hook()
+
+
+def _take_all(requests: deque[Request]) -> Iterable[Request]:
+    """Take those that are in the queue now; others may be added meanwhile, by other threads or signal handlers."""
+    return [requests.popleft() for _ in range(len(requests))]

@@ -98,7 +98,8 @@ class NextAttempt:
     ) -> PreparedTask | DevicesBusy | Outdated:
         """Return the prepared task if it works in `state`, the present one, and its devices are free: `run` has them.
 
-        It still waits if devices are busy, and is discarded if it does not work any more.
+        It still waits if devices are busy, and then the run holds none, so that no two wait for each other; it is
+        discarded if it does not work any more.
         """
         prepared = self.prepared
         assert prepared is not None, "nothing is prepared"
@@ -110,6 +111,7 @@ class NextAttempt:
             self.prepared = prepared = replace(prepared, assignment=replace(prepared.assignment, state=state))
         holder = claims.claim(run, find_claim(prepared.body, state))
         if holder is not None:
+            claims.release(run)
             return DevicesBusy(holder)
         self.prepared = None
         return prepared

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
+
+from msgspec import structs
 
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
@@ -21,7 +24,7 @@ from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import DevicesBusy, NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, RunSettings, refusal
-from skillc_runtime.execution.world_edit import edit_world
+from skillc_runtime.execution.world_edit import edit_world, recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording import commands
@@ -29,7 +32,6 @@ from skillc_runtime.recording.events import Event, Replanned, Requested, StateCh
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, assumed_facts
 from skillc_runtime.recording.states import EndState, State
-from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.transactions import StoreError
 
 
@@ -73,8 +75,8 @@ class TaskRun:
 
     @property
     def needs_time(self) -> bool:
-        """Whether the clock of the cell must go on for this run: not while it only plans, or waits to begin."""
-        return self._attempt is not None
+        """Whether the clock of the cell must go on for this run: not while it only plans, or waits for devices."""
+        return self._attempt is not None or self.state in ("planned", "paused")
 
     @property
     def waits_for_decision(self) -> bool:
@@ -95,24 +97,23 @@ class TaskRun:
         """Do what is requested in a tick of the loop; return why not if it is refused, and nothing has changed."""
         if self.ended:
             return refusal(command, self.state, ())
-        refused = refusal(command, self.state, self.allowed)
-        if refused is None and (why := self._obey(command)) is not None:
-            refused = Refusal(command.name, self.state, self.allowed, why)
+        refused = refusal(command, self.state, self.allowed) or self._try(command)
         self._emit(Requested(time=self._now, command=command, tick=tick, refused=str(refused or "")))
-        self._settle_state()
+        if refused is None:
+            self._obey(command)
+            self._settle_state()
         return refused
 
     def tick(self, tick: int) -> bool:
         """Do the work of one tick of the loop, whose number is `tick`; return whether anything happened."""
         before = self.state
-        self._check_deadline()
+        self._check_limits()
         if self.state == "queued":
             self._begin() if self._next.prepared is not None else self._prepare()
-        if self.state == "planning":
-            self._take_preparation(tick)
+        arrived = self.state == "planning" and self._take_preparation(tick)
         if self._attempt is not None:
             self._tick_attempt(self._attempt)
-        return self._attempt is not None or self.state != before
+        return arrived or self._attempt is not None or self.state != before
 
     def abort(self, error: BaseException) -> None:
         """Fail because of an error of the cell."""
@@ -124,14 +125,6 @@ class TaskRun:
         if self._next.preparation is not None:
             self._next.preparation.wait(seconds)
 
-    def close(self, reason: str) -> None:
-        """End at once, because the program ends: the devices are secured, but nobody waits until they are at rest."""
-        if not self.ended:
-            self._stop("stopped", Failure(kind="halted", message=reason))
-            if self._attempt is not None:
-                self._context.backend.secure(self._devices)
-                self._finish("stopped", Failure(kind="halted", message=reason))
-
     @property
     def _now(self) -> float:
         return self._context.backend.clock.now
@@ -140,37 +133,47 @@ class TaskRun:
     def _devices(self) -> frozenset[str] | None:
         return self._claims.devices_of(self.id)
 
-    def _obey(self, command: commands.Command) -> str | None:
-        """Do what an allowed command says; return why it is not possible, if so."""
+    def _obey(self, command: commands.Command) -> None:
+        """Do what an allowed command says, after `_try`."""
         match command:
-            case commands.Stop(reason=reason):
+            case commands.Stop(reason=reason, at_once=at_once):
                 self._stop("stopped", Failure(kind="halted", message=reason))
-            case commands.Approve():
-                self._enter("queued", "approved")
+                if at_once and self._attempt is not None:
+                    self._attempt.end_at_once(self._devices)
+                    self._end_attempt(self._attempt)
+            case commands.Approve() | commands.Retry() | commands.Skip():
+                self._enter("queued", command.name)
             case commands.Replan():
-                return self._replan()
-            case commands.Retry() | commands.Skip() | commands.EditWorld():
-                return self._try(command)
+                self._context.gate.open()
+                if self._attempt is not None:
+                    self._attempt.invalidate("another plan was requested")
+                else:
+                    self._prepare()
+            case commands.EditWorld():
+                pass
             case _:
                 assert self._attempt is not None, "a pause concerns what runs"
                 self._pause.obey(command, self._attempt.tree)
-        return None
 
-    def _try(self, command: commands.Retry | commands.Skip | commands.EditWorld) -> str | None:
-        """Do what may turn out to be impossible; return why, and then nothing has changed."""
+    def _try(self, command: commands.Command) -> Refusal | None:
+        """Do the part of a command that may turn out to be impossible; return why, and then nothing has changed."""
         world, library = self._context.backend.cell.world, self._context.library
         try:
             match command:
                 case commands.EditWorld():
-                    edit_world(world, command)
-                    return None
+                    tree_runs = self._attempt is not None and self._attempt.tree.status is Status.RUNNING
+                    with nullcontext() if tree_runs else recorded_changes(world, self._emit, self._now):
+                        edit_world(world, command)
                 case commands.Skip(who=who, why=why):
-                    self._next.prepared = skip_failed_step(self.attempts[-1], library, world, f"{who}: {why}")
+                    with recorded_changes(world, self._emit, self._now):
+                        self._next.prepared = skip_failed_step(self.attempts[-1], library, world, f"{who}: {why}")
                 case commands.Retry():
                     self._next.prepared = continue_plan(self.attempts[-1], library, world.snapshot())
-        except (PlanError, WorldError, StoreError) as error:
-            return str(error)
-        self._enter("queued", command.name)
+                    self._context.failures.forget(self.attempts[-1].steps_with_status("failure"))
+                case commands.Replan() if not isinstance(self.assignment.objective, AchieveGoal):
+                    raise PlanError("only a goal can be planned for again")
+        except (PlanError, StoreError, ValueError) as error:  # refused by the plan, by the store, or by the world model
+            return Refusal(command.name, self.state, self.allowed, str(error))
         return None
 
     def _prepare(self) -> None:
@@ -179,10 +182,11 @@ class TaskRun:
         assignment = replace(self.assignment, state=self._context.backend.cell.world.snapshot())
         self._next.plan(assignment, self._context.failures)
 
-    def _take_preparation(self, tick: int) -> None:
+    def _take_preparation(self, tick: int) -> bool:
+        """Take the answer of the preparation if it has arrived."""
         answer = self._next.take()
         if answer is None:
-            return
+            return False
         self._emit(make_arrival_event(answer, self._context.library, self._now, tick))
         if isinstance(answer, NotStarted):
             reason, last = answer.reason, self.attempts[-1] if self.attempts else None
@@ -191,6 +195,7 @@ class TaskRun:
             self._enter("planned", "waits for approval")
         else:
             self._begin()
+        return True
 
     def _begin(self) -> None:
         """Begin an attempt if the plan still works and its devices are free; else plan again, or wait."""
@@ -223,9 +228,12 @@ class TaskRun:
             self._pause.follow(attempt.tree)
             self._settle_state()
         elif attempt.ended:
-            self._attempt = None
-            self.attempts.append(attempt.result())
-            self._conclude(self.attempts[-1])
+            self._end_attempt(attempt)
+
+    def _end_attempt(self, attempt: Attempt) -> None:
+        self._attempt = None
+        self.attempts.append(attempt.result())
+        self._conclude(self.attempts[-1])
 
     def _conclude(self, last: AttemptResult) -> None:
         """Decide how to go on after an attempt."""
@@ -244,35 +252,28 @@ class TaskRun:
             case Ended(state, failure):
                 return self._finish(state, failure)
 
-    def _replan(self) -> str | None:
-        """Halt what runs, and plan again; return why that is not possible, if so."""
-        if not isinstance(self.assignment.objective, AchieveGoal):
-            return "only a goal can be planned for again"
-        self._context.gate.open()
-        if self._attempt is not None:
-            self._attempt.invalidate("another plan was requested")
-        else:
-            self._prepare()
-        return None
-
-    def _check_deadline(self) -> None:
-        limit = self._settings.deadline_s
-        if limit is not None and self._ending is None and self._now - self._submitted_at >= limit and not self.ended:
-            message = f"the task did not end within its deadline of {limit:g} s"
-            self._stop("failed", Failure(kind="timeout", message=message))
+    def _check_limits(self) -> None:
+        """Fail if the deadline has passed, or if the cell is broken before an attempt has begun."""
+        limit, broken = self._settings.deadline_s, self._context.backend.broken
+        if self.ended or self._ending is not None:
+            return
+        if limit is not None and self._now - self._submitted_at >= limit:
+            self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
+        elif broken is not None and self._attempt is None:
+            self._stop("failed", Failure(kind="error", message=broken))
 
     def _stop(self, state: EndState, failure: Failure) -> None:
         """Halt everything; the run ends when its devices are at rest."""
         if self._ending is not None:
-            return None
+            return
         self._context.gate.open()
         self._ending = Ending(state, failure)
         self._next.discard()
         if self._attempt is None:
-            return self._finish(state, failure)
+            self._finish(state, failure)
+            return
         self._enter("stopping", failure.message)
         self._attempt.halt(failure.message)
-        return None
 
     def _finish(self, state: EndState, failure: Failure | None) -> None:
         world = self._context.backend.cell.world
@@ -281,16 +282,8 @@ class TaskRun:
         self.state = self.end = state
         self.reason, self.failure = failure.message if failure else "", failure
         self.facts = collect_facts(self.attempts[-1], world) if state == "succeeded" else ()
-        self._emit(
-            TaskEnded(
-                time=self._now,
-                task=self.assignment.name,
-                status=state,
-                failure=failure,
-                verified=self.verified,
-                facts=self.facts,
-            )
-        )
+        event = TaskEnded(time=self._now, task=self.assignment.name, status=state, failure=failure)
+        self._emit(structs.replace(event, verified=self.verified, facts=self.facts))
 
     def _settle_state(self) -> None:
         """Take over how far a pause is."""

@@ -35,7 +35,7 @@ TRANSITIONS: dict[State, frozenset[State]] = {
     "planned": frozenset({"queued", "planning", "running", "stopping", "stopped", "failed"}),
     "running": frozenset({"planning", "pausing", "paused", "stopping", "succeeded", "failed"}),
     "pausing": frozenset({"planning", "paused", "running", "stopping", "succeeded", "failed"}),
-    "paused": frozenset({"planning", "running", "pausing", "stopping", "failed"}),
+    "paused": frozenset({"queued", "planning", "running", "pausing", "stopping", "stopped", "failed"}),
     "stopping": frozenset({"stopped", "failed"}),
     "succeeded": frozenset(),
     "failed": frozenset(),

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from skillc_runtime.execution.tree.event_factory import make_change_event
 from skillc_runtime.recording.commands import EditWorld
+from skillc_runtime.recording.events import Listener
 from skillc_runtime.world.state.labelled_reading import change_of
 from skillc_runtime.world.state.model import WorldModel
 
@@ -10,3 +15,13 @@ from skillc_runtime.world.state.model import WorldModel
 def edit_world(world: WorldModel, edit: EditWorld) -> None:
     """Make the changes in one transaction; WorldError or StoreError if they are refused, and then none is made."""
     world.commit([change_of(each) for each in edit.changes], f"{edit.who}: {edit.why}", None)
+
+
+@contextmanager
+def recorded_changes(world: WorldModel, emit: Listener, now: float) -> Iterator[None]:
+    """Emit an event for each change of the world, at the time `now` in s of the cell; a running tree does it itself."""
+    stop_listening = world.subscribe(lambda change: emit(make_change_event(change, now)))
+    try:
+        yield
+    finally:
+        stop_listening()

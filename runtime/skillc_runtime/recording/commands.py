@@ -43,9 +43,10 @@ class StepOut(_Command, tag="step-out", frozen=True):
 
 
 class Stop(_Command, tag="stop", frozen=True):
-    """Halt everything and end."""
+    """Halt everything, and end when everything is at rest; `at_once` because the program ends."""
 
     reason: str = "stopped"
+    at_once: bool = False
 
 
 class Retry(_Command, tag="retry", frozen=True):

@@ -52,6 +52,10 @@ class FailedSteps:
         named = {name: value for name, value in arguments.items() if isinstance(value, str)}
         self._failed.append(FailedStep(Step(skill, named), implementation, state, reason))
 
+    def forget(self, steps: Sequence[Step]) -> None:
+        """Let steps be tried again, because somebody has decided so."""
+        self._failed = [each for each in self._failed if each.step not in steps]
+
     def reason_to_skip(
         self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState
     ) -> str | None:

@@ -80,9 +80,9 @@ class Gate:
 
     def step(self, kind: StepKind, active: Iterable[Call]) -> None:
         """Open, and hold back the call after a step; `active` are the innermost active calls."""
-        around = set(map(id, self._calls_to_finish(kind, tuple(active))))
+        around = tuple(self._calls_to_finish(kind, tuple(active)))
         self.open()
-        self._step = lambda call: not any(id(each) in around for each in call.enclosing_calls())
+        self._step = lambda call: not any(each is one for each in call.enclosing_calls() for one in around)
 
     def stops(self, call: Call) -> bool:
         """Tell whether a call must wait before it starts; it is in `waiting` then."""
