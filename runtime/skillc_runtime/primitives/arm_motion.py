@@ -8,6 +8,7 @@ from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.time_limits import STANDSTILL_S
 from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
@@ -25,10 +26,12 @@ class ArmMotion(Primitive):
         super().__init__(cell)
         self.arm: ArmDriver = cell.arm(arm)
         self._ended: float | None = None
+        self._moved_at = 0.0
 
     def start(self) -> None:
         """Start the motion; SkillFailure for a fault of the arm that was not reported yet."""
         raise_fault(self.arm)
+        self._moved_at = self.cell.now
         try:
             self.start_motion()
         except Infeasible as why:
@@ -39,9 +42,10 @@ class ArmMotion(Primitive):
         raise NotImplementedError
 
     def tick(self) -> Status:
-        """Return SUCCESS when the arm has arrived."""
+        """Return SUCCESS when the arm has arrived; SkillFailure for a fault, or if it does not arrive in time."""
         raise_fault(self.arm)
         if not self.arm.motion.done:
+            self._check_progress()
             return Status.RUNNING
         error = self.arm.motion.tracking_error_message
         if error is None:
@@ -50,6 +54,15 @@ class ArmMotion(Primitive):
         if self.cell.now - self._ended > MAX_SETTLING_S:
             raise SkillFailure(error)
         return Status.RUNNING
+
+    def _check_progress(self) -> None:
+        """Raise SkillFailure if the motion has not ended and stands still for too long."""
+        now = self.cell.now
+        if not self.arm.motion.stationary:
+            self._moved_at = now
+        elif now - self._moved_at > STANDSTILL_S:
+            standing = Quantity(STANDSTILL_S, "s")
+            raise SkillFailure("the arm has stood still for {standing} before the end of its motion", standing=standing)
 
     def halt(self, reason: str) -> None:
         """Stop the arm."""

@@ -13,6 +13,7 @@ from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.surface_location import write_surface_pose
+from skillc_runtime.primitives.time_limits import approach_limit_s
 from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ class Push(Primitive):
         self.arm = cell.arm(arm)
         self._push = GuardedPush(along, force, approach, Travel(travel))
         self._progress: PushProgress | None = None
-        self._taken_off = False
+        self._taken_off, self._ends = False, 0.0
 
     def start(self) -> None:
         """Begin the approach."""
@@ -99,12 +100,19 @@ class Push(Primitive):
                 force=Quantity(self._push.force_n, "N"),
                 limit=Quantity(greatest_n, "N"),
             )
+        if self._push.approach_m_s <= 0.0:
+            raise SkillFailure("a tool approaches with more than 0 m/s, else it touches nothing")
+        self._ends = self.cell.now + approach_limit_s(self._push.travel.distance_m, self._push.approach_m_s)
         self._progress = compliance.start_push(self._push)
 
     def tick(self) -> Status:
-        """Return SUCCESS once the tool presses with the force."""
+        """Return SUCCESS once the tool presses with the force; SkillFailure if it does not touch anything in time."""
         raise_fault(self.arm)
-        return Status.SUCCESS if self._presses() else Status.RUNNING
+        if self._presses():
+            return Status.SUCCESS
+        if self.cell.now > self._ends:
+            raise SkillFailure("the tool neither touches anything nor gets anywhere: it does not come to rest")
+        return Status.RUNNING
 
     def release(self) -> None:
         """Stop pushing."""

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.fact_monitor import base_away_from
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.time_limits import drive_limit_s
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import AddRelation
+from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import AT
 
 
@@ -16,20 +20,39 @@ class DriveBase(Primitive):
     def __init__(self, cell: Cell, *, robot: str, to: str) -> None:
         super().__init__(cell)
         self._base, self._robot, self._to = cell.base(robot), robot, to
+        self._limit_s = self._ends = 0.0
 
     def start(self) -> None:
         """Start driving."""
-        self._base.drive_to(pose(self.cell.world.snapshot(), self._to))
+        state = self.cell.world.snapshot()
+        goal = pose(state, self._to)
+        far = float(np.linalg.norm(goal.position[:2] - self._base.pose.position[:2]))
+        self._limit_s = drive_limit_s(state, self._robot, far)
+        self._ends = self.cell.now + self._limit_s
+        self._base.drive_to(goal)
 
     def tick(self) -> Status:
-        """Return SUCCESS when the base has arrived; SkillFailure if it reports another place."""
+        """Return SUCCESS when the base has arrived; SkillFailure if it reports another place, or does not arrive."""
         if not self._base.done:
+            if self.cell.now > self._ends:
+                raise self._absence()
             return Status.RUNNING
         elsewhere = base_away_from(self.cell, self._robot, self._to, self.cell.world.snapshot())()
         if elsewhere is not None:
             raise SkillFailure(elsewhere)
         self.cell.world.commit([AddRelation(self._robot, AT, self._to)], "DriveBase", "reported")
         return Status.SUCCESS
+
+    def _absence(self) -> SkillFailure:
+        state = self.cell.world.snapshot()
+        away = pose(state, self._to).position[:2] - self._base.pose.position[:2]
+        return SkillFailure(
+            "{robot} has not arrived at {to} within {limit:.0f}: it is {away:.2f} away from there",
+            robot=label(self._robot, state.vocabulary),
+            to=label(self._to, state.vocabulary),
+            limit=Quantity(self._limit_s, "s"),
+            away=Quantity(float(np.linalg.norm(away)), "m"),
+        )
 
     def halt(self, reason: str) -> None:
         """Brake."""

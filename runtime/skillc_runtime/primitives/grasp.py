@@ -6,6 +6,7 @@ from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import placement_changes, pose, size
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.state.labelled import Quantity, label
@@ -63,7 +64,7 @@ class Release(Primitive):
         super().__init__(cell)
         self._arm, self._gripper = cell.arm(arm), cell.gripper(gripper)
         self._hand, self._object, self._to = gripper, object, to
-        self._free_at_m = self._opening = 0.0
+        self._free_at_m = self._opening = self._limit_s = self._ends = 0.0
         self._face, self._freed = Pose.of((0.0, 0.0, 0.0)), False
 
     def start(self) -> None:
@@ -77,14 +78,25 @@ class Release(Primitive):
         width = state.value(self._object, GRASP_WIDTH)
         opening = RELEASE_CLEARANCE_M + (width if isinstance(width, float) else self._gripper.opening_m)
         self._opening = min(opening, self._gripper.max_opening_m)
-        self._gripper.move(self._opening, self._gripper.max_force_n)
+        self._limit_s = finger_limit_s(state, self._hand, self._gripper.max_opening_m)
+        self._move()
 
     def tick(self) -> Status:
-        """Detach the object once it is free; return SUCCESS when the fingers are open."""
+        """Detach the object once it is free; return SUCCESS when the fingers are open.
+
+        SkillFailure if they do not come to rest, or the object is not free then.
+        """
         if not self._freed and self._gripper.opening_m >= self._free_at_m:
             self._detach()
-        if self._gripper.moving:
+        if self._gripper.moving and self.cell.now <= self._ends:
             return Status.RUNNING
+        if self._gripper.moving:
+            raise SkillFailure(
+                "the fingers of {gripper} have not come to rest within {limit:.1f}: they are {opening:.0f mm} open",
+                gripper=label(self._hand, self.cell.world.snapshot().vocabulary),
+                limit=Quantity(self._limit_s, "s"),
+                opening=Quantity(self._gripper.opening_m, "m"),
+            )
         if not self._freed:
             words = self.cell.world.snapshot().vocabulary
             raise SkillFailure(
@@ -105,6 +117,10 @@ class Release(Primitive):
 
     def resume(self) -> None:
         """Open further."""
+        self._move()
+
+    def _move(self) -> None:
+        self._ends = self.cell.now + self._limit_s
         self._gripper.move(self._opening, self._gripper.max_force_n)
 
     def _detach(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
 
@@ -17,6 +18,7 @@ class ParallelGripper(Primitive):
         super().__init__(cell)
         self._gripper = cell.gripper(gripper)
         self._name, self._opening, self._force = gripper, opening, force
+        self._limit_s = self._ends = 0.0
 
     def start(self) -> None:
         """Start moving; SkillFailure if the fingers cannot open so far."""
@@ -27,6 +29,11 @@ class ParallelGripper(Primitive):
                 widest=Quantity(self._gripper.max_opening_m, "m"),
                 wanted=Quantity(self._opening, "m"),
             )
+        self._limit_s = finger_limit_s(self.cell.world.snapshot(), self._name, self._gripper.max_opening_m)
+        self._move()
+
+    def _move(self) -> None:
+        self._ends = self.cell.now + self._limit_s
         self._gripper.move(*self.command())
 
     @property
@@ -38,8 +45,13 @@ class ParallelGripper(Primitive):
         return self._opening, self._force
 
     def tick(self) -> Status:
-        """Return SUCCESS when the fingers are at rest; SkillFailure if they did not open as far as commanded."""
+        """Return SUCCESS when the fingers are at rest.
+
+        SkillFailure if they did not open as far as commanded, or do not come to rest.
+        """
         if self._gripper.moving:
+            if self.cell.now > self._ends:
+                raise self._restlessness()
             return Status.RUNNING
         opening = self._gripper.opening_m
         if opening < self._opening - TOLERANCE_M:
@@ -51,6 +63,16 @@ class ParallelGripper(Primitive):
             )
         return Status.SUCCESS
 
+    def _restlessness(self) -> SkillFailure:
+        return SkillFailure(
+            "the fingers of {gripper} have not come to rest within {limit:.1f}: they are {opening:.0f mm} open, not "
+            "{wanted:.0f mm}",
+            gripper=self._label,
+            limit=Quantity(self._limit_s, "s"),
+            opening=Quantity(self._gripper.opening_m, "m"),
+            wanted=Quantity(self._opening, "m"),
+        )
+
     def halt(self, reason: str) -> None:
         """Stop the fingers."""
         self._gripper.stop()
@@ -61,7 +83,7 @@ class ParallelGripper(Primitive):
 
     def resume(self) -> None:
         """Continue the motion."""
-        self._gripper.move(*self.command())
+        self._move()
 
 
 class ThreeFingerGripper(ParallelGripper):
