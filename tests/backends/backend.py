@@ -6,14 +6,20 @@ A new one, simulated or real, adds a function to `BACKENDS` that makes it; nothi
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from functools import partial
-from typing import Protocol
+from threading import RLock
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
 from simulation.cells import ARM, world
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.real_time.cell import DRIVER_PARTS, RealTimeCell
+from skillc_runtime.backends.real_time.locked import locked
+from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.arm import Arm
@@ -21,6 +27,8 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import COMPLIANT_CONTROLLER
+
+T = TypeVar("T")
 
 WALL_N_M, WALL_N_S_M = 4000.0, 40.0
 """Stiffness and damping of the wall."""
@@ -36,8 +44,8 @@ class Backend(Protocol):
         """Let time pass; the driver is stepped."""
         ...
 
-    def neglect(self, seconds: float) -> None:
-        """Let time pass in which nobody commands the arm."""
+    def watch(self, seconds: float, read: Callable[[], T], *, neglected: bool = False) -> list[T]:
+        """Let time pass; return what was read in each control period. Nobody commands the arm if it is neglected."""
         ...
 
     def put_wall(self, gap_m: float) -> Array:
@@ -49,51 +57,91 @@ class Backend(Protocol):
         """With how much the tool really presses on the wall."""
         ...
 
+    def at_once(self) -> AbstractContextManager[object]:
+        """Let no time pass within the block, but in `advance` and `watch`."""
+        ...
+
+    def close(self) -> None:
+        """End what runs in threads."""
+        ...
+
+
+class Wall:
+    """A force that a spring and a damper exert on the hand of an arm, in every step of a cell."""
+
+    def __init__(self, cell: ModelledCell[Any, Any], arm: ModelledArm, palm: str, gap_m: float) -> None:
+        self._period, self._arm, self._hand = cell.model.opt.timestep, arm, cell.data.body(palm)
+        tool = arm.base @ arm.state().tool
+        self.normal, self.force_n, self._depth = -tool.rotation[:, 2], 0.0, 0.0
+        self._place = float(self.normal @ tool.position) - gap_m
+
+    def step(self, now: float) -> None:
+        """Push at the tool centre point: a force at the hand's centre of mass and its moment."""
+        point = (self._arm.base @ self._arm.state().tool).position
+        depth = self._place - float(self.normal @ point)
+        damping = WALL_N_S_M * (depth - self._depth) / self._period
+        self.force_n, self._depth = max(0.0, WALL_N_M * depth + damping) if depth > 0 else 0.0, depth
+        force = self.force_n * self.normal
+        self._hand.xfrc_applied[:3], self._hand.xfrc_applied[3:] = force, np.cross(point - self._hand.xipos, force)
+
+
+class Reader:
+    """Reads something in every step of a cell."""
+
+    def __init__(self, read: Callable[[], Any]) -> None:
+        self._read, self.found = read, list[Any]()
+
+    def step(self, now: float) -> None:
+        self.found.append(self._read())
+
 
 class ModelBackend:
-    """The arm of a cell that is computed from a model.
+    """The arm of a cell that is computed from a model, in lock step or with a control thread."""
 
-    The wall is a force that a spring and a damper exert on the hand.
-    """
-
-    def __init__(self, cell: SimulatedCell | KinematicCell) -> None:
-        self._cell = cell
+    def __init__(self, cell: SimulatedCell | KinematicCell, clock: RealTimeCell | None = None) -> None:
+        self._cell, self._clock, self._lock = cell, clock, RLock() if clock is None else clock._lock
         facts = cell.scene.arms[0]
         assert facts.gripper is not None
-        self.arm = cell.arms[facts.individual]
+        self._palm = part_name(cell.scene.names[facts.gripper.individual], "palm")
+        self.arm = self._real_arm = cell.arms[facts.individual]
         self.driver = cell.arm(facts.individual)
-        self._hand = cell.data.body(part_name(cell.scene.names[facts.gripper.individual], "palm"))
-        self._normal, self._place, self.force_n = np.zeros(3), 0.0, 0.0
-        self._depth = 0.0
+        if clock is not None:
+            self.arm, self.driver = locked(self.arm, self._lock), locked(self.driver, self._lock, DRIVER_PARTS)
+        self._wall: Wall | None = None
+
+    @property
+    def force_n(self) -> float:
+        return 0.0 if self._wall is None else self._wall.force_n
 
     def advance(self, seconds: float) -> None:
-        period = self._cell.period_s
-        if not self._normal.any():
-            self._cell.advance(seconds)
-            return
-        for _ in range(round(seconds / period)):
-            self._press(period)
-            self._cell.advance(period)
+        (self._clock or self._cell).advance(seconds)
 
-    def neglect(self, seconds: float) -> None:
-        control, self._cell._control = self._cell._control, lambda *_: None  # type: ignore[method-assign]
-        self.advance(seconds)
-        self._cell._control = control  # type: ignore[method-assign]
+    def watch(self, seconds: float, read: Callable[[], T], *, neglected: bool = False) -> list[T]:
+        reader, control = Reader(read), self._cell._control
+        with self._lock:
+            self._add(reader)
+            if neglected:
+                self._cell._control = lambda *_: None  # type: ignore[method-assign]
+            self.advance(seconds)
+            self._cell.people = self._cell.people[:-1]
+            self._cell._control = control  # type: ignore[method-assign]
+        return reader.found
 
     def put_wall(self, gap_m: float) -> Array:
-        tool = self.arm.base @ self.arm.state().tool
-        self._normal = -tool.rotation[:, 2]
-        self._place = float(self._normal @ tool.position) - gap_m
-        return self._normal
+        with self._lock:
+            self._wall = Wall(self._cell, self._real_arm, self._palm, gap_m)
+            self._add(self._wall)
+        return self._wall.normal
 
-    def _press(self, period: float) -> None:
-        """Let the wall push at the tool centre point: a force at the hand's centre of mass and its moment."""
-        point = (self.arm.base @ self.arm.state().tool).position
-        depth = self._place - float(self._normal @ point)
-        self.force_n = max(0.0, WALL_N_M * depth + WALL_N_S_M * (depth - self._depth) / period) if depth > 0 else 0.0
-        self._depth = depth
-        force = self.force_n * self._normal
-        self._hand.xfrc_applied[:3], self._hand.xfrc_applied[3:] = force, np.cross(point - self._hand.xipos, force)
+    def at_once(self) -> AbstractContextManager[object]:
+        return self._lock
+
+    def close(self) -> None:
+        if self._clock is not None:
+            self._clock.close()
+
+    def _add(self, acting: Wall | Reader) -> None:
+        self._cell.people = (*self._cell.people, acting)  # type: ignore[assignment]
 
 
 def scene_with(scene: str, controller: str | None = None) -> WorldModel:
@@ -112,13 +160,21 @@ def kinematic(scene: str, controller: str | None = None) -> ModelBackend:
     return ModelBackend(KinematicCell(scene_with(scene, controller)))
 
 
+def real_time(scene: str, controller: str | None = None) -> ModelBackend:
+    """Return an arm without physics whose control periods run in a thread, at four times the pace of the wall clock."""
+    cell = KinematicCell(scene_with(scene, controller))
+    return ModelBackend(cell, RealTimeCell(cell, pace=4.0))
+
+
+ARMS = {
+    "iiwa14": ("iiwa_table",),
+    "ur5e": ("ur5e_whiteboard",),
+    "ur5e velocity": ("ur5e_whiteboard", "forward_dynamics_velocity"),
+    "panda": ("panda_desk",),
+}
+
 BACKENDS: dict[str, Callable[[], Backend]] = {
     f"{name} {arm}": partial(make, *how)
-    for name, make in (("mujoco", mujoco), ("kinematic", kinematic))
-    for arm, how in {
-        "iiwa14": ("iiwa_table",),
-        "ur5e": ("ur5e_whiteboard",),
-        "ur5e velocity": ("ur5e_whiteboard", "forward_dynamics_velocity"),
-        "panda": ("panda_desk",),
-    }.items()
+    for name, make in (("mujoco", mujoco), ("kinematic", kinematic), ("kinematic thread", real_time))
+    for arm, how in ARMS.items()
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import fields
 from typing import get_args
 
@@ -19,16 +20,18 @@ COMMANDS = {"torque": Torque, "position": JointPosition, "velocity": JointVeloci
 
 
 def _backends() -> list[object]:
-    """Return all of them; one of each mode is fast, the others belong to the simulations."""
-    return [pytest.param(name, marks=pytest.mark.sim if "panda" in name else ()) for name in sorted(BACKENDS)]
+    """Return all of them; one of each mode is fast, the others and most threads belong to the simulations."""
+    slow = ("panda", "thread ur5e velocity", "thread iiwa14")
+    return [pytest.param(n, marks=pytest.mark.sim if n.endswith(slow) else ()) for n in sorted(BACKENDS)]
 
 
 @pytest.fixture(params=_backends())
-def backend(request: pytest.FixtureRequest) -> Backend:
+def backend(request: pytest.FixtureRequest) -> Iterator[Backend]:
     made = BACKENDS[request.param]()
     made.driver.motion.hold_position()
     made.advance(0.02)
-    return made
+    yield made
+    made.close()
 
 
 def beside(backend: Backend, *way: float) -> Pose:
@@ -60,11 +63,7 @@ def test_nobody_can_change_what_was_measured(backend: Backend) -> None:
 
 
 def mean_force(backend: Backend, seconds: float = 0.1) -> float:
-    felt = []
-    for _ in range(round(seconds / 0.005)):
-        backend.advance(0.005)
-        felt.append(backend.force_n)
-    return float(np.mean(felt))
+    return float(np.mean(backend.watch(seconds, lambda: backend.force_n)))
 
 
 def test_what_it_says_of_itself_is_consistent(backend: Backend) -> None:
@@ -104,10 +103,7 @@ def test_stiffness_that_changes_in_contact_does_not_make_it_jump(backend: Backen
     press(backend, 10.0)
     before = mean_force(backend, 0.05)
     backend.driver.compliance.restore()
-    forces = []
-    for _ in range(150):
-        backend.advance(0.001)
-        forces.append(backend.force_n)
+    forces = backend.watch(0.15, lambda: backend.force_n)
     assert before == pytest.approx(10.0, rel=0.1)
     assert np.abs(np.diff([before, *forces])).max() < 1.5
     assert max(forces) < 12.0
@@ -139,26 +135,30 @@ def test_it_changes_its_mode_on_the_way_without_a_jump_and_rests_until_the_first
     driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     for mode in (*arm.capabilities.modes, before):
         backend.advance(0.25)
-        moving, speeds = arm.state().dq.copy(), []
-        arm.switch(mode)
-        for _ in range(200 if mode != before else 0):
-            backend.neglect(0.001)
-            speeds.append(arm.state().dq.copy())
-        assert arm.interface == mode
-        if speeds:
-            assert np.abs(moving).max() > 0.01
-            assert np.abs(np.diff([moving, *speeds], axis=0)).max() < 0.04, "rad/s from one period to the next"
-            assert np.abs(speeds[-1]).max() < 0.02
-            arm.switch(before)
-            backend.advance(0.1)
-            moving = arm.state().dq.copy()
+        with backend.at_once():
             arm.switch(mode)
-            arm.switch(before)
-            backend.neglect(0.04)
-            assert np.abs(arm.state().dq).max() < 0.3 * np.abs(moving).max(), "what was told before is forgotten"
+            assert arm.interface == mode
+            if mode != before:
+                check_change_of_mode(backend, mode, before)
     backend.advance(1.0)
     assert driver.motion.done
     assert driver.motion.tracking_error_message is None
+
+
+def check_change_of_mode(backend: Backend, mode: Mode, before: Mode) -> None:
+    """Check that an arm that was just switched, on its way, comes to rest; and forgets commands of both modes."""
+    arm = backend.arm
+    speeds = backend.watch(0.2, lambda: arm.state().dq.copy(), neglected=True)
+    assert np.abs(speeds[0]).max() > 0.01
+    assert np.abs(np.diff(speeds, axis=0)).max() < 0.04, "rad/s from one period to the next"
+    assert np.abs(speeds[-1]).max() < 0.02
+    arm.switch(before)
+    backend.advance(0.1)
+    moving = arm.state().dq.copy()
+    arm.switch(mode)
+    arm.switch(before)
+    backend.watch(0.04, arm.state, neglected=True)
+    assert np.abs(arm.state().dq).max() < 0.3 * np.abs(moving).max(), "what was told before is forgotten"
 
 
 def test_a_motion_of_the_joints_that_runs_into_something_does_not_press_ever_harder(backend: Backend) -> None:
@@ -182,11 +182,11 @@ def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(back
     driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     backend.advance(0.4)
     assert np.abs(driver.measured.velocity[:3]).max() > 0.1
-    backend.neglect(0.6)
+    backend.watch(0.6, driver.take_fault, neglected=True)
     stopped = backend.arm.state()
     assert np.abs(stopped.dq).max() < 0.02
     place = stopped.tool.position.copy()
-    backend.neglect(0.2)
+    backend.watch(0.2, driver.take_fault, neglected=True)
     assert np.abs(backend.arm.state().tool.position - place).max() < 1e-3
     speeds = []
     for _ in range(20):

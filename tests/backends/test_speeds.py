@@ -103,9 +103,9 @@ def test_what_is_no_number_makes_it_hold_and_not_drift() -> None:
     joints[:] = good
     assert len(speeds) == 1
     assert not speeds[0].any()
-    there.neglect(0.2)
+    there.watch(0.2, state, neglected=True)
     stopped = state().q.copy()
-    there.neglect(1.0)
+    there.watch(1.0, state, neglected=True)
     assert np.abs(state().q - stopped).max() < 1e-4
 
 

@@ -76,9 +76,9 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
                     self._lose(arm, gripper, gripper.holding, why)
 
     def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
-        """Stop an arm whose gripper has lost an object, and write the object's pose to the world model."""
+        """Stop an arm whose gripper has lost an object, and report the object's pose."""
         state, there = self._world.snapshot(), self._drivers[arm].measured.pose
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.lose()
         self._drivers[arm].abort(why)
-        self._world.commit(placement_changes(thing, left_at), why, "assumed")
+        self._report(placement_changes(thing, left_at), why, "assumed")

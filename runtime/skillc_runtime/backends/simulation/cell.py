@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any, Generic, TypeVar
 
 import mujoco
@@ -23,13 +23,15 @@ from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.changes import Change, SetProperty
+from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE
 
@@ -57,6 +59,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self.data: Any = mujoco.MjData(self.model)
         self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
         self._broken: str | None = None
+        self._reports: list[tuple[Sequence[Change], str, Evidence]] = []
         self.arms, self._hands = self._make_arms()
         self._grippers = {a.gripper.individual: self._hands[a.individual] for a in scene.arms if a.gripper}
         names = scene.names
@@ -139,18 +142,37 @@ class ModelledCell(ABC, Generic[A, G]):
     def advance(self, seconds: float) -> None:
         """Advance controllers and devices, step by step.
 
-        ControlError if a controller cannot continue, BackendBroken if the cell cannot; after that it never advances.
+        ControlError if a controller cannot continue, after the step in which its arm begins to hold still.
+        BackendBroken if the cell cannot; after that it never advances.
         """
-        if self._broken is not None:
-            raise BackendBroken(self._broken)
         try:
             for _ in range(round(seconds / self._timestep)):
                 self._advance_one()
-        except BackendBroken as error:
-            self._broken = str(error)
-            faults = [SetProperty(arm, DEVICE_STATE, "Fault") for arm in sorted(self._drivers)]
-            self._world.commit(faults, self._broken, "reported")
-            raise
+        finally:
+            self.publish()
+
+    def advance_period(self) -> None:
+        """Run one control period; errors as of `advance`, but the world model is not written: `publish` does."""
+        for _ in range(self._steps_per_command):
+            self._advance_one()
+
+    def hold_period(self) -> None:
+        """Let a control period pass without commands: arms hold still by themselves, grippers and bases stop."""
+        self._stop_devices()
+        for _ in range(self._steps_per_command):
+            self._move_devices(self.data.time)
+
+    def publish(self) -> None:
+        """Write to the world model what devices have reported since the last call."""
+        reports, self._reports = self._reports, []
+        for changes, origin, evidence in reports:
+            self._world.commit(changes, origin, evidence)
+
+    def stop_all(self, reason: str) -> None:
+        """Stop all devices; arms report the reason as a fault."""
+        for arm in self._drivers.values():
+            arm.abort(reason)
+        self._stop_devices()
 
     def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
         """Stop devices, all if None, and pushes, and restore releases; return what was not in order.
@@ -189,12 +211,34 @@ class ModelledCell(ABC, Generic[A, G]):
         """Move everything by one step that begins at `now` s, and observe it."""
 
     def _advance_one(self) -> None:
-        now = self.data.time
-        if self._step % self._steps_per_command == 0:
-            if self.watchdog.expired(now):
-                self._stop_all("the tree is not ticked any more")
-            for individual, one in self._drivers.items():
-                self._control(individual, one, now)
+        if self._broken is not None:
+            raise BackendBroken(self._broken)
+        try:
+            self._step_devices(self.data.time)
+        except BackendBroken as error:
+            self._broken = str(error)
+            self._report([SetProperty(arm, DEVICE_STATE, "Fault") for arm in sorted(self._drivers)], self._broken)
+            raise
+
+    def _step_devices(self, now: float) -> None:
+        errors = self._run_controllers(now) if self._step % self._steps_per_command == 0 else []
+        self._move_devices(now)
+        if errors:
+            raise errors[0]
+
+    def _run_controllers(self, now: float) -> list[ControlError]:
+        """Run a control period of all arms; return why some of them cannot continue. They hold still."""
+        if self.watchdog.expired(now):
+            self.stop_all("the tree is not ticked any more")
+        errors = []
+        for individual, arm in self._drivers.items():
+            try:
+                self._control(individual, arm, now)
+            except ControlError as error:
+                errors.append(error)
+        return errors
+
+    def _move_devices(self, now: float) -> None:
         for gripper in self._grippers.values():
             gripper.step(self._timestep)
         for arm in self.arms.values():
@@ -203,6 +247,10 @@ class ModelledCell(ABC, Generic[A, G]):
             person.step(now)
         self._move(now)
         self._step += 1
+
+    def _report(self, changes: Sequence[Change], origin: str, evidence: Evidence = "reported") -> None:
+        """Keep changes of the world model until they are published."""
+        self._reports.append((changes, origin, evidence))
 
     def _move_bases(self) -> None:
         """Move bases, and what the arms on them hold, by one step."""
@@ -218,18 +266,13 @@ class ModelledCell(ABC, Generic[A, G]):
                 self._hands[arm.individual].move_with_base(motion)
 
     def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
-        """Run a control period of one arm; write to the world model, once, that it is broken."""
+        """Run a control period of one arm; report, once, that it is broken."""
         worked = arm.broken is None
         try:
             arm.step(now)
         finally:
             if worked and arm.broken is not None:
-                self._world.commit([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken, "reported")
-
-    def _stop_all(self, reason: str) -> None:
-        for arm in self._drivers.values():
-            arm.abort(reason)
-        self._stop_devices()
+                self._report([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken)
 
     def _stop_devices(self, devices: Collection[str] | None = None) -> None:
         """Stop grippers and bases, all if None."""

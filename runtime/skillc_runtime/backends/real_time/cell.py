@@ -1,0 +1,212 @@
+"""Runs a simulated cell by the wall clock: a thread of its own runs the control periods, as that of a real robot does.
+
+One lock, held for a control period or for one call of a skill, keeps them apart: a skill that starts a motion needs the
+answer, such as `Infeasible`, so a mailbox would make it wait for the next period as well. Skills never run in this
+thread, and no lock is held between their calls: what they block does not stop the arms' controllers and watchdog.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from math import inf
+from threading import Condition, Event, RLock, Thread
+from time import monotonic
+from typing import Protocol
+
+from skillc_runtime.backends.real_time.locked import locked
+from skillc_runtime.control.controller import ControlError
+from skillc_runtime.devices.arm_driver import ArmDriver
+from skillc_runtime.devices.backend import BackendBroken
+from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.devices.cell import Cell, Watchdog
+from skillc_runtime.devices.gripper import Gripper
+from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.devices.sensors import Button, Camera
+from skillc_runtime.devices.simulation import Drawing, Simulation
+from skillc_runtime.world.state.model import WorldModel
+
+CATCH_UP_S = 0.1
+"""A thread that was not run in time runs the missed control periods at once, up to this time; more is lost."""
+
+SHORTEST_WAIT_S = 1e-4
+"""Time between two control periods, at least, in which others get the lock."""
+
+STALL_S = 5.0
+"""A control thread that has run no control period for this wall time is given up."""
+
+BRAKING_S = 2.0
+"""After a stop from outside, devices are commanded until they are at rest, or for this time; then they hold still."""
+
+DRIVER_PARTS = ("measured", "motion", "compliance")
+
+
+class LockStepCell(Simulation, Cell, Protocol):
+    """A simulated cell in lock step, one control period at a time."""
+
+    @property
+    def period_s(self) -> float:
+        """The control period in s."""
+        ...
+
+    def advance_period(self) -> None:
+        """Run one control period; ControlError or BackendBroken as `advance`, but the world model is not written."""
+        ...
+
+    def hold_period(self) -> None:
+        """Let a control period pass without commands: arms hold still by themselves, grippers and bases stop."""
+        ...
+
+    def publish(self) -> None:
+        """Write to the world model what devices have reported since the last call."""
+        ...
+
+    def stop_all(self, reason: str) -> None:
+        """Stop all devices; arms report the reason as a fault."""
+        ...
+
+
+class RealTimeCell:
+    """A cell whose time passes with the wall clock, implementing `Cell` and `Simulation`.
+
+    `advance` waits. If the machine is too slow, the cell's time falls behind the wall clock; no control period is left
+    out. The world model is only written in the threads that call `advance` and `close`.
+    """
+
+    def __init__(
+        self, cell: LockStepCell, stop_requested: Callable[[], bool] = lambda: False, pace: float = 1.0
+    ) -> None:
+        """Start the control thread.
+
+        `stop_requested` is asked in every control period, so that another process can stop all devices for good. pace:
+        s of the cell per s of the wall clock.
+        """
+        self._simulated, self._stop_requested, self._wall_period_s = cell, stop_requested, cell.period_s / pace
+        self._lock = RLock()
+        self._arrived = Condition(self._lock)
+        self._awaited, self._closing = 0.0, Event()
+        self._broken: str | None = None
+        self._error: ControlError | None = None
+        self._stopped_at: float | None = None
+        self.world: WorldModel = cell.world
+        self.watchdog: Watchdog = locked(cell.watchdog, self._lock)
+        self.ground_truth: GroundTruth = locked(cell.ground_truth, self._lock)
+        self.drawing: Drawing = locked(cell.drawing, self._lock)
+        self._thread = Thread(target=self._run, name="control", daemon=True)
+        self._thread.start()
+
+    @property
+    def now(self) -> float:
+        """The time in s since the cell started."""
+        return self._simulated.now
+
+    @property
+    def cell(self) -> RealTimeCell:
+        """The cell as skills see it."""
+        return self
+
+    @property
+    def clock(self) -> RealTimeCell:
+        """The clock of the cell."""
+        return self
+
+    @property
+    def broken(self) -> str | None:
+        """Why the cell cannot go on; None while it can."""
+        return self._broken
+
+    def arm(self, individual: str) -> ArmDriver:
+        """Return an arm's driver; KeyError if the cell has no such arm."""
+        return locked(self._simulated.arm(individual), self._lock, DRIVER_PARTS)
+
+    def gripper(self, individual: str) -> Gripper:
+        """Return a gripper; KeyError if the cell has no such gripper."""
+        return locked(self._simulated.gripper(individual), self._lock)
+
+    def base(self, individual: str) -> MobileBase:
+        """Return the mobile base of a robot; KeyError if it has none."""
+        return locked(self._simulated.base(individual), self._lock)
+
+    def camera(self) -> Camera:
+        """Return the camera that inspects surfaces."""
+        return locked(self._simulated.camera(), self._lock)
+
+    def button(self, individual: str) -> Button:
+        """Return a button; KeyError if the cell has no such button."""
+        return locked(self._simulated.button(individual), self._lock)
+
+    def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
+        """Whether devices, all if None, neither move nor push."""
+        with self._lock:
+            return not self._thread.is_alive() or self._simulated.is_at_rest(devices)
+
+    def advance(self, seconds: float) -> None:
+        """Wait until `seconds` have passed.
+
+        ControlError if a controller could not continue meanwhile, BackendBroken if the cell cannot.
+        """
+        try:
+            with self._arrived:
+                self._awaited = self.now + seconds - self._simulated.period_s / 2
+                while self.now < self._awaited and self._broken is None and self._error is None:
+                    self._wait_for_a_period()
+                error, self._error = self._error, None
+        finally:
+            self._simulated.publish()
+        if self._broken is not None:
+            raise BackendBroken(self._broken)
+        if error is not None:
+            raise error
+
+    def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:
+        """Stop devices, all if None, and pushes, and restore releases; return what was not in order."""
+        with self._lock:
+            return self._simulated.secure(devices)
+
+    def close(self) -> None:
+        """End the control thread; the cell stands still from then on."""
+        self._closing.set()
+        self._thread.join(STALL_S)
+        self._broken = self._broken or "the cell is closed"
+        self._simulated.publish()
+
+    def _wait_for_a_period(self) -> None:
+        """Wait until the awaited time has come or the cell is broken; break it if no period has run for too long."""
+        before = self.now
+        if not self._arrived.wait(STALL_S) and self.now == before:
+            self._break(f"the control thread has not run for {STALL_S:g} s")
+
+    def _run(self) -> None:
+        """Run the control periods until the cell is closed or one of them fails."""
+        due = monotonic()
+        try:
+            while not self._closing.wait(max(due - monotonic(), SHORTEST_WAIT_S)):
+                with self._arrived:
+                    self._run_period()
+                    if self.now >= self._awaited:
+                        self._arrived.notify_all()
+                due = max(due + self._wall_period_s, monotonic() - CATCH_UP_S)
+        except BackendBroken as error:
+            self._break(str(error))
+        except Exception as error:  # noqa: BLE001  the thread's boundary: it reports why it ends
+            self._break(f"the control thread has ended: {error!r}")
+
+    def _run_period(self) -> None:
+        simulated, reason = self._simulated, "all devices were stopped from outside the run"
+        if self._stopped_at is None and self._stop_requested():
+            self._stopped_at = self.now
+            simulated.stop_all(reason)
+            self._break(reason)
+        if self._stopped_at is not None and (self.now > self._stopped_at + BRAKING_S or simulated.is_at_rest()):
+            self._stopped_at = -inf
+            simulated.hold_period()
+            return
+        try:
+            simulated.advance_period()
+        except ControlError as error:
+            self._error = error
+            self._arrived.notify_all()
+
+    def _break(self, reason: str) -> None:
+        with self._arrived:
+            self._broken = self._broken or reason
+            self._arrived.notify_all()
