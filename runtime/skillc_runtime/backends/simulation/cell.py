@@ -23,7 +23,6 @@ from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.variation import Variation
-from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.backend import BackendBroken
@@ -142,8 +141,7 @@ class ModelledCell(ABC, Generic[A, G]):
     def advance(self, seconds: float) -> None:
         """Advance controllers and devices, step by step.
 
-        ControlError if a controller cannot continue, after the step in which its arm begins to hold still.
-        BackendBroken if the cell cannot; after that it never advances.
+        ControlError if a controller cannot continue, BackendBroken if the cell cannot; after that it never advances.
         """
         try:
             for _ in range(round(seconds / self._timestep)):
@@ -221,22 +219,12 @@ class ModelledCell(ABC, Generic[A, G]):
             raise
 
     def _step_devices(self, now: float) -> None:
-        errors = self._run_controllers(now) if self._step % self._steps_per_command == 0 else []
-        self._move_devices(now)
-        if errors:
-            raise errors[0]
-
-    def _run_controllers(self, now: float) -> list[ControlError]:
-        """Run a control period of all arms; return why some of them cannot continue. They hold still."""
-        if self.watchdog.expired(now):
-            self.stop_all("the tree is not ticked any more")
-        errors = []
-        for individual, arm in self._drivers.items():
-            try:
+        if self._step % self._steps_per_command == 0:
+            if self.watchdog.expired(now):
+                self.stop_all("the tree is not ticked any more")
+            for individual, arm in self._drivers.items():
                 self._control(individual, arm, now)
-            except ControlError as error:
-                errors.append(error)
-        return errors
+        self._move_devices(now)
 
     def _move_devices(self, now: float) -> None:
         for gripper in self._grippers.values():
