@@ -3,35 +3,34 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
+from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
 from skillc.services.task_loading import LoadedTask
+from skillc.services.watchdog.process import TICK_TIMEOUT_S
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.summary import summarise_run
+from skillc_runtime.evaluation.report.summary import summarise_run, summarise_start
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
-from skillc_runtime.evaluation.report.write import write_figure, write_report
+from skillc_runtime.evaluation.report.write import write_figure, write_report, write_result
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
-from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.film.film import Film, FilmFiles, Moment
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError
 from skillc_runtime.planning.planners import Planners
-from skillc_runtime.recording.envelope import make_run_id
 from skillc_runtime.recording.events import Event
-from skillc_runtime.recording.publisher import Publisher
-from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
@@ -46,13 +45,17 @@ POLL_PERIOD_S = 0.2
 class RunOptions:
     """The folder of recording and report (None: neither), the seed, the planners, and the meshes in films.
 
-    RequestError for meshes without a folder, because then no film is made.
+    A run in which a tick takes longer than `tick_timeout_s` is ended (0: never). With `prints_json` the caller prints
+    the result as JSON, and the watchdog does if the run is interrupted. RequestError for meshes without a folder,
+    because then no film is made.
     """
 
     out: Path | None = None
     seed: int = 0
     planners: Planners | None = None
     looks: str = PRIMITIVE_LOOKS
+    tick_timeout_s: float = TICK_TIMEOUT_S
+    prints_json: bool = False
 
     def __post_init__(self) -> None:
         if self.looks != PRIMITIVE_LOOKS and self.out is None:
@@ -157,33 +160,53 @@ def _run(
 ) -> RunResult:
     choices = ChoiceListener()
     poller = StorePoller(cell.world, reporter)
+    start = summarise_start(task.assignment.name, cell)
+    recording = RecordingOptions(options.out, options.tick_timeout_s, options.prints_json)
 
-    def after_tick() -> None:
-        poller.poll()
-        monitor.pace(cell.now)
-        if film is not None:
-            film.sample()
+    with monitor.interruption() as interrupted, recorded_run(start, recording, reporter) as recorded:
 
-    with monitor.interruption() as interrupted:
-        with _publisher(task.assignment.name, options.out, reporter) as publisher:
-            listeners = (choices, monitor) if publisher is None else (choices, monitor, publisher)
-            execution = execute_task(prepared, task.library, cell, listeners, after_tick, interrupted)
-        trees = [attempt.tree for attempt in execution.attempts]
-        state, truth = cell.world.snapshot(), cell.ground_truth
-        wipings = find_wipings(trees, choices, state)
-        result = summarise_run(execution, choices, task.library, wipings, cell)
-        if options.out is None or film is None:
-            return RunResult(result)
-        monitor.say("writing the report")
-        drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in wipings)
-        try:
-            with writing_to(options.out):
-                moments = find_moments(wipings, trees, choices, state, truth)
-                filmed = _write_film(film, options.out, moments, reporter)
-                write_report(options.out, result, execution, drawings, filmed)
-        except ServiceError as error:
-            reporter.say(f"error: {error}")
-            return RunResult(result, drawings, written=False)
+        def after_tick() -> None:
+            recorded.watchdog.count_tick(cell.now)
+            poller.poll()
+            monitor.pace(cell.now)
+            if film is not None:
+                film.sample()
+
+        recorded.watchdog.count_tick(cell.now)
+        listeners = (choices, monitor, recorded.publisher)
+        execution = execute_task(prepared, task.library, cell, listeners, after_tick, interrupted)
+        recorded.watchdog.disarm()
+        return _report(execution, choices, task, cell, film, options, monitor, reporter)
+
+
+def _report(
+    execution: Execution[SimulatedCell],
+    choices: ChoiceListener,
+    task: LoadedTask,
+    simulation: Simulation,
+    film: Film | None,
+    options: RunOptions,
+    monitor: RunMonitor,
+    reporter: Reporter,
+) -> RunResult:
+    """Make the result of a run, and write it with the report if there is a folder."""
+    trees = [attempt.tree for attempt in execution.attempts]
+    state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
+    wipings = find_wipings(trees, choices, state)
+    result = summarise_run(execution, choices, task.library, wipings, simulation)
+    folder = options.out
+    if folder is None or film is None:
+        return RunResult(result)
+    monitor.say("writing the report")
+    drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in wipings)
+    try:
+        with writing_to(folder):
+            write_result(folder, result)
+            filmed = _write_film(film, folder, find_moments(wipings, trees, choices, state, truth), reporter)
+            write_report(folder, result, trees, drawings, filmed)
+    except ServiceError as error:
+        reporter.say(f"error: {error}")
+        return RunResult(result, drawings, written=False)
     return RunResult(result, drawings)
 
 
@@ -206,17 +229,3 @@ def _write_film(film: Film, folder: Path, wanted: Sequence[Moment], reporter: Re
     except (FilmError, RenderingError) as error:
         reporter.say(f"no film: {error}")
         return None
-
-
-@contextmanager
-def _publisher(task: str, folder: Path | None, reporter: Reporter) -> Iterator[Publisher | None]:
-    if folder is None:
-        yield None
-        return
-    with writing_to(folder):
-        folder.mkdir(parents=True, exist_ok=True)
-        trace = TraceWriter(folder / "events.jsonl")
-    with trace:
-        yield Publisher(make_run_id(task), (trace,))
-    if trace.problem is not None:
-        reporter.say(f"warning: {trace.problem}")

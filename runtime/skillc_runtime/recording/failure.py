@@ -10,7 +10,19 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.world.state.labelled import LabelledValue
 
 FailureKind: TypeAlias = Literal[
-    "pre", "hold", "verify", "post", "inference", "lock", "timeout", "body", "plan", "contradiction", "error", "halted"
+    "pre",
+    "hold",
+    "verify",
+    "post",
+    "inference",
+    "lock",
+    "timeout",
+    "body",
+    "plan",
+    "contradiction",
+    "error",
+    "halted",
+    "interrupted",
 ]
 Stage: TypeAlias = Literal["argument", "inference", "pre", "hold", "lock", "start", "run"]
 

@@ -30,6 +30,13 @@ from skillc.cli.options import FOLDER, PATH, json_option, looks_option, planner_
 @click.option(
     "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
 )
+@click.option(
+    "--tick-timeout",
+    type=click.FloatRange(min=0.0),
+    default=30.0,
+    show_default=True,
+    help="End the run if a tick takes longer than this many seconds of wall time; 0 lets it take any time.",
+)
 @click.option("--real-time", is_flag=True, help="Run the simulation no faster than real time.")
 @click.option("--strict", is_flag=True, help="Exit with code 3 also if the success rests on an assumption.")
 @json_option
@@ -46,6 +53,7 @@ def command(
     minimise: str,
     plan_cache: bool,
     seed: int,
+    tick_timeout: float,
     real_time: bool,
     strict: bool,
     as_json: bool,
@@ -61,7 +69,7 @@ def command(
 
     request = task_loading.TaskRequest(task, scene, goal, skill, library, StoreChoice(store, reset))
     request.check()
-    options = RunOptions(out, seed, prepare_planners(plan_cache), looks)
+    options = RunOptions(out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json)
     check_writable(out)
     with task_loading.load_task(request, Terminal()) as loaded:
         wanted = with_minimal_makespan(loaded) if minimise == "makespan" else loaded

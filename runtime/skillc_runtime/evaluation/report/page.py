@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
+from collections.abc import Sequence
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -16,7 +17,7 @@ from skillc_runtime.world.state.labelled_text import format_value
 
 
 def render_page(
-    result: TaskResult, trees: list[NodeOutcome], figure: FigureFiles | None = None, filmed: FilmFiles | None = None
+    result: TaskResult, trees: Sequence[NodeOutcome], figure: FigureFiles | None = None, filmed: FilmFiles | None = None
 ) -> str:
     """Return the page; `trees` are those of all attempts; the files of `filmed` are in the same folder."""
     environment = Environment(

@@ -19,6 +19,19 @@ from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, H
 from skillc_runtime.world.state.world_state import WorldState
 
 
+def summarise_start(task: str, simulation: Simulation) -> TaskResult:
+    """Return what is known of the result of a task when it starts."""
+    state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
+    return TaskResult(
+        task=task,
+        status="interrupted",
+        robot=", ".join(_robots(state)),
+        controller=", ".join(_controllers(state)),
+        seed=truth.seed,
+        variation=truth.variation,
+    )
+
+
 def summarise_run(
     execution: Execution[Any],
     choices: Mapping[int, ImplementationChosen],
@@ -31,8 +44,8 @@ def summarise_run(
     solved = last.prepared.planned.solved if last.prepared.planned else None
     judged = tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
     now, wall = simulation.clock.now, execution.wall_time_s
-    return TaskResult(
-        task=last.prepared.assignment.name,
+    return structs.replace(
+        summarise_start(last.prepared.assignment.name, simulation),
         status=execution.status,
         verified=execution.verified,
         facts=execution.facts,
@@ -41,13 +54,9 @@ def summarise_run(
         plan_optimal=None if solved is None else solved.optimal == "proven",
         plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         planner="" if solved is None else solved.planner,
-        robot=", ".join(_robots(state)),
-        controller=", ".join(_controllers(state)),
         sim_time_s=now,
         wall_time_s=wall,
         real_time_factor=now / wall if wall else 0.0,
-        seed=truth.seed,
-        variation=truth.variation,
         wiping=judged[0] if judged else None,
         wipings=judged,
         replanned=tuple(each.reason for each in execution.attempts[:-1]),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
@@ -12,25 +11,32 @@ from skillc_runtime.evaluation.report import page
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 from skillc_runtime.evaluation.report.wiping_figure import FigureFiles, render_figure
-from skillc_runtime.execution.execute import Execution
 from skillc_runtime.film.film import FilmFiles
+from skillc_runtime.recording.node_outcome import NodeOutcome
 
+RESULT, REPORT = "result.json", "report.html"
 FIGURE = "wiping"
 """The name of the figure's files without suffix."""
+
+
+def write_result(directory: Path, result: TaskResult) -> None:
+    """Write result.json; OSError if the folder cannot be written to."""
+    _write_atomically(directory / RESULT, msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
 
 
 def write_report(
     directory: Path,
     result: TaskResult,
-    execution: Execution[Any],
-    drawings: Sequence[WipingDrawing],
-    filmed: FilmFiles | None,
+    trees: Sequence[NodeOutcome],
+    drawings: Sequence[WipingDrawing] = (),
+    filmed: FilmFiles | None = None,
 ) -> None:
-    """Write report.html, result.json and the figure of wiping; OSError if the folder cannot be written to."""
+    """Write report.html and the figure of wiping; OSError if the folder cannot be written to.
+
+    `trees` are those of all attempts.
+    """
     figure = write_figure(directory, drawings)
-    trees = [attempt.tree for attempt in execution.attempts]
-    _write_atomically(directory / "report.html", page.render_page(result, trees, figure, filmed).encode())
-    _write_atomically(directory / "result.json", msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
+    _write_atomically(directory / REPORT, page.render_page(result, trees, figure, filmed).encode())
 
 
 def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFiles | None:

@@ -1,0 +1,88 @@
+"""Writes the end of a run that could not write it itself: `python -m skillc.services.watchdog.ending FOLDER REASON`."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterable
+from pathlib import Path
+
+import msgspec
+from msgspec import structs
+
+from skillc.services.watchdog.program import STATE, SharedState
+from skillc_runtime.evaluation.report.interrupted import draw_attempts, summarise_recording
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.write import write_report, write_result
+from skillc_runtime.recording.ending import end_recording
+from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.reader import TraceError
+
+DESCRIPTION = "run.json"
+
+
+class RunDescription(msgspec.Struct, frozen=True, kw_only=True):
+    """What is known of a run when it starts; `start` is its result if nothing is recorded.
+
+    `events` is the file of its events, `out` the folder for its result, None for none. `began_s` is the time at which
+    it started, in s since 1970. With `prints_json` its result is printed.
+    """
+
+    events: str
+    out: str | None
+    start: TaskResult
+    began_s: float
+    timeout_s: float
+    prints_json: bool = False
+
+
+def write_interrupted_end(run: RunDescription, why: str, now: float) -> TaskResult:
+    """Write the last event, the result and the report of a run that ended without them; return the result.
+
+    `why` is the reason, to which the calls that ran are added, `now` the time of the cell in s. A recording that has
+    its last event keeps it. OSError or TraceError if the files cannot be read or written.
+    """
+    history = end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
+    wall_s = time.time() - run.began_s
+    if history is None:
+        result = structs.replace(run.start, wall_time_s=wall_s, failure=f"{why}, before the task began")
+    else:
+        result = summarise_recording(run.start, history, wall_s)
+    if run.out is not None:
+        write_result(Path(run.out), result)
+        write_report(Path(run.out), result, draw_attempts(history) if history is not None else ())
+    return result
+
+
+def _describe_place(history: RunHistory) -> str:
+    """Describe the innermost calls that were running, each with the line of its implementation."""
+    running = _find_innermost(history.calls)
+    places = [f"{call.skill}[{call.implementation}] ({call.implementation_source})" for call in running]
+    return f", in {' and '.join(places)}" if places else ""
+
+
+def _find_innermost(calls: Iterable[RecordedCall]) -> list[RecordedCall]:
+    running = [call for call in calls if call.status == "running" and call.implementation]
+    return [call for call in running if not any(inner.status == "running" for inner in call.calls)]
+
+
+def main(folder: Path, reason: str) -> None:
+    """Write the end of the run that a folder describes, and print a sentence about it."""
+    run = msgspec.json.decode((folder / DESCRIPTION).read_bytes(), type=RunDescription)
+    blocked = f"no tick ended within {run.timeout_s:g} s, so its process was ended"
+    why = blocked if reason == "blocked" else "its process ended without notice"
+    try:
+        result = write_interrupted_end(run, why, SharedState(folder / STATE).now)
+    except (OSError, TraceError) as error:
+        print(f"error: {run.start.task}: {why}, and its end cannot be written: {error}", file=sys.stderr)
+        return
+    if result.status == "interrupted":
+        print(f"error: {result.task} was interrupted: {result.failure}", file=sys.stderr)
+    else:
+        print(f"warning: {result.task} had {result.status}: {why}, before its report was written", file=sys.stderr)
+    if run.prints_json:
+        print(msgspec.json.format(msgspec.json.encode(result), indent=2).decode())
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2])
