@@ -134,7 +134,8 @@ class Pushing(Primitive):
 class Breaking(Primitive):
     """Does what the primitive `SCENE CLASS` does; of `SCENE CLASS PHASE` it breaks the phase, after doing its work.
 
-    Phases: start, tick, halt, release. One that is to break later does not end by itself.
+    Phases: start, tick, halt, release. One that is to break later does not end by itself. It breaks with an exception,
+    or, where its name has an odd number of letters, with `sys.exit`.
     """
 
     def __init__(self, cell: Cell, *, name: str) -> None:
@@ -145,6 +146,7 @@ class Breaking(Primitive):
         assert wanted(cls) <= set(known), f"say in `arguments` what {kind} may be called with"
         self._inner = cls(cell, **{name: known[name] for name in wanted(cls)})
         self._phase, self._ticks = phase[0] if phase else "", 0
+        self._error = (RuntimeError, SystemExit)[len(kind) % 2]
 
     def start(self) -> None:
         with suppress(SkillFailure):
@@ -172,7 +174,7 @@ class Breaking(Primitive):
 
     def _break(self, phase: str) -> None:
         if self._phase == phase:
-            raise RuntimeError(f"broke at {phase}")
+            raise self._error(f"broke at {phase}")
 
 
 def run(cell: SimulatedCell, scene: str, kind: str, phase: str) -> tuple[list[Event], str]:

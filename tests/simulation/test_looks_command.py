@@ -11,6 +11,7 @@ from menagerie import write_collection
 from skillc.cli.main import skillc
 from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
+from skillc_runtime.recording.reader import TraceReader
 
 PRESENT = "TakePosture(arm: lab:Panda-1)"
 
@@ -37,8 +38,8 @@ def test_a_run_is_the_same_with_other_looks(tmp_path: Path, cache: Path) -> None
         out = tmp_path / looks
         result = run("--looks", looks, "--out", str(out))
         assert result.exit_code == 0, result.output
-        told.append((out / "events.jsonl").read_bytes())
-    assert told[0] == told[1] and len(told[0]) > 100
+        told.append(list(TraceReader(out / "events.jsonl").events))
+    assert told[0] == told[1] and len(told[0]) > 3
 
 
 def test_what_cannot_be_drawn_is_told_before_anything_moves(tmp_path: Path, cache: Path) -> None:

@@ -24,8 +24,10 @@ from skillc_runtime.evaluation.report.summary import summarise_run, summarise_st
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
 from skillc_runtime.evaluation.report.write import write_figure, write_report, write_result
-from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.planning_job import PlanningJob
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.film.film import Film, FilmFiles, Moment
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError
@@ -172,9 +174,15 @@ def _run(
             if film is not None:
                 film.sample()
 
-        recorded.watchdog.count_tick(cell.now)
+        def replan(assignment: Assignment, failures: FailedSteps) -> PlanningJob:
+            return PlanningJob(assignment, task.library, failures, options.planners)
+
+        def is_interrupted() -> bool:
+            recorded.watchdog.count_tick(cell.now)
+            return interrupted()
+
         listeners = (choices, monitor, recorded.publisher)
-        execution = execute_task(prepared, task.library, cell, listeners, after_tick, interrupted)
+        execution = execute_task(prepared, task.library, cell, listeners, after_tick, is_interrupted, replan)
         recorded.watchdog.disarm()
         return _report(execution, choices, task, cell, film, options, monitor, reporter)
 

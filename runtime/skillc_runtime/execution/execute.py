@@ -54,14 +54,17 @@ def execute_task(
     listeners: Sequence[Listener] = (),
     after_tick: Callable[[], None] = lambda: None,
     interrupted: Callable[[], bool] = lambda: False,
+    replan: StartPreparation | None = None,
 ) -> Execution[BackendT]:
     """Run a prepared task to its end; `after_tick` is called after every tick.
 
-    A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one, planned
-    in this process. When `interrupted` returns true everything is halted, and forces are released.
+    A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one, which
+    `replan` makes, by default in this process. `interrupted` is called before every tick, and while a plan is made,
+    until it returns true; then everything is halted, and forces are released.
     """
     began = perf_counter()
-    loop = CellLoop(backend, library, _prepare_after(prepared, library), after_tick=(after_tick,))
+    preparation = _prepare_after(prepared, replan or prepare_here(library))
+    loop = CellLoop(backend, library, preparation, after_tick=(after_tick,))
     run = loop.submit(prepared.assignment, listeners)
     drive(loop, run, interrupted)
     return describe_execution(run, backend, perf_counter() - began)
@@ -87,10 +90,9 @@ def describe_execution(run: TaskRun, backend: BackendT, wall_time_s: float) -> E
     return Execution(tuple(run.attempts), run.end, run.failure, backend, wall_time_s, run.facts, run.verified)
 
 
-def _prepare_after(prepared: PreparedTask, library: SkillLibrary) -> StartPreparation:
-    """Return a preparation whose first answer is known; further plans are made in this process."""
+def _prepare_after(prepared: PreparedTask, plan: StartPreparation) -> StartPreparation:
+    """Return a preparation whose first answer is known; `plan` makes further plans."""
     first = [prepared]
-    plan = prepare_here(library)
 
     def start(assignment: Assignment, failures: FailedSteps) -> Preparation:
         return Ready(first.pop()) if first else plan(assignment, failures)
