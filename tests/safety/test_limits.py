@@ -11,12 +11,15 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.safety import Workspace
+from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.primitives.move import MoveLinear
+from skillc_runtime.primitives.move import MoveJoints, MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle
+from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import FRAME_ID, HAS_SHEET, HAS_WORKSPACE, SIZE, SKILLC, TOOL_SPEED_LIMIT
 
@@ -107,17 +110,67 @@ def test_an_overlay_that_is_too_fast_is_refused() -> None:
         circle.start()
 
 
-@pytest.mark.parametrize("scene", SCENES)
-def test_a_tool_that_leaves_its_workspace_is_stopped_and_may_come_back(scene: str) -> None:
+def boxed(scene: str) -> tuple[SimulatedCell, CompliantArmDriver, Pose]:
+    """Return a cell whose tool must stay within 3 cm around its start, its arm, and that start."""
     start = cell(scene).arm(ARM[scene]).measured.pose
     there = cell_with(scene, workspace(scene, start))
-    arm = there.arm(ARM[scene])
-    with pytest.raises(SkillFailure, match=r"the tool is \d+ mm outside the arm's workspace"):
-        run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, 0.1), speed=0.1))
+    return there, there.arm(ARM[scene]), start
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_tool_that_leaves_its_workspace_is_stopped_and_may_come_back(scene: str) -> None:
+    there, arm, start = boxed(scene)
+    up = np.array([0.0, 0.0, 1.0])
+    arm.compliance.release(up)
+    arm.compliance.push(-up, 25.0)
+    for _ in range(500):
+        if arm.fault is not None:
+            break
+        there.advance(0.01)
+    assert arm.fault is not None
+    assert "mm outside the arm's workspace" in arm.fault
+    there.secure()
     is_safe(there, scene)
     assert 0.03 < arm.measured.pose.position[2] - start.position[2] < 0.045
+    with pytest.raises(SkillFailure, match=r"its tool would be \d+ mm outside"):
+        run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, 0.01), speed=0.1))
+    outside = arm.outside_workspace_m
+    with pytest.raises(SkillFailure, match=r"its tool would be \d+ mm outside"):
+        run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, -outside / 2), speed=0.1))
     run(there, MoveLinear(there, arm=ARM[scene], target=start, speed=0.1))
     assert np.abs(arm.measured.pose.position - start.position).max() < 2e-3
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_motions_that_leave_the_workspace_are_refused_before_anything_moves(scene: str) -> None:
+    there, arm, start = boxed(scene)
+    there.advance(0.05)
+    out, back = moved(arm, 0.0, 0.0, 0.1), arm.motion.stopping_pose()
+    upwards = arm.motion.inverse_kinematics(out, arm.measured.q)
+    assert upwards is not None
+    refused = (
+        MoveLinear(there, arm=ARM[scene], target=out, speed=0.1),
+        FollowPath(there, arm=ARM[scene], path=[out, back], speed=0.1, blend=0.0),
+        MoveJoints(there, arm=ARM[scene], target=out, pace=0.5),
+        OverlayCircle(there, arm=ARM[scene], plane=np.array([0.0, 0.0, 1.0]), radius=0.04, rate=0.2),
+    )
+    for each in refused:
+        with pytest.raises(SkillFailure, match=r"its tool would be \d+ mm outside the arm's workspace, at \("):
+            each.start()
+    with pytest.raises(Infeasible, match="outside the arm's workspace"):
+        arm.motion.move_joints(upwards, 0.5)
+    there.advance(0.3)
+    assert np.abs(arm.measured.pose.position - start.position).max() < 2e-3
+    run(there, MoveLinear(there, arm=ARM[scene], target=moved(arm, 0.0, 0.0, 0.02), speed=0.1))
+    run(there, MoveJoints(there, arm=ARM[scene], target=start, pace=0.5))
+    OverlayCircle(there, arm=ARM[scene], plane=np.array([0.0, 0.0, 1.0]), radius=0.02, rate=0.2).start()
+
+
+def test_an_arm_that_starts_outside_its_workspace_is_refused() -> None:
+    start = cell("iiwa_table").arm(ARM["iiwa_table"]).measured.pose
+    away = Pose(start.position + np.array([0.0, 0.0, 0.1]), start.rotation)
+    with pytest.raises(SheetError, match=r"lab:Iiwa-1 starts \d+ mm outside the arm's workspace; enlarge that"):
+        cell_with("iiwa_table", workspace("iiwa_table", away))
 
 
 def workspace(scene: str, middle: Pose) -> list[Change]:

@@ -33,7 +33,7 @@ class ArmTask:
         self._arm, self._tool_position = setup.arm, state.tool.position.tolist()
         self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
         self.controllers = make_controllers(setup.gains, setup.limits, setup.virtual, state, setup.period)
-        self.kinematics = Kinematics(setup.virtual)
+        self.kinematics, self.workspace = Kinematics(setup.virtual), setup.safety.workspace
         self.tool = ToolTask(setup.gains, self.controllers.tool, state.tool)
         self.joints: JointReferenceGenerator | None = self._joint_reference(state.q, np.zeros_like(state.q))
 

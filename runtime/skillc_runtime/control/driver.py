@@ -39,6 +39,12 @@ class CompliantArmDriver:
         """Whether reference and joints are at rest and no skill pushes."""
         return self.motion.at_rest and not self.compliance.pushing and self.measured.still
 
+    @property
+    def outside_workspace_m(self) -> float:
+        """How far the tool is outside the arm's workspace, in m; 0 inside, or without a workspace."""
+        space = self._safety.limits.workspace
+        return 0.0 if space is None else space.outside(self._arm.state().tool.position)
+
     def step(self, now: float) -> None:
         """Run one control period at `now` s. ControlError if a measurement or a command is not finite."""
         task, gap, self._seen = self._task, now - self._seen, now

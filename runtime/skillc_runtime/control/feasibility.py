@@ -47,6 +47,11 @@ def slow_to_feasible(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: 
     return slow_down(trajectory, fastest)
 
 
+def sample_offsets(overlay: Overlay) -> list[Array]:
+    """Return the displacements (3,), m, along the axes of an overlay in its first `OVERLAY_S`."""
+    return [overlay.at(float(time))[0] for time in np.linspace(0.0, OVERLAY_S, OVERLAY_SAMPLES)]
+
+
 def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limits: ArmLimits) -> None:
     """Raise Infeasible if a joint would be too fast for an overlay along `axes` (3, 3) in base in the present posture.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import mujoco
@@ -35,6 +35,15 @@ class Kinematics:
         self._arm.mount_tool(state.q, state.tool)
         self._arm.update_kinematics(q)
         return self._arm.tool, self._arm.jacobian.copy()
+
+    def tool_positions(self, postures: Iterable[Array], state: ArmState) -> list[Array]:
+        """Return where the tool is in base, each (3,) in m, at postures (nv,) in rad."""
+        self._arm.mount_tool(state.q, state.tool)
+        positions = []
+        for q in postures:
+            self._arm.update_kinematics(q)
+            positions.append(self._arm.tool.position)
+        return positions
 
     def slow_to_feasible(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> Trajectory:
         """Return a motion in base from joints q (nv,) in rad, slowed down if a joint would be too fast.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from skillc_runtime.control.arm_task import ArmTask
+from skillc_runtime.control.feasibility import sample_offsets
+from skillc_runtime.control.workspace_check import check_motion_inside, sample_times
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
@@ -81,6 +83,9 @@ class MotionControl:
         task, tool = self._task, self._task.move_tool()
         state = task.measured.state
         q, local = task.controllers.joints_now(state), trajectory.transform(task.base().inverse())
+        if task.workspace is not None:
+            times = sample_times(local.duration)
+            check_motion_inside(task.workspace, (local.at(float(time)).pose.position for time in times))
         tool.reference_generator.follow(task.kinematics.slow_to_feasible(local, q, task.limits, state), task.now)
 
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
@@ -98,8 +103,15 @@ class MotionControl:
         self.follow_joints(self.joint_motion((goal,), share))
 
     def follow_joints(self, motion: JointTrajectory) -> None:
-        """Move the joints along a motion; ValueError if it does not start at `stopping_joints`."""
-        self._task.move_joints().follow(motion, self._task.now)
+        """Move the joints along a motion.
+
+        Raises ValueError if it does not start at `stopping_joints`, Infeasible if the tool would leave its workspace.
+        """
+        task = self._task
+        if task.workspace is not None:
+            postures = (motion.at(float(time)).q for time in sample_times(motion.duration))
+            check_motion_inside(task.workspace, task.kinematics.tool_positions(postures, task.measured.state))
+        task.move_joints().follow(motion, task.now)
 
     def stop(self) -> None:
         """Come to rest within the acceleration limit; compliance, push and overlays are kept."""
@@ -120,11 +132,15 @@ class MotionControl:
     def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
         """Add an overlay along `axes` (3, 3), columns in the world, to the motion of the tool; return its handle.
 
-        It fades in for `fade` s. Raises Infeasible if a joint would be too fast.
+        It fades in for `fade` s. Raises Infeasible if a joint would be too fast, or the tool would leave its workspace.
         """
         task, tool = self._task, self._task.move_tool()
         in_base = task.base().rotation.T @ axes
-        task.kinematics.check_overlay_feasible(overlay, in_base, task.limits, task.measured.state)
+        state = task.measured.state
+        task.kinematics.check_overlay_feasible(overlay, in_base, task.limits, state)
+        if task.workspace is not None:
+            for offset in sample_offsets(overlay):
+                check_motion_inside(task.workspace, (state.tool.position, state.tool.position + in_base @ offset))
         return tool.reference_generator.add(overlay, in_base, fade, task.now)
 
     def remove_overlay(self, handle: int) -> None:

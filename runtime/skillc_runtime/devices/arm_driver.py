@@ -180,7 +180,10 @@ class MotionInterface(Protocol):
         ...
 
     def follow_joints(self, motion: JointTrajectory) -> None:
-        """Move the joints along a motion; ValueError if it does not start at `stopping_joints`."""
+        """Move the joints along a motion.
+
+        Raises ValueError if it does not start at `stopping_joints`, Infeasible if the tool would leave its workspace.
+        """
         ...
 
     def stop(self) -> None:
@@ -198,7 +201,7 @@ class MotionInterface(Protocol):
     def add_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
         """Add an overlay along `axes` (3, 3), columns in the world, which fades in for `fade` s; return its handle.
 
-        Raises Infeasible if a joint would be too fast.
+        Raises Infeasible if a joint would be too fast, or the tool would leave its workspace.
         """
         ...
 

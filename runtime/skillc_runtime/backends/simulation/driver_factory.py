@@ -25,7 +25,10 @@ from skillc_runtime.world.state.terms import (
 
 
 def make_driver(facts: ArmSpec, arm: ModelledArm, period_s: float) -> CompliantArmDriver:
-    """Return the driver of an arm with the controller its facts name; SheetError if it or a gain is missing."""
+    """Return the driver of an arm with the controller its facts name.
+
+    SheetError if it or a gain is missing, or the arm is outside its workspace.
+    """
     jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
         chosen = read_gains(facts.controller, facts.sheet.number)
@@ -34,7 +37,13 @@ def make_driver(facts: ArmSpec, arm: ModelledArm, period_s: float) -> CompliantA
     chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
     _switch_mode(facts, arm, chosen.law)
     virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
-    return CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
+    driver = CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
+    if driver.outside_workspace_m > 0.0:
+        raise SheetError(
+            f"the tool of {facts.sheet.state.vocabulary.short(facts.individual)} starts "
+            f"{1e3 * driver.outside_workspace_m:.0f} mm outside the arm's workspace; enlarge that, or start elsewhere"
+        )
+    return driver
 
 
 def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
