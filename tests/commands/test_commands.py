@@ -234,6 +234,14 @@ def test_a_query_that_is_not_sparql_is_explained(scene: Path) -> None:
     assert result.stderr.endswith("\n  SELEC ?s\n  ^\n")
 
 
+def test_a_query_that_takes_too_long_is_ended(scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("skillc.services.scenes.QUERY_LIMIT_S", 0.2)
+    pairs = " . ".join(f"?a{n} ?b{n} ?c{n}" for n in range(12))
+    result = run("world", scene, "--query", f"SELECT (COUNT(*) AS ?n) {{ {pairs} }}")
+    assert (result.exit_code, result.stdout) == (1, "")
+    assert result.stderr == "error: the query was ended after 0.2 s; ask for less\n"
+
+
 def test_a_federated_query_is_refused_without_the_network(scene: Path) -> None:
     result = run("world", scene, "--query", "SELECT ?x { SERVICE <http://a.invalid/> { ?x ?p ?y } }")
     assert result.exit_code == 1

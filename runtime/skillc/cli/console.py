@@ -68,6 +68,6 @@ def page_width(stream: TextIO) -> int | None:
 def read_stdin() -> bytes:
     """Return the bytes of the standard input, at most MOST_BYTES; RequestError if it cannot be read."""
     try:
-        return sys.stdin.buffer.read(MOST_BYTES)
+        return sys.stdin.buffer.read(MOST_BYTES)  # wait ends: when the input is closed
     except OSError as error:
         raise RequestError(f"the standard input cannot be read: {error.strerror}") from error

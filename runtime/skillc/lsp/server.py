@@ -92,6 +92,7 @@ def serve() -> bool:
     """
     session = make_session()
     answers = MessageWriter(sys.stdout.buffer)
+    # wait ends: when the editor closes the input
     session.server.start_io(cast(BinaryIO, MessageReader(sys.stdin.buffer, answers)), cast(BinaryIO, answers))
     if answers.refused is not None:
         raise OutputError(answers.refused)

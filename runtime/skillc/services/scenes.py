@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,6 +21,7 @@ from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc_compiler.emit.picture import svg
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError, QueryResult, run_query
@@ -28,6 +30,9 @@ from skillc_runtime.store.triples import all_triples
 from skillc_runtime.world.state.elements import Element, elements_of, search_elements
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.world_state import WorldState
+
+QUERY_LIMIT_S = 60.0
+"""How long the answer to a query may take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,11 +122,31 @@ def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individ
 
 
 def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
-    """Answer a query over the scene and the shipped ontology. ServiceError if it is not valid SPARQL."""
+    """Answer a query over the scene and the shipped ontology, in a process that can be killed.
+
+    ServiceError if it is not valid SPARQL, cannot be answered, or takes longer than QUERY_LIMIT_S.
+    """
+    worker = WorkerProcess(partial(_run_query, scene))
+    try:
+        worker.ask(sparql)
+        result = worker.wait(QUERY_LIMIT_S)
+    finally:
+        worker.kill()
+    match result:
+        case Returned(QueryResult() as answer):
+            return answer
+        case Returned(why) | Raised(why) | Died(why):
+            raise ServiceError(str(why))
+        case None:
+            raise ServiceError(f"the query was ended after {QUERY_LIMIT_S:g} s; ask for less")
+
+
+def _run_query(scene: OpenScene, sparql: str) -> QueryResult | str:
+    """Return the answer to a query, or why there is none."""
     try:
         return run_query([scene.document, *sheet_documents()], sparql, scene.state.vocabulary)
     except QueryError as error:
-        raise ServiceError(str(error)) from error
+        return str(error)
 
 
 def compare_scenes(scene: OpenScene, other: Path, reporter: Reporter) -> SceneDiff:

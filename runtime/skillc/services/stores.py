@@ -13,6 +13,7 @@ from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.reporting import Reporter, format_count
 from skillc.services.scene_diagnostics import read_scene_text, with_shown_paths
 from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.store.address import without_credentials
@@ -30,11 +31,13 @@ _BEGINNING = re.compile(r"scene (.*) ([0-9a-f]{12})")
 class StoreChoice:
     """The store of a world (a folder, the URL of a SPARQL server, or None) and whether to empty it first.
 
-    The URL may contain a password, so it is not shown; `name` is the place without it.
+    The URL may contain a password, so it is not shown; `name` is the place without it. `cancel` ends all waits for a
+    server or for other processes.
     """
 
     place: str | None = field(default=None, repr=False)
     reset: bool = False
+    cancel: CancelToken = field(default_factory=CancelToken, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if self.reset and self.place is None:
@@ -84,7 +87,7 @@ def _open(choice: StoreChoice, place: str, scene: Path | None) -> OpenStore:
     if scene is None and "://" not in place and not Path(place).exists():
         raise ServiceError(f"there is no store {place}; name the scene to fill it with")
     try:
-        return open_store(place, choice.reset)
+        return open_store(place, choice.reset, choice.cancel)
     except StoreError as error:
         raise ServiceError(str(error)) from error
     except OSError as error:

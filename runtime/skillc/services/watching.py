@@ -48,7 +48,7 @@ def _changes(folders: Folders) -> Iterator[object]:
     """Yield the changes below folders, or nothing after each pause."""
     from watchfiles import watch
 
-    return watch(
+    return watch(  # wait ends: after each pause, so that the caller can look at the folders
         *(path for path, _ in folders),
         watch_filter=lambda _, path: path.endswith(_ENDINGS),
         rust_timeout=_PAUSE_MS,
@@ -65,7 +65,7 @@ def _await(changes: Iterator[object], folders: Folders, wanted: Sequence[Path]) 
 
 def _present(wanted: Sequence[Path]) -> Folders:
     """Return the existing folders, waiting until there is one."""
-    while not (folders := _folders(wanted)):
+    while not (folders := _folders(wanted)):  # wait ends: when a folder is there, or with Ctrl-C
         time.sleep(_PAUSE_MS / 1000)
     return folders
 

@@ -178,6 +178,6 @@ def _terminate(_number: int, _frame: FrameType | None) -> None:
 
 
 def _end_with_parent(parent: int) -> None:
-    while os.getppid() == parent:
+    while os.getppid() == parent:  # wait ends: with the parent, which this thread waits for
         time.sleep(PARENT_POLL_S)
     os._exit(1)

@@ -129,7 +129,7 @@ class WorkerProcess:
 
     def _receive(self) -> WorkerResult | None:
         with suppress(BlockingIOError, ConnectionResetError):
-            while part := self._socket.recv(_CHUNK):
+            while part := self._socket.recv(_CHUNK):  # wait ends: at once, since the socket does not block
                 self._received += part
         message = _take_message(self._received)
         return None if message is None else cast(WorkerResult, pickle.loads(message))
@@ -151,7 +151,7 @@ def _serve(function: Callable[[Any], object], remote: int) -> None:
     """Answer requests until the other end is closed."""
     with socket.socket(fileno=remote) as connection:
         received = bytearray()
-        while part := connection.recv(_CHUNK):
+        while part := connection.recv(_CHUNK):  # wait ends: with the parent, or when it closes the connection
             received += part
             while (message := _take_message(received)) is not None:
                 result = _call(function, message)

@@ -17,6 +17,9 @@ from skillc_runtime.film.looks import Collection, LooksError
 SLOW_BYTES_S, SLOW_S = 1000, 30
 """A connection that is slower than this for this time is closed."""
 
+GIT_LIMIT_S = 1800.0
+"""How long one command of Git may take."""
+
 CONFUSING = ("GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE", "GIT_OBJECT_DIRECTORY", "GIT_COMMON_DIR")
 """Variables that make Git work on another repository, for example in a hook."""
 
@@ -52,6 +55,8 @@ def _fetch(collection: Collection, folder: str, kept: Path) -> None:
                 Path(new, folder).replace(kept)
     except FileNotFoundError as error:
         raise _fetch_error(collection, folder, kept, "git is not installed") from error
+    except subprocess.TimeoutExpired as error:
+        raise _fetch_error(collection, folder, kept, f"git did not end within {GIT_LIMIT_S:g} s") from error
     except subprocess.CalledProcessError as error:
         raise _fetch_error(collection, folder, kept, _git_error(error.stderr)) from error
     except OSError as error:
@@ -77,6 +82,7 @@ def _git(place: str, *words: str) -> None:
         stdin=subprocess.DEVNULL,
         capture_output=True,
         check=True,
+        timeout=GIT_LIMIT_S,
     )
 
 

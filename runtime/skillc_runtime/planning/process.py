@@ -128,7 +128,8 @@ class RunningProcess:
                 self._process.wait(CLEANUP_S)
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
+        with contextlib.suppress(subprocess.TimeoutExpired):  # a process in a call of a broken driver cannot be killed
+            self._process.wait(CLEANUP_S)
 
     @property
     def has_ended(self) -> bool:

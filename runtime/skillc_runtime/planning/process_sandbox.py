@@ -32,7 +32,7 @@ def main(parent: int, memory: int, file: int, folder: str, command: list[str]) -
     pid = os.fork()
     if not pid:
         _exec(command, memory, file)
-    _, status = os.waitpid(pid, 0)
+    _, status = os.waitpid(pid, 0)  # wait ends: with the command, or when this process is told to stop
     _end_descendants()
     _end_like(status)
 
@@ -99,7 +99,7 @@ def _end_descendants() -> None:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
             with contextlib.suppress(ChildProcessError):
-                os.waitpid(pid, 0)
+                os.waitpid(pid, 0)  # wait ends: at once, since the process was killed
 
 
 def _children() -> Iterator[int]:

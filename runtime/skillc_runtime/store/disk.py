@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.store import facts_folder
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.journal import JournalEntry, TransactionJournal
@@ -28,15 +29,15 @@ MARK, LOCK, JOURNAL, FACTS = "skillc-store", "lock", "journal", "facts"
 class DiskStore:
     """A world in a folder that any number of processes can use at the same time."""
 
-    def __init__(self, folder: Path, reset: bool = False) -> None:
-        """Open or create a store; with `reset`, delete its contents.
+    def __init__(self, folder: Path, reset: bool = False, cancel: CancelToken | None = None) -> None:
+        """Open or create a store; with `reset`, delete its contents. `cancel` ends all waits for other processes.
 
         StoreError when the folder is not a store, is damaged or not accessible, or is to be reset while others use it.
         """
-        self._folder, self._facts = folder, folder / FACTS
+        self._folder, self._facts, self._cancel = folder, folder / FACTS, cancel or CancelToken()
         try:
             _prepare(folder)
-            self._lock, self._journal = StoreLock(folder / LOCK), TransactionJournal(folder / JOURNAL)
+            self._lock, self._journal = StoreLock(folder / LOCK), TransactionJournal(folder / JOURNAL, self._cancel)
         except OSError as error:
             raise StoreError(f"the store {folder} cannot be opened: {error.strerror}") from error
         try:
@@ -90,7 +91,7 @@ class DiskStore:
             self._reset(alone)
         elif alone:
             self._compact()
-        self._lock.acquire_shared()
+        self._lock.acquire_shared(self._cancel)
 
     def _leave(self) -> None:
         self._journal.close()

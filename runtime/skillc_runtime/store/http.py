@@ -7,8 +7,9 @@ import ssl
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.store.address import Address, without_credentials
-from skillc_runtime.store.deadline import Deadline, TimedSocket
+from skillc_runtime.store.timed_socket import TimedSocket
 from skillc_runtime.world.state.transactions import StoreError
 
 TIMEOUT_S = 10.0
@@ -74,12 +75,15 @@ class HttpEndpoint:
     `user:password@` before the host is sent as basic authentication. As text it is its address without credentials.
     """
 
-    def __init__(self, address: str, query: str, update: str, timeout_s: float = TIMEOUT_S) -> None:
+    def __init__(
+        self, address: str, query: str, update: str, timeout_s: float = TIMEOUT_S, cancel: CancelToken | None = None
+    ) -> None:
         """Use the server at an address; `query` and `update` are the paths below it.
 
         `timeout_s` is the longest wait for a part of an answer in s; a whole answer may take TOTAL_TIMEOUTS times that.
+        `cancel` ends all waits.
         """
-        self._address, self._timeout_s = Address.parse(address), timeout_s
+        self._address, self._timeout_s, self._cancel = Address.parse(address), timeout_s, cancel or CancelToken()
         self._query, self._update = self._address.append_path(query), self._address.append_path(update)
         self._connection: http.client.HTTPConnection | None = None
 
@@ -125,13 +129,13 @@ class HttpEndpoint:
         raise _refusal(url, answer)
 
     def _exchange(self, url: Address, kind: str, text: str, accept: str) -> _Answer:
-        deadline = Deadline(TOTAL_TIMEOUTS * self._timeout_s, self._timeout_s)
+        cancel = self._cancel.limited(TOTAL_TIMEOUTS * self._timeout_s)
         connection = self._connection = self._connection or _connection(url, self._timeout_s)
         timed: Any = connection.sock
         if timed is None:
             connection.connect()
-            connection.sock = timed = TimedSocket(connection.sock)
-        timed.deadline = deadline
+            connection.sock = timed = TimedSocket(connection.sock, self._timeout_s, cancel)
+        timed.cancel = cancel
         headers = {"Content-Type": f"{kind}; charset=utf-8", "Accept": accept, **url.authorization()}
         connection.request("POST", url.target, text.encode(), headers)
         response = connection.getresponse()
@@ -140,7 +144,7 @@ class HttpEndpoint:
         return _Answer(response.status, response.reason, content, _body(response), location)
 
 
-def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
+def find_endpoint(address: str, timeout_s: float = TIMEOUT_S, cancel: CancelToken | None = None) -> HttpEndpoint:
     """Return the endpoint at an address that answers queries and updates; StoreError when there is none.
 
     The SPARQL standard does not fix the paths, so the common ones are tried.
@@ -148,7 +152,7 @@ def find_endpoint(address: str, timeout_s: float = TIMEOUT_S) -> HttpEndpoint:
     name = Address.parse(address)
     refusals: list[StoreError] = []
     for query, update in FORMS:
-        endpoint = HttpEndpoint(address, query, update, timeout_s)
+        endpoint = HttpEndpoint(address, query, update, timeout_s, cancel)
         try:
             endpoint.query(EMPTY_QUERY, ROWS)
             endpoint.update(EMPTY_UPDATE)

@@ -12,6 +12,9 @@ from zlib import crc32
 
 import msgspec
 
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.store.file_lock import lock_file
+from skillc_runtime.store.store_lock import PATIENCE_S, describe_holders
 from skillc_runtime.world.state.transactions import StoreError
 
 
@@ -40,9 +43,9 @@ class TransactionJournal:
     ignored, and the next writer removes it. A complete line with a wrong checksum is reported as damage.
     """
 
-    def __init__(self, path: Path) -> None:
-        """Open or create the file; OSError when that is not possible."""
-        self._path = path
+    def __init__(self, path: Path, cancel: CancelToken | None = None) -> None:
+        """Open or create the file; `cancel` ends all waits for other processes. OSError when it cannot be opened."""
+        self._path, self._cancel = path, cancel or CancelToken()
         self.writable = os.access(path if path.exists() else path.parent, os.W_OK)
         flags = os.O_RDWR | os.O_CREAT if self.writable else os.O_RDONLY
         self._file = os.open(path, flags | os.O_CLOEXEC, 0o666)
@@ -89,8 +92,12 @@ class TransactionJournal:
 
     @contextmanager
     def locked(self, how: int = fcntl.LOCK_EX) -> Iterator[None]:
-        """Lock the file: exclusively, or with LOCK_SH shared, so that no process writes."""
-        fcntl.flock(self._file, how)
+        """Lock the file: exclusively, or with LOCK_SH shared, so that no process writes.
+
+        StoreError when other processes lock it for PATIENCE_S.
+        """
+        if not lock_file(self._file, how, self._cancel.limited(PATIENCE_S)):
+            raise StoreError(f"{self._path} is locked by {describe_holders(self._file)}; try again later")
         try:
             yield
         finally:

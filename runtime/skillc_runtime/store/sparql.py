@@ -14,6 +14,7 @@ from typing import TypeVar
 import msgspec
 import pyoxigraph as ox
 
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.store import sparql_texts as texts
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.http import ROWS, Endpoint, ServerUnreachable
@@ -25,6 +26,8 @@ TRIPLES = "application/n-triples"
 PATIENCE_S = 10.0
 """How long requests to a server that does not answer are repeated."""
 FIRST_PAUSE_S = 0.1
+MAX_READS = 20
+"""How often a world is read until no other process writes in the meantime."""
 
 T = TypeVar("T")
 Row = dict[str, str]
@@ -45,9 +48,19 @@ class _Answer(msgspec.Struct):
 class SparqlStore:
     """A world on a server that any number of processes can use at the same time."""
 
-    def __init__(self, endpoint: Endpoint, reset: bool = False, patience_s: float = PATIENCE_S) -> None:
-        """Use a server; with `reset`, delete its world. StoreError when it cannot be used."""
-        self._endpoint, self._patience_s, self._empty, self._was_preceded = endpoint, patience_s, False, False
+    def __init__(
+        self,
+        endpoint: Endpoint,
+        reset: bool = False,
+        patience_s: float = PATIENCE_S,
+        cancel: CancelToken | None = None,
+    ) -> None:
+        """Use a server; with `reset`, delete its world. StoreError when it cannot be used.
+
+        Requests are repeated for `patience_s`, or until `cancel` ends the wait.
+        """
+        self._endpoint, self._patience_s, self._cancel = endpoint, patience_s, cancel or CancelToken()
+        self._empty = self._was_preceded = False
         self._retry(lambda: endpoint.update(texts.CREATE))
         if reset:
             self._retry(lambda: endpoint.update(texts.RESET))
@@ -102,11 +115,12 @@ class SparqlStore:
         return found.get("mark") == mark
 
     def _read(self) -> StoredWorld:
-        while True:
+        for _ in range(MAX_READS):
             head = self._first_row(texts.beginning_query(), "beginning")
             triples = self._triples()
             if self._first_row(texts.beginning_query(), "beginning") == head:
                 return StoredWorld(int(head["n"]), head["beginning"], triples)
+        raise StoreError(f"{self} cannot be read, because other processes write to it all the time")
 
     def _first_row(self, query: str, *names: str) -> Row:
         rows = self._query_rows(query, *names)
@@ -135,12 +149,12 @@ class SparqlStore:
 
     def _retry(self, ask: Callable[[], T]) -> T:
         """Repeat a request, with growing pauses, until there is an answer; ServerUnreachable after the patience."""
-        ends, pause_s = time.monotonic() + self._patience_s, FIRST_PAUSE_S
+        cancel, pause_s = self._cancel.limited(self._patience_s), FIRST_PAUSE_S
         while True:
             try:
                 return ask()
             except ServerUnreachable:
-                if time.monotonic() + pause_s > ends:
+                if pause_s > cancel.remaining_s:
                     raise
             time.sleep(pause_s)
             pause_s *= 2

@@ -64,7 +64,7 @@ def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Paramet
         """Compile for the annotated types only, not for those of the first call."""
         types = get_annotations(function, eval_str=True)
         returns = _type(types.pop("return"))
-        with _lock(), _our_settings() as kept:
+        with _lock(), _our_settings() as kept:  # wait ends: when another thread has compiled its function
             if made.overloads:
                 return made.overloads[tuple(map(_type, types.values()))].entry_point
             if kept:

@@ -26,6 +26,10 @@ from skillc_runtime.world.state.world_state import WorldState
 
 MAX_UNDO = 100
 """The number of last writes that can be undone."""
+LOCK_S = 30.0
+"""How long a write waits for the end of a transaction of another thread."""
+MAX_ATTEMPTS = 1000
+"""How often a write is repeated because another process wrote at the same time."""
 
 
 class WorldError(ValueError):
@@ -67,7 +71,7 @@ class WorldModel:
         If others wrote to the store in the meantime, the changes are applied to the version that they left. StoreError
         when the store cannot save the changes; the world then stays as it was.
         """
-        with self._lock:
+        with self._locked():
             if self._in_transaction:
                 raise WorldError("a transaction is open: write to it")
             event = self._commit(tuple(changes), origin, evidence)
@@ -78,9 +82,10 @@ class WorldModel:
     def transaction(self, origin: str = "", evidence: Evidence = "assumed") -> Iterator[OpenTransaction]:
         """Collect writes and commit them together when the block ends; none if it raises or an axiom is violated.
 
-        Writes of other threads wait for the end of the block; reads do not. WorldError for a nested transaction.
+        Writes of other threads wait for the end of the block, for up to LOCK_S; reads do not. WorldError for a nested
+        transaction.
         """
-        with self._lock:
+        with self._locked():
             if self._in_transaction:
                 raise WorldError("a transaction is open already: write to it")
             self._in_transaction = True
@@ -98,7 +103,7 @@ class WorldModel:
 
         WorldError when there is none: nothing was written here, others wrote since, or it is more than MAX_UNDO ago.
         """
-        with self._lock:
+        with self._locked():
             if self._in_transaction:
                 raise WorldError("a transaction is open: end it first")
             self.follow()
@@ -118,7 +123,7 @@ class WorldModel:
     def follow(self) -> None:
         """Apply what others wrote to the store and call the listeners; StoreError when it cannot be read."""
         events: list[ChangeEvent] = []
-        with self._lock:
+        with self._locked():
             for transaction in self._store.since(self._sequence):
                 before, self._sequence = self._state, transaction.sequence
                 self._state = before.with_changes(transaction.changes)
@@ -129,18 +134,30 @@ class WorldModel:
         for event in events:
             self._notify(event)
 
+    @contextmanager
+    def _locked(self) -> Iterator[None]:
+        """Exclude the writes of other threads; WorldError if one of them does not end its transaction."""
+        if not self._lock.acquire(timeout=LOCK_S):
+            raise WorldError(f"another thread has a transaction open for more than {LOCK_S:g} s")
+        try:
+            yield
+        finally:
+            self._lock.release()
+
     def _commit(self, changes: tuple[Change, ...], origin: str, evidence: Evidence | None) -> ChangeEvent:
         event = self._check(changes, origin, evidence)
-        while not self._store.append(event, self._sequence):
+        for _ in range(MAX_ATTEMPTS):
+            if self._store.append(event, self._sequence):
+                self._advance(event)
+                self._past.append(event)
+                self._record(event)
+                return event
             before = self._sequence
             self.follow()
             if self._sequence == before:
                 raise StoreError(f"{self._store} rejects a write, although no other process has written")
             event = self._check(changes, origin, evidence)
-        self._advance(event)
-        self._past.append(event)
-        self._record(event)
-        return event
+        raise StoreError(f"{self._store} cannot be written to, because other processes write to it all the time")
 
     def _advance(self, event: ChangeEvent) -> None:
         self._state = event.after
