@@ -199,3 +199,19 @@ def test_the_same_commands_at_the_same_times_lead_to_the_same_place_as_in_lock_s
         cell.advance(3.0)
         assert arm.motion.done
         assert np.abs(arm.measured.q - there.measured.q).max() < 1e-6
+
+
+def test_a_control_period_that_never_ends_breaks_the_calls_that_wait_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("skillc_runtime.backends.real_time.locked.LOCK_S", 0.2)
+    end, hangs = threading.Event(), threading.Event()
+
+    def hang() -> bool:
+        hangs.set()
+        end.wait(DEADLINE_S)
+        return False
+
+    with running(stop=hang) as (cell, _):
+        assert hangs.wait(DEADLINE_S)
+        with pytest.raises(BackendBroken, match=r"has taken more than 0\.2 s"):
+            cell.arm(ARM[SCENE]).motion.stopping_pose()
+        end.set()

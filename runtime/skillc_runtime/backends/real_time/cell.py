@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from math import inf
-from threading import Condition, Event, RLock, Thread
+from threading import Event, Thread
 from time import monotonic
 from typing import Protocol
 
-from skillc_runtime.backends.real_time.locked import locked
+from skillc_runtime.backends.real_time.locked import CellLock, locked
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import BackendBroken
@@ -81,16 +81,15 @@ class RealTimeCell:
         s of the cell per s of the wall clock.
         """
         self._simulated, self._stop_requested, self._wall_period_s = cell, stop_requested, cell.period_s / pace
-        self._lock = RLock()
-        self._arrived = Condition(self._lock)
-        self._awaited, self._closing = 0.0, Event()
+        self._turn = CellLock()
+        self._awaited, self._arrived, self._closing = 0.0, Event(), Event()
         self._broken: str | None = None
         self._error: ControlError | None = None
         self._stopped_at: float | None = None
         self.world: WorldModel = cell.world
-        self.watchdog: Watchdog = locked(cell.watchdog, self._lock)
-        self.ground_truth: GroundTruth = locked(cell.ground_truth, self._lock)
-        self.drawing: Drawing = locked(cell.drawing, self._lock)
+        self.watchdog: Watchdog = locked(cell.watchdog, self._turn)
+        self.ground_truth: GroundTruth = locked(cell.ground_truth, self._turn)
+        self.drawing: Drawing = locked(cell.drawing, self._turn)
         self._thread = Thread(target=self._run, name="control", daemon=True)
         self._thread.start()
 
@@ -116,27 +115,27 @@ class RealTimeCell:
 
     def arm(self, individual: str) -> ArmDriver:
         """Return an arm's driver; KeyError if the cell has no such arm."""
-        return locked(self._simulated.arm(individual), self._lock, DRIVER_PARTS)
+        return locked(self._simulated.arm(individual), self._turn, DRIVER_PARTS)
 
     def gripper(self, individual: str) -> Gripper:
         """Return a gripper; KeyError if the cell has no such gripper."""
-        return locked(self._simulated.gripper(individual), self._lock)
+        return locked(self._simulated.gripper(individual), self._turn)
 
     def base(self, individual: str) -> MobileBase:
         """Return the mobile base of a robot; KeyError if it has none."""
-        return locked(self._simulated.base(individual), self._lock)
+        return locked(self._simulated.base(individual), self._turn)
 
     def camera(self) -> Camera:
         """Return the camera that inspects surfaces."""
-        return locked(self._simulated.camera(), self._lock)
+        return locked(self._simulated.camera(), self._turn)
 
     def button(self, individual: str) -> Button:
         """Return a button; KeyError if the cell has no such button."""
-        return locked(self._simulated.button(individual), self._lock)
+        return locked(self._simulated.button(individual), self._turn)
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices, all if None, neither move nor push."""
-        with self._lock:
+        with self._turn:
             return not self._thread.is_alive() or self._simulated.is_at_rest(devices)
 
     def advance(self, seconds: float) -> None:
@@ -145,10 +144,12 @@ class RealTimeCell:
         ControlError if a controller could not continue meanwhile, BackendBroken if the cell cannot.
         """
         try:
-            with self._arrived:
+            with self._turn:
                 self._awaited = self.now + seconds - self._simulated.period_s / 2
-                while self.now < self._awaited and self._broken is None and self._error is None:
-                    self._wait_for_a_period()
+                self._arrived.clear()
+            while self.now < self._awaited and self._broken is None and self._error is None:
+                self._wait_for_arrival()
+            with self._turn:
                 error, self._error = self._error, None
         finally:
             self._simulated.publish()
@@ -159,7 +160,7 @@ class RealTimeCell:
 
     def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:
         """Stop devices, all if None, and pushes, and restore releases; return what was not in order."""
-        with self._lock:
+        with self._turn:
             return self._simulated.secure(devices)
 
     def close(self) -> None:
@@ -169,7 +170,7 @@ class RealTimeCell:
         self._broken = self._broken or "the cell is closed"
         self._simulated.publish()
 
-    def _wait_for_a_period(self) -> None:
+    def _wait_for_arrival(self) -> None:
         """Wait until the awaited time has come or the cell is broken; break it if no period has run for too long."""
         before = self.now
         if not self._arrived.wait(STALL_S) and self.now == before:
@@ -180,10 +181,10 @@ class RealTimeCell:
         due = monotonic()
         try:
             while not self._closing.wait(max(due - monotonic(), SHORTEST_WAIT_S)):
-                with self._arrived:
+                with self._turn:
                     self._run_period()
                     if self.now >= self._awaited:
-                        self._arrived.notify_all()
+                        self._arrived.set()
                 due = max(due + self._wall_period_s, monotonic() - CATCH_UP_S)
         except BackendBroken as error:
             self._break(str(error))
@@ -204,9 +205,8 @@ class RealTimeCell:
             simulated.advance_period()
         except ControlError as error:
             self._error = error
-            self._arrived.notify_all()
+            self._arrived.set()
 
     def _break(self, reason: str) -> None:
-        with self._arrived:
-            self._broken = self._broken or reason
-            self._arrived.notify_all()
+        self._broken = self._broken or reason
+        self._arrived.set()
