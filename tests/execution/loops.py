@@ -14,12 +14,13 @@ from skillc_runtime.execution.assignment import Assignment, ExecuteBody, NotStar
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.execution.task_state import Refusal, RunSettings
+from skillc_runtime.execution.task_state import Refusal
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Event, StateChanged, TaskEnded
+from skillc_runtime.recording.run_settings import RunSettings
 from tree.stage import Library, Script, Stage, world
 
 E = TypeVar("E", bound=Event)

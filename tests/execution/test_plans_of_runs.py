@@ -8,9 +8,9 @@ from execution.loops import Watched
 from execution.yard import CRATE_TO_B, Yard
 from plans.depot import contain, iri, library
 from skillc_runtime.execution.conclusion import MAX_ATTEMPTS
-from skillc_runtime.execution.task_state import RunSettings
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import PlanArrived, Replanned, WorldChanged
+from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.labelled import label_change
 

@@ -19,10 +19,11 @@ from execution.ways import (
     running,
     turned,
 )
-from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, RunSettings
+from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Note, Requested, TaskEnded, WorldChanged
+from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty, LabelledRelation
 from tree.stage import FLAGS, ON, Library, Script, act, call, with_

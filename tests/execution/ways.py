@@ -6,10 +6,11 @@ from itertools import pairwise
 
 from execution.loops import StagedCell, Watched, staged
 from skillc_model.skills import Compound, PausePolicy, Skill
-from skillc_runtime.execution.task_state import TRANSITIONS, RunSettings
+from skillc_runtime.execution.task_state import TRANSITIONS
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import TaskEnded
+from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
 from tree.stage import ON, Library, Script, act, call, here
 

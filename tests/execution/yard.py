@@ -8,7 +8,7 @@ from execution.loops import LatePlanner, Watched, submit
 from plans.depot import Depot, contain, goal, iri, library, world
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment
 from skillc_runtime.execution.cell_loop import CellLoop
-from skillc_runtime.execution.task_state import RunSettings
+from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.model import WorldModel
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from skillc_model import tree
 from skillc_model.conditions import Compare, Condition, Individual, Literal, PropertyOf
 from skillc_model.skills import SkillLibrary
-from tree.stage import DEVICES, ON, PERIOD_S, Library, Script, call, here, par, sel, seq, with_
+from tree.stage import DEVICES, ON, PERIOD_S, SCRIPTED, Library, Script, call, here, par, sel, seq, with_
 from tree.stage import FLAGS as ALL_FLAGS
 
 FLAGS = ALL_FLAGS[:2]
@@ -30,9 +30,9 @@ class Play:
 
 
 @st.composite
-def plays(draw: st.DrawFn, size: int = 12) -> Play:
-    """Draw a tree of about so many leaves."""
-    writer = _Writer(draw, size)
+def plays(draw: st.DrawFn, size: int = 12, python: str = SCRIPTED) -> Play:
+    """Draw a tree of about so many leaves; `python` is the class of every primitive."""
+    writer = _Writer(draw, size, python)
     body = writer.node(4)
     switch = st.tuples(st.integers(1, 6), st.sampled_from(FLAGS), st.booleans())
     switches = draw(st.lists(switch, max_size=8))
@@ -41,10 +41,10 @@ def plays(draw: st.DrawFn, size: int = 12) -> Play:
 
 
 class _Writer:
-    def __init__(self, draw: st.DrawFn, size: int) -> None:
+    def __init__(self, draw: st.DrawFn, size: int, python: str) -> None:
         self.draw = draw
         self.left = size
-        self.library = Library()
+        self.library = Library(python)
         self.scripts: dict[str, list[Script]] = {}
 
     def node(self, depth: int) -> tree.Node:

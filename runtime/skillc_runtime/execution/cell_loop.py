@@ -15,11 +15,12 @@ from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import StartPreparation
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.execution.task_state import Refusal, RunSettings
+from skillc_runtime.execution.task_state import Refusal
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.recording.commands import Command, Stop
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.listeners import Listeners
+from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 MAX_REQUESTS = 1000

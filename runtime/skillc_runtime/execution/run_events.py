@@ -13,11 +13,13 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.attempt import RunContext
 from skillc_runtime.execution.plans.plan_record import record_plan, record_steps, restore_plan
+from skillc_runtime.execution.tree.gate import format_breakpoint
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import FORMAT, PlanArrived, PlanMade, TaskStarted
+from skillc_runtime.recording.run_settings import RunSettings
 
 
-def make_start_event(assignment: Assignment, context: RunContext) -> TaskStarted:
+def make_start_event(assignment: Assignment, context: RunContext, settings: RunSettings) -> TaskStarted:
     """Return the event that a task starts now."""
     objective, library, origin = assignment.objective, context.library, context.origin
     return TaskStarted(
@@ -31,6 +33,9 @@ def make_start_event(assignment: Assignment, context: RunContext) -> TaskStarted
         goal=objective.goal if isinstance(objective, AchieveGoal) else None,
         minimise=objective.minimise if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,
+        settings=settings,
+        breakpoints=tuple(sorted(map(format_breakpoint, context.gate.breakpoints))),
+        stepped=context.gate.stepping,
     )
 
 

@@ -23,7 +23,7 @@ from skillc_runtime.execution.device_claims import DeviceClaims
 from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import DevicesBusy, NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
-from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, RunSettings, refusal
+from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, refusal
 from skillc_runtime.execution.world_edit import edit_world, recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
@@ -31,6 +31,7 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, assumed_facts
+from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.transactions import StoreError
 
@@ -66,7 +67,7 @@ class TaskRun:
         self._attempt: Attempt | None = None
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
-        self._emit(make_start_event(assignment, context))
+        self._emit(make_start_event(assignment, context, settings))
 
     @property
     def ended(self) -> bool:
@@ -107,7 +108,8 @@ class TaskRun:
     def tick(self, tick: int) -> bool:
         """Do the work of one tick of the loop, whose number is `tick`; return whether anything happened."""
         before = self.state
-        self._check_limits()
+        if self._ending is None:
+            self._check_limits()
         if self.state == "queued":
             self._begin() if self._next.prepared is not None else self._prepare()
         arrived = self.state == "planning" and self._take_preparation(tick)
@@ -255,8 +257,6 @@ class TaskRun:
     def _check_limits(self) -> None:
         """Fail if the deadline has passed, or if the cell is broken before an attempt has begun."""
         limit, broken = self._settings.deadline_s, self._context.backend.broken
-        if self.ended or self._ending is not None:
-            return
         if limit is not None and self._now - self._submitted_at >= limit:
             self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
         elif broken is not None and self._attempt is None:

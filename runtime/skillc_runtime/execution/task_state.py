@@ -46,19 +46,6 @@ TRANSITIONS: dict[State, frozenset[State]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class RunSettings:
-    """How a task is run.
-
-    `approve`: each plan waits for approval. `deadline_s`: the task fails if it has not ended so long after its
-    submission, in s of the cell. `ask_after_failure`: a failed step waits for a decision instead of another plan.
-    """
-
-    approve: bool = False
-    deadline_s: float | None = None
-    ask_after_failure: bool = False
-
-
-@dataclass(frozen=True, slots=True)
 class Ending:
     """How a run that is stopping will end."""
 

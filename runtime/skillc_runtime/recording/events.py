@@ -14,6 +14,7 @@ from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
+from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
@@ -32,7 +33,8 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
 
     The objective is a `goal`, with what the plan minimises, or a `body` to run as it is. `scene` and `seed` are those
-    of the cell; `scene` is empty if the world came from elsewhere, for example from a store.
+    of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses at
+    `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
     """
 
     format: int
@@ -44,6 +46,9 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     goal: Condition | None = None
     minimise: Literal["", "work", "makespan"] = ""
     body: Node | None = None
+    settings: RunSettings = RunSettings()
+    breakpoints: tuple[str, ...] = ()
+    stepped: bool = False
     source: Position | None = None
 
 

@@ -65,6 +65,11 @@ class Gate:
         self.waiting: list[Call] = []
         self._step: Callable[[Call], bool] | None = None
 
+    @property
+    def stepping(self) -> bool:
+        """Whether the run is to pause after a step."""
+        return self._step is not None
+
     def close(self, reason: str) -> None:
         """Pause at the next point where all active skills may be paused."""
         self.reason = self.reason or reason
@@ -154,6 +159,12 @@ def format_breakpoint(breakpoint_: Breakpoint) -> str:
             return f"{path}:{line}"
         case _:
             assert_never(breakpoint_)
+
+
+def read_breakpoint(text: str) -> Breakpoint:
+    """Return the breakpoint that `format_breakpoint` has written."""
+    path, _, line = text.rpartition(":")
+    return AtLine(path, int(line)) if path else AtSkill(text)
 
 
 def _is_at(breakpoint_: Breakpoint, call: Call) -> bool:

@@ -1,0 +1,159 @@
+"""Repeats a recorded run from its inputs: requests and plans take effect again at their ticks of the loop."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, NotStarted, PreparedTask
+from skillc_runtime.execution.attempt import TICK_S, CellOrigin
+from skillc_runtime.execution.cell_loop import CellLoop
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.run_events import read_arrival
+from skillc_runtime.execution.tree.gate import Gate, read_breakpoint
+from skillc_runtime.planning.validation import PlanError
+from skillc_runtime.recording.events import Event, PlanArrived, Requested, TaskStarted
+
+
+class NotRepeatable(Exception):
+    """A recorded run cannot be repeated; the message says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """Where a repetition differs: the event with this number, from 1, as recorded and as repeated; None for none."""
+
+    number: int
+    recorded: Event | None
+    repeated: Event | None
+
+    def __str__(self) -> str:
+        return f"event {self.number} was {_describe(self.recorded)}, and is {_describe(self.repeated)} when repeated"
+
+
+@dataclass(frozen=True, slots=True)
+class Repetition:
+    """The events of a repeated run, up to the first that differs from the recording, and the difference, if any."""
+
+    events: tuple[Event, ...]
+    difference: Difference | None
+
+
+def repeat_run(recorded: Sequence[Event], library: SkillLibrary, backend: Backend) -> Repetition:
+    """Run a task again as `recorded`, all events of one run; `backend` is a cell built from its scene and seed.
+
+    Only a run that had its cell for itself from the start of the cell can be repeated. NotRepeatable otherwise, if the
+    library is another one, or if a plan of the recording does not work with it.
+    """
+    player = _Player(recorded, library, backend)
+    try:
+        player.play()
+    except PlanError as error:
+        raise NotRepeatable(f"a plan of the recording does not work in this cell: {error}") from error
+    finally:
+        repetition = Repetition(tuple(player.events), player.difference)
+        player.loop.close("the repetition ends")
+    return repetition
+
+
+class _Player:
+    """Feeds the inputs of a recording to a run in a loop of its own, and compares what it tells."""
+
+    def __init__(self, recorded: Sequence[Event], library: SkillLibrary, backend: Backend) -> None:
+        started = _find_start(recorded, library, backend)
+        self.events: list[Event] = []
+        self.difference: Difference | None = None
+        self._recorded, self._library, self._backend = tuple(recorded), library, backend
+        self._requests = deque(event for event in recorded if isinstance(event, Requested))
+        self._arrivals = deque(event for event in recorded if isinstance(event, PlanArrived))
+        self.loop = CellLoop(backend, library, self._prepare, CellOrigin(started.scene, started.seed))
+        gate = Gate(map(read_breakpoint, started.breakpoints))
+        if started.stepped:
+            gate.step("into", ())
+        self._run = self.loop.submit(_make_assignment(started, backend), [self._compare], started.settings, gate)
+
+    def play(self) -> None:
+        """Tick until the run has ended, or is not as recorded."""
+        while self.difference is None and not self._run.ended:
+            while self._requests and self._requests[0].tick <= self.loop.ticks:
+                self.loop.request(self._run, self._requests.popleft().command)
+            happened = self.loop.tick()
+            self._find_missing(at_end=not happened)
+        self._find_missing(at_end=True)
+
+    def _compare(self, event: Event) -> None:
+        """Compare an event with the recorded one."""
+        if self.difference is None:
+            number = len(self.events)
+            recorded = self._recorded[number] if number < len(self._recorded) else None
+            self.events.append(event)
+            if event != recorded:
+                self.difference = Difference(number + 1, recorded, event)
+
+    def _find_missing(self, at_end: bool) -> None:
+        """Find the next recorded event missing, if there is one, once its time has passed or nothing can follow."""
+        number = len(self.events)
+        if self.difference is None and number < len(self._recorded):
+            missing = self._recorded[number]
+            if at_end or missing.time < self._backend.clock.now - 1.5 * TICK_S:
+                self.difference = Difference(number + 1, missing, None)
+
+    def _prepare(self, assignment: Assignment, failures: FailedSteps) -> _RecordedPlan:
+        arrival = self._arrivals.popleft() if self._arrivals else None
+        return _RecordedPlan(assignment, self._library, arrival, lambda: self.loop.ticks)
+
+
+@dataclass(frozen=True, slots=True)
+class _RecordedPlan:
+    """A preparation whose answer arrives in its recorded tick; never without one."""
+
+    assignment: Assignment
+    library: SkillLibrary
+    arrival: PlanArrived | None
+    ticks: Callable[[], int]
+
+    def poll(self) -> PreparedTask | NotStarted | None:
+        """Return the answer in its tick; PlanError if the plan does not work."""
+        if self.arrival is None or self.ticks() < self.arrival.tick:
+            return None
+        return read_arrival(self.arrival, self.assignment, self.library)
+
+    def wait(self, seconds: float) -> PreparedTask | NotStarted | None:
+        """Return what there is; nothing is computed meanwhile."""
+        return self.poll()
+
+    def kill(self) -> None:
+        """Do nothing: nobody plans."""
+
+
+def _find_start(recorded: Sequence[Event], library: SkillLibrary, backend: Backend) -> TaskStarted:
+    """Return the first event; NotRepeatable if it does not fit the library or the cell."""
+    if not recorded or not isinstance(recorded[0], TaskStarted):
+        raise NotRepeatable("the recording does not begin with the start of a task")
+    started = recorded[0]
+    if started.hash != library.hash:
+        raise NotRepeatable(
+            f"the run used the library {started.library} {started.hash[:12]}, and this is {library.name} "
+            f"{library.hash[:12]}; repeat it with the library that it used"
+        )
+    if started.time != backend.clock.now:
+        raise NotRepeatable(
+            f"the run began {started.time:g} s after its cell; only the first run of a cell is repeated"
+        )
+    return started
+
+
+def _make_assignment(started: TaskStarted, backend: Backend) -> Assignment:
+    state = backend.cell.world.snapshot()
+    if started.goal is not None and started.minimise:
+        return Assignment(started.task, state, AchieveGoal(started.goal, started.minimise))
+    if started.body is not None:
+        return Assignment(started.task, state, ExecuteBody(started.body))
+    raise NotRepeatable("the start of the task has neither a goal nor a body")
+
+
+def _describe(event: Event | None) -> str:
+    return "nothing" if event is None else repr(event)

@@ -1,0 +1,17 @@
+"""How a task is run, as it is recorded."""
+
+from __future__ import annotations
+
+import msgspec
+
+
+class RunSettings(msgspec.Struct, frozen=True, omit_defaults=True):
+    """How a task is run.
+
+    `approve`: each plan waits for approval. `deadline_s`: the task fails if it has not ended so long after its
+    submission, in s of the cell. `ask_after_failure`: a failed step waits for a decision instead of another plan.
+    """
+
+    approve: bool = False
+    deadline_s: float | None = None
+    ask_after_failure: bool = False
