@@ -9,20 +9,44 @@ import signal
 import sys
 import time
 
+import numpy as np
+
+from skillc_runtime.devices.cell import Cell
+from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.primitive import Primitive, Status
 
 FOR_EVER_S = 10**9
 
 
-class Breaking(Primitive):
-    """Breaks in its third tick."""
+class Swinging(Primitive):
+    """Moves the tool by 20 cm in four seconds."""
+
+    def __init__(self, cell: Cell, *, arm: str) -> None:
+        super().__init__(cell)
+        self._arm = cell.arm(arm)
 
     def start(self) -> None:
-        self._ticks = 0
+        begin = self._arm.motion.stopping_pose()
+        end = Pose(begin.position + np.array([0.0, 0.2, 0.0]), begin.rotation)
+        self._arm.motion.move_along(path_through([begin, end], MotionLimits(speed=0.05, acceleration=0.5)))
 
     def tick(self) -> Status:
-        self._ticks += 1
-        if self._ticks == 3:
+        return Status.SUCCESS if self._arm.motion.done else Status.RUNNING
+
+    def halt(self, reason: str) -> None:
+        self._arm.motion.stop()
+
+
+class Breaking(Primitive):
+    """Breaks after half a second."""
+
+    def start(self) -> None:
+        self._breaks_at = self.cell.now + 0.5
+
+    def tick(self) -> Status:
+        if self.cell.now > self._breaks_at:
             self.break_down()
         return Status.RUNNING
 

@@ -18,18 +18,18 @@ pytestmark = pytest.mark.sim
 
 LIBRARY = Path(__file__).with_name("blocking.skill")
 BLOCKED, GONE = "no tick ended within 5 s, so its process was ended, in ", "its process ended without notice, in "
-POSTURE = "TakePosture[joints] (std/motion.skill:35) and "
+SWING = "Swing[slowly] (blocking.skill:13) and "
 
 
 @pytest.mark.parametrize(
     ("task", "code", "status", "failure"),
     [
-        ("sleep", 3, "interrupted", f"{BLOCKED}{POSTURE}Break[sleeping] (blocking.skill:12)"),
-        ("lock", 3, "interrupted", f"{BLOCKED}{POSTURE}Break[locking] (blocking.skill:16)"),
-        ("match", 3, "interrupted", f"{BLOCKED}Break[matching] (blocking.skill:20)"),
-        ("leave", 0, "interrupted", f"{GONE}Break[leaving] (blocking.skill:24)"),
+        ("sleep", 3, "interrupted", f"{BLOCKED}{SWING}Break[sleeping] (blocking.skill:22)"),
+        ("lock", 3, "interrupted", f"{BLOCKED}{SWING}Break[locking] (blocking.skill:26)"),
+        ("match", 3, "interrupted", f"{BLOCKED}Break[matching] (blocking.skill:30)"),
+        ("leave", 0, "interrupted", f"{GONE}Break[leaving] (blocking.skill:34)"),
         ("exit", 3, "failed", "SystemExit: "),
-        ("kill", -signal.SIGKILL, "interrupted", f"{GONE}Break[killed] (blocking.skill:32)"),
+        ("kill", -signal.SIGKILL, "interrupted", f"{GONE}Break[killed] (blocking.skill:42)"),
     ],
 )
 def test_whatever_a_primitive_does_the_run_has_an_end(

@@ -7,11 +7,13 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import msgspec
+import numpy as np
 import pytest
 
-from ends import run_to_end
+from ends import run_by_the_clock, run_to_end
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.recording.events import TaskEnded
@@ -21,11 +23,13 @@ BLOCKED = "no tick ended within 1 s, so its process was ended"
 GONE = "its process ended without notice"
 
 
-def run(folder: Path, how: str, timeout_s: float = 1.0) -> subprocess.CompletedProcess[str]:
-    """Run a process to its end, and that of its watchdog, which holds the same pipes."""
+def run(
+    folder: Path, how: str, timeout_s: float = 1.0, program: ModuleType = run_to_end
+) -> subprocess.CompletedProcess[str]:
+    """Run a program to its end, and that of its watchdog, which holds the same pipes."""
     (folder / "tmp").mkdir()
     environment = {**os.environ, "TMPDIR": str(folder / "tmp"), "PYTHONPATH": os.pathsep.join(sys.path)}
-    command = (sys.executable, run_to_end.__file__, str(folder / "out"), str(timeout_s), how)
+    command = (sys.executable, str(program.__file__), str(folder / "out"), str(timeout_s), how)
     done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=300, check=False)
     assert not list((folder / "tmp").iterdir()), "a temporary folder is left"
     return done
@@ -47,12 +51,12 @@ def read_result(folder: Path) -> TaskResult:
     [
         ("sleep", 3, BLOCKED),
         ("lock", 3, BLOCKED),
-        ("match", 3, BLOCKED),
-        ("ignore", -signal.SIGKILL, BLOCKED),
+        pytest.param("match", 3, BLOCKED, marks=pytest.mark.sim),
+        pytest.param("ignore", -signal.SIGKILL, BLOCKED, marks=pytest.mark.sim),
         ("leave", 0, GONE),
         ("kill", -signal.SIGKILL, GONE),
         ("crash", -signal.SIGSEGV, GONE),
-        ("hang up", -signal.SIGHUP, GONE),
+        pytest.param("hang up", -signal.SIGHUP, GONE, marks=pytest.mark.sim),
     ],
 )
 def test_the_end_of_a_process_that_cannot_write_it_is_written(tmp_path: Path, how: str, code: int, why: str) -> None:
@@ -85,11 +89,11 @@ def test_the_end_of_a_run_that_is_broken_off_is_written(tmp_path: Path, how: str
     assert ended.status == read_result(tmp_path).status == "interrupted"
 
 
-@pytest.mark.parametrize("how", ["finish", "report", "suspend", "compile"])
+@pytest.mark.parametrize("how", ["finish", "report", "suspend", pytest.param("compile", marks=pytest.mark.sim)])
 def test_a_run_that_may_take_its_time_is_not_ended(tmp_path: Path, how: str) -> None:
     if how == "compile" and not COMPILES:
         pytest.skip("needs numba")
-    done = run(tmp_path, how, timeout_s=3.0)
+    done = run(tmp_path, how, timeout_s=5.0)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     assert read_end(tmp_path).status == "succeeded"
     assert not (tmp_path / "out/result.json").exists(), "it is written by what follows the run"
@@ -100,3 +104,24 @@ def test_a_process_that_dies_after_the_end_of_the_run_changes_nothing_in_it(tmp_
     assert done.stderr == f"warning: play had succeeded: {GONE}, before its report was written\n"
     assert read_end(tmp_path).status == "succeeded"
     assert (read_result(tmp_path).status, read_result(tmp_path).verified) == ("succeeded", True)
+
+
+@pytest.mark.parametrize(
+    ("how", "stops"),
+    [
+        pytest.param("sleep", True, marks=pytest.mark.sim),
+        pytest.param("lock", False, marks=pytest.mark.sim),
+        ("alive", True),
+    ],
+)
+def test_devices_with_a_control_thread_have_stopped_when_the_process_ends(
+    tmp_path: Path, how: str, stops: bool
+) -> None:
+    done = run(tmp_path, how, 3.0, run_by_the_clock)
+    rows = np.load(tmp_path / "out" / run_by_the_clock.JOINTS)
+    joints = rows[np.isfinite(rows[:, 0])]
+    moved = np.abs(np.diff(joints, axis=0)).max(axis=1)
+    assert done.returncode == 3, done.stderr
+    assert read_end(tmp_path).status == read_result(tmp_path).status == "interrupted"
+    assert moved.max() > 2e-5, "the arm moved"
+    assert (moved[-50:].max() < 1e-9) == stops, "without the interpreter lock the control thread does nothing more"

@@ -26,7 +26,7 @@ POLL_S = 0.1
 MAX_POLL_S = 1.0
 """The greatest time between two polls that counts: more passes if the machine, or this program, was suspended."""
 
-STOP_S = 0.5
+STOP_S = 2.0
 """How long devices may take to stop before the process that controls them is ended."""
 
 QUIT_S = 2.0
