@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from commands.test_output import lab, skillc_in
 from skillc.cli.main import skillc
-from skillc.services import running, task_loading
+from skillc.services import run_report, task_loading
 
 GOAL = "lab:b contain lab:crate"
 __all__ = ["lab"]
@@ -53,7 +53,7 @@ def test_a_folder_that_cannot_be_made_is_told_first(lab: Path, monkeypatch: pyte
 def test_a_report_that_cannot_be_written_hides_no_outcome(
     form: list[str], lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(running, "write_report", full)
+    monkeypatch.setattr(run_report, "write_report", full)
     result = skillc_in(lab, "run", GOAL, "--out", str(lab / "out"), *form)
     assert result.exit_code == 1
     assert f"error: cannot write to {lab / 'out'}: No space left on device" in result.stderr

@@ -120,7 +120,6 @@ def interrupted(depot: Path, command: str, send: Callable[[int], None]) -> tuple
     return process.returncode, out, err, temporary
 
 
-@pytest.mark.parametrize("command", ["plan", "run"])
 @pytest.mark.parametrize(
     ("number", "code", "said"),
     [
@@ -129,10 +128,20 @@ def interrupted(depot: Path, command: str, send: Callable[[int], None]) -> tuple
         (signal.SIGHUP, 129, "ended by SIGHUP"),
     ],
 )
-def test_a_signal_ends_planning(depot: Path, command: str, number: signal.Signals, code: int, said: str) -> None:
-    ended, out, err, temporary = interrupted(depot, command, lambda pid: os.killpg(pid, number))
+def test_a_signal_ends_planning(depot: Path, number: signal.Signals, code: int, said: str) -> None:
+    ended, out, err, temporary = interrupted(depot, "plan", lambda pid: os.killpg(pid, number))
     assert (ended, out) == (code, "")
     assert [line for line in err.splitlines() if "preparing" not in line and "planning" not in line] == [said]
+    assert not list(temporary.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "ended by SIGTERM"), (signal.SIGHUP, "ended by SIGHUP")],
+)
+def test_a_signal_stops_a_task_that_is_planned(depot: Path, number: signal.Signals, said: str) -> None:
+    ended, out, _, temporary = interrupted(depot, "run", lambda pid: os.killpg(pid, number))
+    assert ended == 3 and "stopped" in out and said in out
     assert not list(temporary.iterdir())
 
 

@@ -8,11 +8,13 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from rich.status import Status
+from rich.spinner import Spinner
+from rich.text import Text
 
 from skillc.cli.main import skillc
-from skillc.cli.progress import RunProgress, TrialProgress
 from skillc.cli.run_output import print_results
+from skillc.cli.run_progress import RunProgress
+from skillc.cli.trial_progress import TrialProgress
 from skillc_runtime.evaluation.report.result import StepResult, TaskResult
 
 LIBRARY = """use skiros
@@ -95,8 +97,13 @@ def test_progress_has_the_text_as_it_is(
     text: str, terminal: bool, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown: list[str] = []
-    update = Status.update
-    monkeypatch.setattr(Status, "update", lambda self, status: (shown.append(str(status)), update(self, status)))
+    update = Spinner.update
+
+    def show(self: Spinner, *, text: Text) -> None:
+        shown.append(str(text))
+        update(self, text=text)
+
+    monkeypatch.setattr(Spinner, "update", show)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal)
     with RunProgress(text, quiet=False) as live:
         live.say(text)

@@ -153,7 +153,7 @@ def check(ran: Ran) -> None:
     check_primitives()
     check_facts(ran)
     task = ran.watched.run
-    assert task._context.locks.held == frozenset() == task._devices
+    assert task._context.locks.held == frozenset() == task._claims.devices_of(task.id)
     assert not ran.cell.watchdog.expired(ran.cell.now + 1e6)
     check_rest(ran.cell)
     assert not ran.watched.loop.tick()

@@ -107,7 +107,7 @@ WAYS = {
 def check_nothing_left(cell: StagedCell, watched: Watched) -> None:
     """Check that nothing runs, is locked, claimed or expected, and that the end was told last."""
     assert isinstance(watched.events[-1], TaskEnded) and len(watched.told(TaskEnded)) == 1
-    assert watched.run._context.locks.held == frozenset() == watched.run._devices
+    assert watched.run._context.locks.held == frozenset() == watched.run._claims.devices_of(watched.run.id)
     assert not cell.watchdog.expired(cell.now + 1e6)
     watched.loop.tick()
     told = len(cell.log)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
@@ -36,10 +36,6 @@ def raising_on_signals() -> Iterator[None]:
 
     Signals that are ignored stay ignored, as `nohup` wants it. In other threads this does nothing.
     """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = {number: signal.getsignal(number) for number in NUMBERS}
     received = False
 
     def handle(number: int, _frame: FrameType | None) -> None:
@@ -49,6 +45,36 @@ def raising_on_signals() -> Iterator[None]:
         received = True
         raise Interrupted(number)
 
+    with _handling(handle):
+        yield
+
+
+@contextmanager
+def noting_signals() -> Iterator[Callable[[], Interrupted | None]]:
+    """Note the first signal that asks the program to end: the value returns it. Raise it at the second one.
+
+    At the third one, exit. To be used inside of `raising_on_signals`, by a program that looks often.
+    """
+    noted: list[Interrupted] = []
+
+    def handle(number: int, _frame: FrameType | None) -> None:
+        noted.append(Interrupted(number))
+        if len(noted) > 2:
+            os._exit(SHELL_OFFSET + number)
+        if len(noted) == 2:
+            raise noted[1]
+
+    with _handling(handle):
+        yield lambda: noted[0] if noted else None
+
+
+@contextmanager
+def _handling(handle: Callable[[int, FrameType | None], None]) -> Iterator[None]:
+    """Handle the signals that are not ignored, as they are with `nohup`; nothing changes in other threads."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in NUMBERS}
     try:
         for number, former in before.items():
             if former is not signal.SIG_IGN:

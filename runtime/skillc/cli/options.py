@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from skillc_ontology import catalogue
+
+if TYPE_CHECKING:
+    from skillc_runtime.execution.pace import Pace
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 FOLDER = click.Path(path_type=Path, file_okay=False)
@@ -45,6 +48,36 @@ def planner_options(function: Function) -> Function:
     return cache(measure(function))
 
 
+def operating_options(function: Function) -> Function:
+    """Add `--pace`, `--deadline`, `--step` and `--pause-at`."""
+    options = (
+        click.option(
+            "--pace",
+            default="fast",
+            show_default=True,
+            metavar="fast|real|N",
+            callback=_parse_pace,
+            help="Let simulated time pass as fast as it computes, or at most N times as fast as real time.",
+        ),
+        click.option(
+            "--deadline",
+            type=click.FloatRange(min=0.0, min_open=True),
+            metavar="SECONDS",
+            help="Let the task fail if it has not ended after these seconds of simulated time; also limits planning.",
+        ),
+        click.option("--step", is_flag=True, help="Pause before the first call; keys continue step by step."),
+        click.option(
+            "--pause-at",
+            multiple=True,
+            metavar="SKILL|FILE:LINE",
+            help="Pause before each call of a skill, or before the calls in a line. Can be repeated.",
+        ),
+    )
+    for option in reversed(options):
+        function = option(function)
+    return function
+
+
 def looks_option(function: Function) -> Function:
     """Add `--looks`, the appearance of devices in films."""
     return click.option(
@@ -70,6 +103,15 @@ def add_ontology_option(command: click.Command) -> click.Command:
             )
         )
     return command
+
+
+def _parse_pace(_context: click.Context, _option: click.Parameter, value: str) -> Pace:
+    from skillc_runtime.execution.pace import Pace, parse_pace
+
+    try:
+        return Pace(parse_pace(value))
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from error
 
 
 def _set_folders(context: click.Context, _option: click.Parameter, value: tuple[Path, ...]) -> tuple[Path, ...]:

@@ -9,10 +9,9 @@ from typing import Generic, TypeVar
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
-from skillc_runtime.execution.assignment import Assignment, PreparedTask
+from skillc_runtime.execution.assignment import PreparedTask
 from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.cell_loop import CellLoop
-from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import Preparation, Ready, StartPreparation, prepare_here
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.events import Listener
@@ -28,11 +27,12 @@ BackendT = TypeVar("BackendT", bound=Backend)
 
 @dataclass(frozen=True, slots=True)
 class Execution(Generic[BackendT]):
-    """How a task ended: its attempts, the back-end in whose cell it ran, the wall-clock time it took.
+    """How a task ended: its attempts, none if it never ran, the back-end of its cell, the wall-clock time it took.
 
     `facts` are those that a success rests on, `verified` is whether none of them is only assumed.
     """
 
+    task: str
     attempts: tuple[AttemptResult, ...]
     status: EndState
     failure: Failure | None
@@ -54,31 +54,30 @@ def execute_task(
     listeners: Sequence[Listener] = (),
     after_tick: Callable[[], None] = lambda: None,
     interrupted: Callable[[], bool] = lambda: False,
-    replan: StartPreparation | None = None,
 ) -> Execution[BackendT]:
     """Run a prepared task to its end; `after_tick` is called after every tick.
 
-    A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one, which
-    `replan` makes, by default in this process. `interrupted` is called before every tick, and while a plan is made,
-    until it returns true; then everything is halted, and forces are released.
+    A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one, planned
+    in this process. When `interrupted` returns true everything is halted, and forces are released.
     """
     began = perf_counter()
-    preparation = _prepare_after(prepared, replan or prepare_here(library))
-    loop = CellLoop(backend, library, preparation, after_tick=(after_tick,))
+    loop = CellLoop(backend, library, prepare_after(Ready(prepared), prepare_here(library)), after_tick=(after_tick,))
     run = loop.submit(prepared.assignment, listeners)
-    drive(loop, run, interrupted)
+
+    def stop_if_interrupted() -> bool:
+        if run.state != "stopping" and interrupted():
+            loop.stop("interrupted", run)
+        return True
+
+    drive(loop, run, stop_if_interrupted)
     return describe_execution(run, backend, perf_counter() - began)
 
 
-def drive(loop: CellLoop, run: TaskRun, interrupted: Callable[[], bool] = lambda: False) -> None:
-    """Tick a loop until a run has ended, or has been stopped because `interrupted` returned true."""
-    stopped = False
+def drive(loop: CellLoop, run: TaskRun, attend: Callable[[], bool] = lambda: True) -> None:
+    """Tick a loop until a run has ended; `attend` is called before each tick and returns whether the tick is due."""
     try:
         while not run.ended:
-            if not stopped and interrupted():
-                stopped = True
-                loop.stop("interrupted", run)
-            if not loop.tick():
+            if attend() and not loop.tick():
                 loop.wait(WAIT_S)
     finally:
         loop.close("the program ends")
@@ -87,14 +86,11 @@ def drive(loop: CellLoop, run: TaskRun, interrupted: Callable[[], bool] = lambda
 def describe_execution(run: TaskRun, backend: BackendT, wall_time_s: float) -> Execution[BackendT]:
     """Return how a run ended."""
     assert run.end is not None, "a run that has ended"
-    return Execution(tuple(run.attempts), run.end, run.failure, backend, wall_time_s, run.facts, run.verified)
+    attempts = tuple(run.attempts)
+    return Execution(run.assignment.name, attempts, run.end, run.failure, backend, wall_time_s, run.facts, run.verified)
 
 
-def _prepare_after(prepared: PreparedTask, plan: StartPreparation) -> StartPreparation:
-    """Return a preparation whose first answer is known; `plan` makes further plans."""
-    first = [prepared]
-
-    def start(assignment: Assignment, failures: FailedSteps) -> Preparation:
-        return Ready(first.pop()) if first else plan(assignment, failures)
-
-    return start
+def prepare_after(first: Preparation, then: StartPreparation) -> StartPreparation:
+    """Return what prepares an assignment: `first`, which has been started already, and after it what `then` starts."""
+    started = [first]
+    return lambda assignment, failures: started.pop() if started else then(assignment, failures)

@@ -84,6 +84,11 @@ class NextAttempt:
         """Start to plan."""
         self.prepared, self.preparation = None, self._start(assignment, failures)
 
+    def wait(self, seconds: float) -> None:
+        """Wait for up to `seconds` of wall time for the answer of the preparation, if one goes on."""
+        if self.preparation is not None:
+            self.preparation.wait(seconds)
+
     def take(self) -> PreparedTask | NotStarted | None:
         """Return the answer of the preparation if it has arrived; a prepared task then waits to begin."""
         answer = self.preparation.poll() if self.preparation is not None else None

@@ -11,19 +11,26 @@ from skillc_runtime.execution.assignment import (
     PreparedTask,
     arrange_prepared,
 )
-from skillc_runtime.execution.attempt import RunContext
+from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.plans.plan_record import record_plan, record_steps, restore_plan
-from skillc_runtime.execution.tree.gate import format_breakpoint
+from skillc_runtime.execution.tree.gate import Gate, format_breakpoint
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import FORMAT, PlanArrived, PlanMade, TaskStarted
 from skillc_runtime.recording.run_settings import RunSettings
 
 
-def make_start_event(assignment: Assignment, context: RunContext, settings: RunSettings) -> TaskStarted:
-    """Return the event that a task starts now."""
-    objective, library, origin = assignment.objective, context.library, context.origin
+def make_start_event(
+    assignment: Assignment,
+    library: SkillLibrary,
+    origin: CellOrigin,
+    now: float,
+    settings: RunSettings | None = None,
+    gate: Gate | None = None,
+) -> TaskStarted:
+    """Return the event that a task starts at the time `now` of the cell in s."""
+    objective, gate = assignment.objective, gate or Gate()
     return TaskStarted(
-        time=context.backend.clock.now,
+        time=now,
         format=FORMAT,
         task=assignment.name,
         library=library.name,
@@ -33,9 +40,9 @@ def make_start_event(assignment: Assignment, context: RunContext, settings: RunS
         goal=objective.goal if isinstance(objective, AchieveGoal) else None,
         minimise=objective.minimise if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,
-        settings=settings,
-        breakpoints=tuple(sorted(map(format_breakpoint, context.gate.breakpoints))),
-        stepped=context.gate.stepping,
+        settings=settings or RunSettings(),
+        breakpoints=tuple(sorted(map(format_breakpoint, gate.breakpoints))),
+        stepped=gate.stepping,
     )
 
 

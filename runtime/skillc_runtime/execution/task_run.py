@@ -24,6 +24,7 @@ from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import DevicesBusy, NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, refusal
+from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.execution.world_edit import edit_world, recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
@@ -67,7 +68,7 @@ class TaskRun:
         self._attempt: Attempt | None = None
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
-        self._emit(make_start_event(assignment, context, settings))
+        self._emit(make_start_event(assignment, context.library, context.origin, self._now, settings, context.gate))
 
     @property
     def ended(self) -> bool:
@@ -83,6 +84,11 @@ class TaskRun:
     def waits_for_decision(self) -> bool:
         """Whether a step failed and somebody has to decide how to go on."""
         return self.state == "paused" and self._attempt is None
+
+    @property
+    def tree(self) -> TreeRun | None:
+        """The tree that runs; None between attempts."""
+        return self._attempt.tree if self._attempt is not None else None
 
     @property
     def allowed(self) -> tuple[str, ...]:
@@ -124,16 +130,11 @@ class TaskRun:
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for the preparation; to be used if nothing else goes on."""
-        if self._next.preparation is not None:
-            self._next.preparation.wait(seconds)
+        self._next.wait(seconds)
 
     @property
     def _now(self) -> float:
         return self._context.backend.clock.now
-
-    @property
-    def _devices(self) -> frozenset[str] | None:
-        return self._claims.devices_of(self.id)
 
     def _obey(self, command: commands.Command) -> None:
         """Do what an allowed command says, after `_try`."""
@@ -141,7 +142,7 @@ class TaskRun:
             case commands.Stop(reason=reason, at_once=at_once):
                 self._stop("stopped", Failure(kind="halted", message=reason))
                 if at_once and self._attempt is not None:
-                    self._attempt.end_at_once(self._devices)
+                    self._attempt.end_at_once(self._claims.devices_of(self.id))
                     self._end_attempt(self._attempt)
             case commands.Approve() | commands.Retry() | commands.Skip():
                 self._enter("queued", command.name)
@@ -225,7 +226,7 @@ class TaskRun:
         self._enter("running")
 
     def _tick_attempt(self, attempt: Attempt) -> None:
-        attempt.tick(self._devices)
+        attempt.tick(self._claims.devices_of(self.id))
         if attempt.ticking:
             self._pause.follow(attempt.tree)
             self._settle_state()

@@ -31,7 +31,8 @@ def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) 
     from skillc.cli.console import Terminal, print_json
     from skillc.cli.run_output import print_results, run_with_progress
     from skillc.services.files import check_writable
-    from skillc.services.running import RunOptions, RunResult, write_comparison
+    from skillc.services.run_report import RunResult, write_comparison
+    from skillc.services.running import RunOptions
     from skillc.services.task_loading import TaskRequest, load_task
 
     check_writable(out)

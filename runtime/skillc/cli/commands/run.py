@@ -8,11 +8,23 @@ Exit code 3 if the task does not succeed; with --strict also if its success was 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, PATH, json_option, looks_option, planner_options, store_options
+from skillc.cli.options import (
+    FOLDER,
+    PATH,
+    json_option,
+    looks_option,
+    operating_options,
+    planner_options,
+    store_options,
+)
+
+if TYPE_CHECKING:
+    from skillc_runtime.execution.pace import Pace
 
 
 @click.command(cls=Command)
@@ -37,7 +49,7 @@ from skillc.cli.options import FOLDER, PATH, json_option, looks_option, planner_
     show_default=True,
     help="End the run if a tick takes longer than this many seconds of wall time; 0 lets it take any time.",
 )
-@click.option("--real-time", is_flag=True, help="Run the simulation no faster than real time.")
+@operating_options
 @click.option("--strict", is_flag=True, help="Exit with code 3 also if the success rests on an assumption.")
 @json_option
 def command(
@@ -54,13 +66,16 @@ def command(
     plan_cache: bool,
     seed: int,
     tick_timeout: float,
-    real_time: bool,
+    pace: Pace,
+    deadline: float | None,
+    step: bool,
+    pause_at: tuple[str, ...],
     strict: bool,
     as_json: bool,
 ) -> int:
     """Run TASK (`LIBRARY:NAME`, or a shipped task), or --goal or --skill in --scene, in simulation."""
     from skillc.cli.console import Terminal, print_json
-    from skillc.cli.run_output import print_results, run_with_progress
+    from skillc.cli.run_output import check_operable, print_results, run_with_progress
     from skillc.services import task_loading
     from skillc.services.files import check_writable
     from skillc.services.planning import prepare_planners, with_minimal_makespan
@@ -69,11 +84,14 @@ def command(
 
     request = task_loading.TaskRequest(task, scene, goal, skill, library, StoreChoice(store, reset))
     request.check()
-    options = RunOptions(out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json)
+    options = RunOptions(
+        out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json, deadline, step, pause_at
+    )
+    check_operable(options)
     check_writable(out)
     with task_loading.load_task(request, Terminal()) as loaded:
         wanted = with_minimal_makespan(loaded) if minimise == "makespan" else loaded
-        ran = run_with_progress(wanted, options, as_json, real_time)
+        ran = run_with_progress(wanted, options, as_json, pace)
     if as_json:
         print_json(ran.result)
     else:

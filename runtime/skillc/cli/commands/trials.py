@@ -54,7 +54,7 @@ def command(
     Each seed draws how the simulation differs from the world model, within the ranges that the scene states.
     """
     from skillc.cli.console import Terminal, print_json, rich_console
-    from skillc.cli.progress import TrialProgress
+    from skillc.cli.trial_progress import TrialProgress
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
     from skillc_runtime.evaluation.trials.table import render_table
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 from msgspec import structs
 
@@ -11,10 +11,12 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
+from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_ARM
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -40,20 +42,14 @@ def summarise_run(
     simulation: Simulation,
 ) -> TaskResult:
     """Return the result of a task for reports, tables and JSON; `wipings` are those that were found in it."""
-    state, truth, last = simulation.cell.world.snapshot(), simulation.ground_truth, execution.last
-    solved = last.prepared.planned.solved if last.prepared.planned else None
+    state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
     judged = tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
     now, wall = simulation.clock.now, execution.wall_time_s
-    return structs.replace(
-        summarise_start(last.prepared.assignment.name, simulation),
-        status=execution.status,
+    result = structs.replace(
+        summarise_start(execution.task, simulation),
+        status=_find_status(execution),
         verified=execution.verified,
         facts=execution.facts,
-        plan=_make_steps(last.tree, choices, library),
-        choices=_make_choices(choices, library),
-        plan_optimal=None if solved is None else solved.optimal == "proven",
-        plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
-        planner="" if solved is None else solved.planner,
         sim_time_s=now,
         wall_time_s=wall,
         real_time_factor=now / wall if wall else 0.0,
@@ -61,6 +57,29 @@ def summarise_run(
         wipings=judged,
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=_describe_failure(execution),
+    )
+    return _add_attempt(result, execution.last, choices, library) if execution.attempts else result
+
+
+def _find_status(execution: Execution[Any]) -> EndState | Literal["refused"]:
+    """Return how a task ended; it is refused if it could not be prepared, so that nothing ran."""
+    failure = execution.failure
+    unprepared = not execution.attempts and failure is not None and failure.kind == "plan"
+    return "refused" if unprepared else execution.status
+
+
+def _add_attempt(
+    result: TaskResult, last: AttemptResult, choices: Mapping[int, ImplementationChosen], library: SkillLibrary
+) -> TaskResult:
+    """Return a result with what the last attempt planned and did."""
+    solved = last.prepared.planned.solved if last.prepared.planned else None
+    return structs.replace(
+        result,
+        plan=_make_steps(last.tree, choices, library),
+        choices=_make_choices(choices, library),
+        plan_optimal=None if solved is None else solved.optimal == "proven",
+        plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
+        planner="" if solved is None else solved.planner,
     )
 
 
@@ -122,7 +141,7 @@ def _controllers(state: WorldState) -> list[str]:
 def _describe_failure(execution: Execution[Any]) -> str | None:
     """Return why a task failed, with the chain of failed calls, outermost first, or why it was stopped."""
     failure = execution.failure
-    if failure is None or execution.status == "stopped":
+    if failure is None or execution.status == "stopped" or not execution.attempts:
         return failure.message if failure else None
     calls = " > ".join(f"{call.name} ({call.source})" for call in _failed_calls(execution.last.tree))
     return f"{failure.message}\n  in {calls}" if calls else failure.message

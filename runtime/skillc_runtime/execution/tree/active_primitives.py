@@ -11,6 +11,11 @@ class ActivePrimitives:
     def __init__(self) -> None:
         self._started: tuple[Primitive, ...] = ()
 
+    @property
+    def is_pressing(self) -> bool:
+        """Whether one of them presses a tool on something."""
+        return any(primitive.activity == "press" for primitive in self._started)
+
     def add(self, primitive: Primitive) -> None:
         """Add a primitive that was started."""
         self._started = (*self._started, primitive)

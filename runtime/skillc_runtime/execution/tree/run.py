@@ -80,6 +80,11 @@ class TreeRun:
         return self._pause.phase in ("withdrawn", "approaching")
 
     @property
+    def is_pressing(self) -> bool:
+        """Whether a primitive that presses is active."""
+        return self._context.active.is_pressing
+
+    @property
     def is_still(self) -> bool:
         """Whether the devices that the run has used have come to rest; pushes may go on."""
         return self._context.run_cell.is_still
@@ -98,6 +103,10 @@ class TreeRun:
     def active_calls(self) -> tuple[CallNode, ...]:
         """The innermost calls that run or wait, in the order of the tree."""
         return tuple(_find_active_calls(self._root))
+
+    def holds_back(self, call: CallNode) -> bool:
+        """Tell whether a call waits at the gate, and has not started."""
+        return self._context.gate is not None and self._context.gate.holds_back(call)
 
     @property
     def claims(self) -> tuple[Claim, ...]:

@@ -1,0 +1,154 @@
+"""Shows a run on stderr, and takes the keys and signals of its user: a live display on a terminal, else plain lines."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+
+from rich.console import Group
+from rich.live import Live
+from rich.spinner import Spinner
+from rich.text import Text
+
+from skillc.cli.console import rich_console
+from skillc.cli.interrupts import Interrupted, noting_signals
+from skillc.cli.keyboard import Keyboard, is_operable
+from skillc.cli.run_display import compose_display
+from skillc.cli.run_keys import FASTER, KEYS, SLOWER, explain_refusal
+from skillc_runtime.execution.pace import Pace
+from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.recording.commands import Command, Stop
+from skillc_runtime.recording.events import (
+    Event,
+    NodeEnded,
+    NodeStarted,
+    PlanMade,
+    Replanned,
+    StateChanged,
+    TaskEnded,
+)
+from skillc_runtime.recording.known_facts import format_status
+
+STEP_DEPTH = 2
+"""The greatest depth of calls shown if stderr is not a terminal: the steps of a plan and the calls in them."""
+
+LOOK_S = 0.04
+"""How often keys are read and the display is changed, in s of wall time."""
+
+REFRESHES_PER_S = 12.5
+SHOW_CURSOR, HIDE_CURSOR = b"\x1b[?25h", b"\x1b[?25l"
+
+
+class RunProgress:
+    """The monitor of a run: shows its state and active skills, and passes on keys and signals."""
+
+    def __init__(self, title: str, quiet: bool, pace: Pace | None = None) -> None:
+        """Show nothing and take no keys if `quiet`."""
+        self.pace = pace or Pace()
+        self._console = rich_console(stderr=True)
+        self._title, self._quiet = title, quiet
+        self._calls: dict[int, tuple[str, ...]] = {0: ()}
+        self._spinner = Spinner("dots")
+        self._live: Live | None = None
+        self._keyboard: Keyboard | None = None
+        self._signal: Callable[[], Interrupted | None] = lambda: None
+        self._remark, self._since, self._looked = "", 0.0, 0.0
+        self._stopped = False
+
+    def __enter__(self) -> RunProgress:
+        if not self._quiet and sys.stderr.isatty():
+            self._live = Live(self._spinner, console=self._console, refresh_per_second=REFRESHES_PER_S, transient=True)
+            self._live.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._live is not None:
+            self._live.stop()
+
+    def say(self, message: str) -> None:
+        """Show a message."""
+        if self._live is not None:
+            self._show(f"{self._title}: {message}")
+        elif not self._quiet:
+            self._console.print(f"{self._title}: {message}", soft_wrap=True)
+
+    def __call__(self, event: Event) -> None:
+        """Show an event."""
+        match event:
+            case NodeStarted(node=node, parent=parent, kind=kind, name=name) if self._live is None:
+                around = self._calls.get(parent, ())
+                self._calls[node] = (*around, name) if kind == "call" else around
+                if kind == "call":
+                    self._print_stack(event.time, self._calls[node])
+            case NodeEnded(node=node):
+                self._calls.pop(node, None)
+            case StateChanged(state=state, reason=reason):
+                self._since = event.time
+                if state == "stopping":
+                    self.say(f"stopping: {reason}")
+            case Replanned(reason=reason):
+                self.say(f"planning again: {reason}")
+            case PlanMade(steps=steps, quality=quality):
+                self.say(f"{' -> '.join(step.skill for step in steps)} ({quality})")
+            case TaskEnded(status=status, verified=verified):
+                self.say(format_status(status, verified))
+            case _:
+                pass
+
+    @contextmanager
+    def operating(self) -> Iterator[None]:
+        """Take keys and signals, in a `with` statement; the second signal raises KeyboardInterrupt."""
+        keys = Keyboard(self._suspended, self._continued) if self._live is not None and is_operable() else None
+        with noting_signals() as self._signal, keys or nullcontext():
+            self._keyboard = keys
+            try:
+                yield
+            finally:
+                self._keyboard = None
+
+    def attend(self, run: TaskRun, now: float, seconds: float) -> Sequence[Command]:
+        """Show a run at the time `now` of the cell in s; wait for up to `seconds` of wall time for commands."""
+        signal = self._signal()
+        if signal is not None and not self._stopped:
+            self._stopped = True
+            return (Stop(str(signal)),)
+        wall = time.monotonic()
+        if seconds == 0.0 and wall - self._looked < LOOK_S:
+            return ()
+        self._looked = wall
+        if self._live is not None:
+            pace = self.pace if self._keyboard is not None else None
+            self._show(*compose_display(self._title, run, now, self._since, pace, self._remark))
+        if self._keyboard is None:
+            time.sleep(seconds)
+            return ()
+        return [command for letter in self._keyboard.read(seconds) for command in self._understand(letter.lower(), run)]
+
+    def _understand(self, letter: str, run: TaskRun) -> Iterator[Command]:
+        """Yield the command of a key, also one that will be refused: that is recorded, and the user is told."""
+        self._remark = ""
+        if letter in (FASTER, SLOWER):
+            self.pace.faster() if letter == FASTER else self.pace.slower()
+        for key in KEYS:
+            if key.letter == letter:
+                if key.command.name not in run.allowed:
+                    self._remark = explain_refusal(key, run)
+                yield key.command
+
+    def _show(self, first: str, *more: str) -> None:
+        assert self._live is not None, "shown on a terminal"
+        self._spinner.update(text=Text(first))
+        self._live.update(Group(self._spinner, *map(Text, more)))
+
+    def _print_stack(self, now: float, calls: tuple[str, ...]) -> None:
+        if not self._quiet and len(calls) <= STEP_DEPTH:
+            self._console.print(f"{self._title}  {now:6.1f} s  {' > '.join(calls)}", soft_wrap=True)
+
+    def _suspended(self) -> None:
+        os.write(sys.stderr.fileno(), SHOW_CURSOR + b"\n")
+
+    def _continued(self) -> None:
+        os.write(sys.stderr.fileno(), HIDE_CURSOR)

@@ -1,0 +1,46 @@
+"""Shows the progress of trials on stderr: a bar on a terminal, plain lines elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from types import TracebackType
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from skillc.cli.console import rich_console
+from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
+
+
+class TrialProgress:
+    """Shows each finished trial: a bar on a terminal, a line elsewhere, nothing if `quiet`."""
+
+    def __init__(self, task: str, disturbance: Disturbance, count: int, done: int, quiet: bool) -> None:
+        self._console = rich_console(stderr=True, quiet=quiet)
+        self._disturbance, self._count, self._done = disturbance, count, done
+        columns = (
+            TextColumn("{task.description}", markup=False),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeRemainingColumn(),
+        )
+        self._bar = Progress(*columns, console=self._console, disable=quiet or not sys.stderr.isatty())
+        self._row = self._bar.add_task(task, total=self._count, completed=done)
+
+    def __enter__(self) -> TrialProgress:
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._bar.stop()
+
+    def __call__(self, trial: Trial) -> None:
+        """Show a finished trial; on a terminal those that ended as expected only advance the bar."""
+        self._done += 1
+        self._bar.advance(self._row)
+        why = find_unmet_criteria(trial, self._disturbance)
+        if why or self._bar.disable:
+            line = f"seed {trial.seed}: {'; '.join(why) or 'passed'} ({self._done} of {self._count})"
+            self._console.print(line, soft_wrap=True)

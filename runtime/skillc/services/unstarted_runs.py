@@ -1,0 +1,56 @@
+"""The end of a task that never ran, because its scene cannot be simulated or because it was stopped before."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from skillc.services.errors import ServiceError
+from skillc.services.files import writing_to
+from skillc.services.recordings import NAME
+from skillc.services.reporting import Reporter
+from skillc.services.run_report import RunResult
+from skillc.services.task_loading import LoadedTask
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.write import write_report, write_result
+from skillc_runtime.execution.attempt import CellOrigin
+from skillc_runtime.execution.run_events import make_start_event
+from skillc_runtime.recording.envelope import make_run_id
+from skillc_runtime.recording.events import TaskEnded
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.publisher import Publisher
+from skillc_runtime.recording.writer import TraceWriter
+
+
+def end_unstarted(
+    task: LoadedTask,
+    out: Path | None,
+    seed: int,
+    status: Literal["refused", "stopped"],
+    why: str,
+    reporter: Reporter,
+) -> RunResult:
+    """Return the result of a task that never ran, and write it, its events and its report to a folder, unless None."""
+    result = TaskResult(task=task.assignment.name, status=status, seed=seed, failure=why)
+    if out is None:
+        return RunResult(result)
+    try:
+        with writing_to(out):
+            out.mkdir(parents=True, exist_ok=True)
+            _record(task, out / NAME, result)
+            write_result(out, result)
+            write_report(out, result, ())
+    except ServiceError as error:
+        reporter.say(f"error: {error}")
+        return RunResult(result, written=False)
+    return RunResult(result)
+
+
+def _record(task: LoadedTask, path: Path, result: TaskResult) -> None:
+    """Write the events of a task that starts and ends at the same time."""
+    stopped = result.status == "stopped"
+    failure = Failure(kind="halted" if stopped else "plan", message=result.failure or "")
+    with TraceWriter(path) as writer:
+        publish = Publisher(make_run_id(result.task), (writer,))
+        publish(make_start_event(task.assignment, task.library, CellOrigin(seed=result.seed), 0.0))
+        publish(TaskEnded(time=0.0, task=result.task, status="stopped" if stopped else "failed", failure=failure))
