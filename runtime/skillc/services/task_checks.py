@@ -20,7 +20,8 @@ from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.initial_calls import initial_call_refusals
-from skillc_runtime.execution.selection.preflight import Origin, Refusal, preflight
+from skillc_runtime.execution.selection.preflight import preflight
+from skillc_runtime.execution.selection.refusal import Origin, Refusal
 from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals
 from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
 from skillc_runtime.scene.load import Scene

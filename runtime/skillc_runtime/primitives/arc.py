@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 class MoveArc(ArmMotion):
     """Moves the tool to `target` on the circle through the position of `via` at `speed` m/s, rotating on the way."""
 
+    targets = ("via", "target")
+
     def __init__(self, cell: Cell, *, arm: str, via: Pose, target: Pose, speed: float) -> None:
         super().__init__(cell, arm)
         self._via, self._target, self._speed = via, target, speed

@@ -2,25 +2,41 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, ClassVar
 
 from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.primitives.known_limits import find_excess, find_place_outside
 from skillc_runtime.primitives.place_description import describe_place
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import STANDSTILL_S
 from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.values import Value
+    from skillc_runtime.world.state.world_state import WorldState
 
 MAX_SETTLING_S = 1.5
 """How long after the end of its reference an arm may take to come to rest."""
 
 
 class ArmMotion(Primitive):
-    """A motion that `start_motion` gives to the driver of the arm."""
+    """A motion that `start_motion` gives to the driver of the arm.
+
+    `targets` are the parameters of poses and paths to which the tool goes; the arm is the parameter `arm`.
+    """
+
+    targets: ClassVar[tuple[str, ...]] = ()
+    moves = NOTHING
+
+    @classmethod
+    def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
+        """Return which target is outside the workspace, or that the tool would be faster than its arm allows."""
+        too_fast = find_excess(arguments, "speed", "m/s", ("arm", "speedLimit"), state)
+        return too_fast or find_place_outside(arguments, cls.targets, "arm", state)
 
     def __init__(self, cell: Cell, arm: str) -> None:
         super().__init__(cell)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from skillc_runtime.primitives.arm_motion import raise_fault
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import IS_ON, PRESSED_WITH
@@ -20,6 +20,7 @@ PRESS_HOLD_S = 0.2
 class AwaitSwitch(Primitive):
     """Waits up to `patience` s until the button that the arm presses has switched; writes that and the force in N."""
 
+    moves = NOTHING
     highlights = (("ends", "button", "pressed"),)
 
     def __init__(self, cell: Cell, *, arm: str, button: str, patience: float) -> None:

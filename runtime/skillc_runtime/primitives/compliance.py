@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Mapping
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -11,13 +12,16 @@ import numpy as np
 from skillc_runtime.devices.arm_driver import GuardedPush, PushProgress, Travel
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.known_limits import find_excess
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.primitives.time_limits import approach_limit_s
 from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.values import Value
+    from skillc_runtime.world.state.world_state import WorldState
 
 APPROACH_M_S = 0.05
 """Speed of the approach to a surface whose position is uncertain."""
@@ -37,6 +41,8 @@ MIN_ALIGN_S = 2.5
 
 class ReleaseAxis(Primitive):
     """Makes the arm compliant along `along` (3,) with `stiffness` N/m until the scope ends."""
+
+    moves = NOTHING
 
     def __init__(self, cell: Cell, *, arm: str, along: Array, stiffness: float) -> None:
         super().__init__(cell)
@@ -76,6 +82,12 @@ class Push(Primitive):
     """
 
     activity = "press"
+    moves = NOTHING
+
+    @classmethod
+    def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
+        """Return that the force is more than the arm allows."""
+        return find_excess(arguments, "force", "N", ("arm", "forceLimit"), state)
 
     def __init__(
         self, cell: Cell, *, arm: str, along: Array, force: float, travel: float, approach: float = APPROACH_M_S
@@ -146,6 +158,8 @@ class Push(Primitive):
 
 class Align(Primitive):
     """Lets the pushed tool turn for at most `settle` s until it is flush with `surface`; writes the surface's pose."""
+
+    moves = NOTHING
 
     def __init__(self, cell: Cell, *, arm: str, surface: str, settle: float) -> None:
         super().__init__(cell)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.surfaces import least_contact_share, least_force_n
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import Quantity, label
@@ -20,6 +20,8 @@ class KeepContact(Primitive):
 
     SkillFailure if contact was lost, within the last `over` s, for longer than the surface allows.
     """
+
+    moves = NOTHING
 
     def __init__(self, cell: Cell, *, arm: str, surface: str, over: float) -> None:
         super().__init__(cell)

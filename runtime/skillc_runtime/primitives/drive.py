@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
+
 import numpy as np
 
 from skillc_runtime.devices.cell import Cell
@@ -16,6 +18,8 @@ from skillc_runtime.world.state.terms import AT
 
 class DriveBase(Primitive):
     """Drives to a workstation and writes the place that the base reports; the arms on it hold their posture."""
+
+    moves = MappingProxyType({"robot": "to"})
 
     def __init__(self, cell: Cell, *, robot: str, to: str) -> None:
         super().__init__(cell)

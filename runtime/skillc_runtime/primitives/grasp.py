@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
+
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose
@@ -25,6 +27,8 @@ class Grasp(Primitive):
     The object's pose in the hand is assumed to be that of its grasping pose. While it is held, the world model has its
     pose relative to the frame of the gripper, the tool centre point.
     """
+
+    moves = MappingProxyType({"object": None})
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, grasp: str, place: str) -> None:
         super().__init__(cell)
@@ -59,6 +63,8 @@ class Grasp(Primitive):
 
 class Release(Primitive):
     """Opens the fingers; as soon as the object is free, the world model has the pose to which the arm brought it."""
+
+    moves = MappingProxyType({"object": None})
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, to: str) -> None:
         super().__init__(cell)

@@ -2,17 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 TOLERANCE_M = 0.003
 
 
 class ParallelGripper(Primitive):
     """Two parallel fingers, commanded by opening in m and force in N."""
+
+    moves = NOTHING
+
+    @classmethod
+    def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
+        """Return that the fingers cannot open so far."""
+        opening, gripper = arguments.get("opening"), arguments.get("gripper")
+        if not isinstance(opening, float) or not isinstance(gripper, str):
+            return None
+        widest = sheet_of(state, gripper).number("maxOpening")
+        return str(_too_wide(label(gripper, state.vocabulary), widest, opening)) if _is_wider(opening, widest) else None
 
     def __init__(self, cell: Cell, *, gripper: str, opening: float, force: float) -> None:
         super().__init__(cell)
@@ -22,13 +37,8 @@ class ParallelGripper(Primitive):
 
     def start(self) -> None:
         """Start moving; SkillFailure if the fingers cannot open so far."""
-        if self._opening > self._gripper.max_opening_m + TOLERANCE_M:
-            raise SkillFailure(
-                "{gripper} opens to {widest:.0f mm}, not to {wanted:.0f mm}",
-                gripper=self._label,
-                widest=Quantity(self._gripper.max_opening_m, "m"),
-                wanted=Quantity(self._opening, "m"),
-            )
+        if _is_wider(self._opening, self._gripper.max_opening_m):
+            raise _too_wide(self._label, self._gripper.max_opening_m, self._opening)
         self._limit_s = finger_limit_s(self.cell.world.snapshot(), self._name, self._gripper.max_opening_m)
         self._move()
 
@@ -84,6 +94,19 @@ class ParallelGripper(Primitive):
     def resume(self) -> None:
         """Continue the motion."""
         self._move()
+
+
+def _is_wider(opening_m: float, widest_m: float) -> bool:
+    return opening_m > widest_m + TOLERANCE_M
+
+
+def _too_wide(gripper: LabelledIri, widest_m: float, opening_m: float) -> SkillFailure:
+    return SkillFailure(
+        "{gripper} opens to {widest:.0f mm}, not to {wanted:.0f mm}",
+        gripper=gripper,
+        widest=Quantity(widest_m, "m"),
+        wanted=Quantity(opening_m, "m"),
+    )
 
 
 class ThreeFingerGripper(ParallelGripper):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,6 +28,7 @@ class AwaitGuidance(Primitive):
     """Waits up to `patience` s until the tool was guided and then stood still for `still` s; writes its pose."""
 
     highlights = (("ends", "pose", "shown"),)
+    moves = MappingProxyType({"pose": None})
 
     def __init__(self, cell: Cell, *, arm: str, pose: str, still: float, patience: float) -> None:
         super().__init__(cell)

@@ -8,7 +8,7 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import raise_fault
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
@@ -29,6 +29,7 @@ of the opening is not known better than that."""
 class SinkBelow(Primitive):
     """Waits up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,)."""
 
+    moves = NOTHING
     activity = "search"
 
     def __init__(self, cell: Cell, *, arm: str, target: Pose, along: Array, depth: float, patience: float) -> None:
@@ -61,6 +62,7 @@ class SinkBelow(Primitive):
 class Seat(Primitive):
     """Waits up to `patience` s until a pushed peg rests in a socket; writes its depth and if it is at the bottom."""
 
+    moves = NOTHING
     highlights = (("begins", "socket", "found"), ("ends", "socket", "filled"))
 
     def __init__(self, cell: Cell, *, arm: str, object: str, socket: str, patience: float) -> None:

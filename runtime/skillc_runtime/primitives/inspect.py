@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
 
 
 class Inspect(Primitive):
     """Measures the share of a surface that is wiped; it is clean if that reaches the surface's threshold."""
+
+    moves = NOTHING
 
     def __init__(self, cell: Cell, *, surface: str) -> None:
         super().__init__(cell)

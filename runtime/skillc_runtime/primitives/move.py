@@ -34,6 +34,8 @@ class MoveJoints(ArmMotion):
     The motion avoids the obstacles in the world model, also with what the arm holds.
     """
 
+    targets = ("target",)
+
     def __init__(self, cell: Cell, *, arm: str, target: Pose, pace: float) -> None:
         super().__init__(cell, arm)
         self._individual, self._target, self._pace = arm, target, pace
@@ -79,6 +81,8 @@ class TakePosture(ArmMotion):
 
 class MoveLinear(ArmMotion):
     """Moves the tool to `target` along a straight line at `speed` m/s, rotating along the path."""
+
+    targets = ("target",)
 
     def __init__(self, cell: Cell, *, arm: str, target: Pose, speed: float) -> None:
         super().__init__(cell, arm)

@@ -12,7 +12,7 @@ from skillc_runtime.motion.overlays import Circle, Lissajous, Spiral
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ class AddedMotion(Primitive):
 
     `name` describes it in messages; `speed` is its maximum speed in m/s.
     """
+
+    moves = NOTHING
 
     def __init__(self, cell: Cell, arm: str, overlay: Overlay, axes: Array, name: str, speed: float) -> None:
         super().__init__(cell)

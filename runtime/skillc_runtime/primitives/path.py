@@ -17,6 +17,7 @@ class FollowPath(ArmMotion):
     """Moves the tool through all poses of `path` at `speed` m/s; corners are blended by at most `blend` m."""
 
     activity = "follow-path"
+    targets = ("path",)
 
     def __init__(self, cell: Cell, *, arm: str, path: Sequence[Pose], speed: float, blend: float) -> None:
         super().__init__(cell, arm)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import IS_POLISHED, POLISH_THRESHOLD, POLISH_TIME, POLISHED_SHARE
@@ -11,6 +11,8 @@ from skillc_runtime.world.state.terms import IS_POLISHED, POLISH_THRESHOLD, POLI
 
 class InspectPolish(Primitive):
     """Measures the share of a surface that was rubbed long enough; it is polished if that reaches its threshold."""
+
+    moves = NOTHING
 
     def __init__(self, cell: Cell, *, surface: str) -> None:
         super().__init__(cell)

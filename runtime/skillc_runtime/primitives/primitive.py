@@ -11,6 +11,11 @@ from skillc_runtime.world.state.labelled import LabelledValue, make_recordable
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.values import Value
+    from skillc_runtime.world.state.world_state import WorldState
+
+NOTHING: Mapping[str, str | None] = MappingProxyType({})
+"""What a primitive `moves` that only moves arms, fingers and what they hold."""
 
 
 class Status(Enum):
@@ -59,11 +64,25 @@ class Primitive:
 
     `text_names` declares texts that name something, so that a misspelt one is reported before anything runs: for a
     parameter, the parameter to start from, the relations to follow and the property with the names, as IRIs.
+
+    `moves` declares which things are elsewhere after a run, so that motions can be checked before anything moves: for a
+    parameter, the parameter of the place where its individual is then, or None where that is not known. A primitive
+    that does not declare it may move anything.
     """
 
     activity: ClassVar[Activity] = ""
     highlights: ClassVar[tuple[tuple[Phase, str, str], ...]] = ()
     text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
+    moves: ClassVar[Mapping[str, str | None] | None] = None
+
+    @classmethod
+    def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
+        """Return why no run with these arguments can succeed; None if one may.
+
+        Called before anything moves. `arguments` are those that are known, `state` is the world model as it is believed
+        to be then; a pose in it may be corrected when it is sensed. FrameError and SheetError count as not known.
+        """
+        return None
 
     def __init__(self, cell: Cell) -> None:
         self.cell = cell

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
-from skillc_runtime.execution.selection.preflight import Refusal
+from skillc_runtime.execution.selection.refusal import Refusal
 from skillc_runtime.execution.selection.select import NoneSelected, explain_none_selected, select_implementation
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.python_calls import EvaluationError

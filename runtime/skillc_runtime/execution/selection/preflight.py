@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
 from typing import TypeAlias, assert_never
 
 from skillc_model import tree
-from skillc_model.conditions import Condition, Expression, Variable
+from skillc_model.conditions import Condition, Expression, Not
 from skillc_model.read_write import changing_terms, is_fixed
-from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_model.skills import Implementation, Primitive, SkillLibrary
 from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.binding import bind_arguments
+from skillc_runtime.execution.selection.foresight import ForesightTracker
 from skillc_runtime.execution.selection.inferred_parameters import infer_fixed_parameters
-from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
+from skillc_runtime.execution.selection.python_targets import (
+    PrimitiveError,
+    import_matching_primitive,
+    import_primitive,
+)
+from skillc_runtime.execution.selection.refusal import Origin, Refusal, join_refusals, track_origin, track_origins
 from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
 from skillc_runtime.execution.selection.static_values import StaticValues, check_functions, compute_static_values
 from skillc_runtime.execution.selection.text_names import UnknownName, find_unknown_names
@@ -23,43 +30,39 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
-Origin: TypeAlias = tuple[Position, str]
-"""Where a value comes from: the call and name of an argument, or an implementation and its parameter or `let`."""
-
-
-@dataclass(frozen=True, slots=True)
-class Refusal:
-    """A call or another node that can never run; `within` are the enclosing implementations, outermost first.
-
-    `unknown_names` are the texts, by origin, for which implementations were rejected that could run otherwise.
-    """
-
-    skill: str
-    message: str
-    source: Position
-    within: tuple[str, ...] = ()
-    rejected: tuple[Rejection, ...] = ()
-    unknown_names: Mapping[Origin, UnknownName] = field(default_factory=dict)
-
-    def __str__(self) -> str:
-        within = f" (in {' > '.join(self.within)})" if self.within else ""
-        return f"{self.source}: {self.message}{within}"
+ControlNode: TypeAlias = (
+    tree.Sequence
+    | tree.Parallel
+    | tree.Selector
+    | tree.Retry
+    | tree.Repeat
+    | tree.Timeout
+    | tree.Once
+    | tree.Try
+    | tree.Invert
+)
+"""Nodes that only control when their children run."""
 
 
 def preflight(body: tree.Node, library: SkillLibrary, state: WorldState) -> tuple[Refusal, ...]:
     """Return why a body cannot run; empty if it can, as far as that is known now.
 
     Only what no skill changes is checked: the classes of individuals, and relations and properties that are not an
-    effect of any skill. Values that depend on anything else are accepted. Alternatives are refused if all are.
+    effect of any skill; and arguments of primitives that depend on where things are, as long as nothing before may have
+    moved these. Values that depend on anything else are accepted. Alternatives are refused if all are.
     """
-    return _Preflight(library, state).check(body, _Scope({}, (), {}))
+    return _Preflight(library, state).check(body, _Scope({}, {}, (), {}))
 
 
 @dataclass(frozen=True, slots=True)
 class _Scope:
-    """The known values in a body, the enclosing implementations, and the origins of the values."""
+    """The known values in a body, the enclosing implementations, and the origins of the values.
+
+    `values` are the same whenever the body runs, `foreseen` are these and those that follow from where things are.
+    """
 
     values: Mapping[str, Value]
+    foreseen: Mapping[str, Value]
     within: tuple[str, ...]
     origins: Mapping[str, Origin]
 
@@ -69,37 +72,57 @@ class _Preflight:
         self._library = library
         self._state = state
         self._changing = changing_terms(library)
+        self._foresight = ForesightTracker(state)
 
     def check(self, node: tree.Node, scope: _Scope) -> tuple[Refusal, ...]:
         match node:
-            case tree.Sequence(children=children) | tree.Parallel(children=children):
-                return self._check_all(children, scope)
-            case tree.Selector(children=children):
-                each = [self.check(child, scope) for child in children]
-                return tuple(refusal for refusals in each for refusal in refusals) if all(each) else ()
-            case tree.With(call=call, child=child):
-                return self._check_all((call, child), scope)
+            case tree.WaitUntil() | tree.Check():
+                return self._check_functions("check", node.condition, node, scope)
+            case tree.Wait():
+                return self._check_functions("wait", node.seconds, node, scope)
+            case tree.Apply():
+                return ()
+            case tree.Call():
+                return self._check_call(node, scope)
             case tree.If():
                 return self._check_if(node, scope)
             case tree.ForEach():
                 return self._check_for_each(node, scope)
             case tree.While():
-                return (*self._check_functions("while", node.condition, node, scope), *self.check(node.child, scope))
-            case tree.Retry() | tree.Repeat() | tree.Timeout() | tree.Once():
-                return self.check(node.child, scope)
-            case tree.WaitUntil() | tree.Check():
-                return self._check_functions("check", node.condition, node, scope)
-            case tree.Wait():
-                return self._check_functions("wait", node.seconds, node, scope)
-            case tree.Try() | tree.Invert() | tree.Apply():
+                inside = self._foresight.optional(partial(self._repeated, node.child, scope))
+                return (*self._check_functions("while", node.condition, node, scope), *inside)
+            case tree.With(call=call, child=child):
+                return self._check_all((call, child), scope)
+            case _:
+                return self._check_control(node, scope)
+
+    def _check_control(self, node: ControlNode, scope: _Scope) -> tuple[Refusal, ...]:
+        """Check a node that only controls when its children run."""
+        match node:
+            case tree.Sequence(children=children):
+                return self._check_all(children, scope)
+            case tree.Parallel(children=children):
+                return join_refusals(
+                    self._foresight.together([partial(self.check, child, scope) for child in children])
+                )
+            case tree.Selector(children=children):
+                each = [self._foresight.optional(partial(self.check, child, scope)) for child in children]
+                return join_refusals(each) if all(each) else ()
+            case tree.Retry(child=child) | tree.Repeat(child=child):
+                return self._repeated(child, scope)
+            case tree.Timeout(child=child) | tree.Once(child=child):
+                return self.check(child, scope)
+            case tree.Try(child=child) | tree.Invert(child=child):
+                self._foresight.optional(partial(self.check, child, scope))
                 return ()
-            case tree.Call():
-                return self._check_call(node, scope)
             case _:
                 assert_never(node)
 
+    def _repeated(self, child: tree.Node, scope: _Scope) -> tuple[Refusal, ...]:
+        return self._foresight.repeated(partial(self.check, child, scope))
+
     def _check_all(self, nodes: tuple[tree.Node, ...], scope: _Scope) -> tuple[Refusal, ...]:
-        return tuple(refusal for node in nodes for refusal in self.check(node, scope))
+        return join_refusals([self.check(node, scope) for node in nodes])
 
     def _check_functions(
         self, name: str, item: Condition | Expression, node: tree.Node, scope: _Scope
@@ -112,12 +135,22 @@ class _Preflight:
         taken = [node.then] if holds is not False else []
         if node.orelse is not None and holds is not True:
             taken.append(node.orelse)
-        return (*self._check_functions("if", node.condition, node, scope), *self._check_all(tuple(taken), scope))
+        branches = [partial(self.check, branch, scope) for branch in taken]
+        if len(branches) == 1 and holds is None:
+            unless = node.condition.body if isinstance(node.condition, Not) else None
+            inside = [self._foresight.optional(branches[0], unless)]
+        else:
+            inside = self._foresight.alternatives(branches) if branches else []
+        return (*self._check_functions("if", node.condition, node, scope), *join_refusals(inside))
 
     def _check_for_each(self, node: tree.ForEach, scope: _Scope) -> tuple[Refusal, ...]:
         items = self._compute({node.variable: node.items}, scope.values)
-        unknown = {name: value for name, value in scope.values.items() if name != node.variable}
-        inside = self.check(node.child, _Scope(unknown, scope.within, scope.origins))
+        values, foreseen = (
+            {name: value for name, value in known.items() if name != node.variable}
+            for known in (scope.values, scope.foreseen)
+        )
+        unknown = _Scope(values, foreseen, scope.within, scope.origins)
+        inside = self._foresight.optional(partial(self._repeated, node.child, unknown))
         return (*self._refuse_undefined("for", items, node.source, scope.within), *inside)
 
     def _check_call(self, call: tree.Call, scope: _Scope) -> tuple[Refusal, ...]:
@@ -125,21 +158,49 @@ class _Preflight:
         if arguments.undefined:
             return self._refuse_undefined(call.skill, arguments, call.source, scope.within)
         passed = frozenset(call.arguments)
+        foreseen = self._foresight.here.compute(call.arguments, scope.foreseen)
         rejected: list[Rejection] = []
         unknown: dict[Origin, UnknownName] = {}
+        possible: list[Callable[[], tuple[Refusal, ...]]] = []
         for implementation in ranked_implementations(self._library, call.skill, call.implementation):
             bindings = self._bind(implementation, arguments.values, passed)
             if isinstance(bindings, Rejection):
                 rejected.append(bindings)
                 continue
-            origins = _track_origins(call, implementation, scope)
+            origins = track_origins(call, implementation, scope.origins)
             texts = find_unknown_names(implementation, bindings, self._state, self._changing)
-            if not texts:
-                return self._check_body(implementation, bindings, scope.within, origins)
-            unknown |= {origins[name]: text for name, text in texts.items()}
-            rejected.append(self._reject_names(implementation, texts))
+            known = self._foresee_defaults(implementation, {**foreseen, **bindings}, passed)
+            problem = self._find_problem(implementation, known)
+            if texts:
+                unknown |= {origins[name]: text for name, text in texts.items()}
+                rejected.append(self._reject_names(implementation, texts))
+            elif problem is not None:
+                rejected.append(problem)
+            else:
+                inside = _Scope(bindings, known, scope.within, origins)
+                possible.append(partial(self._check_body, implementation, inside))
+        if possible:
+            return self._foresight.alternatives(possible)[0]
         message = explain_none_selected(call.skill, rejected)
         return (Refusal(call.skill, message, call.source, scope.within, tuple(rejected), unknown),)
+
+    def _foresee_defaults(
+        self, implementation: Implementation, known: dict[str, Value], passed: frozenset[str]
+    ) -> dict[str, Value]:
+        """Return the known values of parameters with those of defaults that follow from where things are."""
+        for each in implementation.parameters:
+            if each.default is not None and each.name not in known and each.name not in passed:
+                known |= self._foresight.here.compute({each.name: each.default}, known)
+        return known
+
+    def _find_problem(self, implementation: Implementation, known: Mapping[str, Value]) -> Rejection | None:
+        """Return why the primitive of an implementation cannot do what the known arguments say."""
+        if not isinstance(implementation.body, Primitive):
+            return None
+        reason = self._foresight.here.find_problem(import_primitive(implementation.body.python), known)
+        if reason is None:
+            return None
+        return Rejection(implementation=implementation.name, stage="start", reason=reason, source=implementation.source)
 
     def _reject_names(self, implementation: Implementation, texts: Mapping[str, UnknownName]) -> Rejection:
         reason = "; ".join(
@@ -189,23 +250,24 @@ class _Preflight:
             bindings |= default.values
         return None
 
-    def _check_body(
-        self,
-        implementation: Implementation,
-        bindings: dict[str, Value],
-        within: tuple[str, ...],
-        origins: dict[str, Origin],
-    ) -> tuple[Refusal, ...]:
-        name = f"{implementation.skill}[{implementation.name}]"
-        if not isinstance(implementation.body, Compound) or name in within:
+    def _check_body(self, implementation: Implementation, scope: _Scope) -> tuple[Refusal, ...]:
+        name, here = f"{implementation.skill}[{implementation.name}]", self._foresight.here
+        if isinstance(implementation.body, Primitive):
+            self._foresight.here = here.after(import_primitive(implementation.body.python), scope.foreseen)
             return ()
-        refusals: list[Refusal] = []
+        if name in scope.within:
+            self._foresight.lose()
+            return ()
+        within, refusals = (*scope.within, name), list[Refusal]()
+        values, foreseen, origins = dict(scope.values), dict(scope.foreseen), dict(scope.origins)
         for each in implementation.lets:
-            let = self._compute({each.name: each.value}, bindings)
-            refusals += self._refuse_undefined(implementation.skill, let, implementation.source, (*within, name))
-            bindings |= let.values
-            origins |= _track_origin(each.name, each.value, (implementation.source, each.name), origins)
-        return (*refusals, *self.check(implementation.body.node, _Scope(bindings, (*within, name), origins)))
+            let = self._compute({each.name: each.value}, values)
+            refusals += self._refuse_undefined(implementation.skill, let, implementation.source, within)
+            values |= let.values
+            foreseen |= {**here.compute({each.name: each.value}, foreseen), **let.values}
+            origins |= track_origin(each.name, each.value, (implementation.source, each.name), origins)
+        inside = _Scope(values, foreseen, within, origins)
+        return (*refusals, *self.check(implementation.body.node, inside))
 
     def _compute(self, expressions: Mapping[str, Expression], bound: Mapping[str, Value]) -> StaticValues:
         return compute_static_values(expressions, bound, self._state, self._changing)
@@ -226,16 +288,3 @@ class _Preflight:
         ):
             return None
         return evaluate(condition, self._state, known)
-
-
-def _track_origins(call: tree.Call, implementation: Implementation, scope: _Scope) -> dict[str, Origin]:
-    """Return the origin of the value of each parameter."""
-    origins: dict[str, Origin] = {each.name: (implementation.source, each.name) for each in implementation.parameters}
-    for name, argument in call.arguments.items():
-        origins |= _track_origin(name, argument, (call.source, name), scope.origins)
-    return origins
-
-
-def _track_origin(name: str, value: Expression, here: Origin, origins: Mapping[str, Origin]) -> dict[str, Origin]:
-    """Return the origin of a named value: `here`, or the origin of the variable that it is."""
-    return {name: origins.get(value.name, here) if isinstance(value, Variable) else here}

@@ -41,7 +41,7 @@ def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[S
     An object without a known pose is placed in the world frame. FrameError when the viewer's pose is not known or the
     viewer moves with the object.
     """
-    if _moves_with(state, viewer, thing):
+    if moves_with(state, viewer, thing):
         short = state.vocabulary.short
         raise FrameError(f"{short(viewer)} moves with {short(thing)}, so its place cannot say where that is")
     goal = pose(state, viewer) @ at
@@ -59,7 +59,7 @@ def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[SetP
 
     FrameError when a pose is not known, the carrier has no frame, or the carrier moves with the object.
     """
-    if _moves_with(state, carrier, thing):
+    if moves_with(state, carrier, thing):
         short = state.vocabulary.short
         raise FrameError(f"{short(carrier)} moves with {short(thing)}, so it cannot carry it")
     return placement_changes(thing, relative_pose(state, carrier, thing), _frame(state, carrier))
@@ -80,7 +80,7 @@ def width(state: WorldState, tool: str) -> float:
     return frame_tree_of(state).number(tool, SIZE[1])
 
 
-def _moves_with(state: WorldState, individual: str, carrier: str) -> bool:
+def moves_with(state: WorldState, individual: str, carrier: str) -> bool:
     """Whether an object is the carrier or moves with it; FrameError when its frames form a cycle or one is unknown."""
     space, at = frame_tree_of(state), individual
     space.pose(individual)
