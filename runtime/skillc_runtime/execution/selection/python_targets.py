@@ -10,7 +10,13 @@ from typing import get_args
 
 from skillc_model.skills import Parameter
 from skillc_runtime.primitives.primitive import Activity, Phase, Primitive
-from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, EvaluationError, load_python
+from skillc_runtime.world.state.python_calls import (
+    FOREIGN_ERRORS,
+    EvaluationError,
+    ForeignError,
+    foreign_code,
+    load_python,
+)
 
 
 class PrimitiveError(Exception):
@@ -35,9 +41,10 @@ def import_primitive(python: str) -> type[Primitive]:
     """Import "module:Class"; PrimitiveError if it does not exist or is not a Primitive whose methods can be called."""
     module_name, _, class_name = python.partition(":")
     try:
-        module = importlib.import_module(module_name)
+        with foreign_code:
+            module = importlib.import_module(module_name)
     except FOREIGN_ERRORS as error:  # user code: whatever it raises, it cannot be used
-        reason = error if isinstance(error, ImportError) else f"{type(error).__name__}: {error}"
+        reason = error if isinstance(error, ImportError | ForeignError) else f"{type(error).__name__}: {error}"
         raise PrimitiveError(f"the Python module of `{python}` cannot be imported: {reason}") from error
     found = getattr(module, class_name, None)
     if found is None:

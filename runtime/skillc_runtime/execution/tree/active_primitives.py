@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from skillc_runtime.primitives.primitive import Primitive
+from skillc_runtime.world.state.python_calls import foreign_code
 
 
 class ActivePrimitives:
@@ -27,18 +28,22 @@ class ActivePrimitives:
     def pause(self) -> None:
         """Pause all, the last started first."""
         for primitive in reversed(self._started):
-            primitive.pause()
+            with foreign_code:
+                primitive.pause()
 
     def withdraw(self) -> None:
         """Withdraw all, the last started first."""
         for primitive in reversed(self._started):
-            primitive.withdraw()
+            with foreign_code:
+                primitive.withdraw()
 
     def approach(self) -> Primitive | None:
         """Let each approach once those started before it have; return the first that has not yet, None if all have."""
-        return next((primitive for primitive in self._started if not primitive.approach()), None)
+        with foreign_code:
+            return next((primitive for primitive in self._started if not primitive.approach()), None)
 
     def resume(self) -> None:
         """Resume all, in the order in which they were started."""
         for primitive in self._started:
-            primitive.resume()
+            with foreign_code:
+                primitive.resume()

@@ -9,7 +9,7 @@ from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.cell import WatchdogTimeout
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.state.model import WorldError
-from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.python_calls import EvaluationError, ForeignError
 from skillc_runtime.world.state.transactions import StoreError
 
 
@@ -17,6 +17,7 @@ def describe_exception(error: BaseException) -> str:
     """Return the message of an exception, with type and line unless the message is meant for users."""
     if isinstance(error, SkillFailure | BackendBroken | WatchdogTimeout | EvaluationError | WorldError | StoreError):
         return str(error)
+    error = error.__cause__ if isinstance(error, ForeignError) and error.__cause__ is not None else error
     frames = traceback.extract_tb(error.__traceback__)
     where = f" ({PurePath(frames[-1].filename).name}:{frames[-1].lineno})" if frames else ""
     return f"{type(error).__name__}: {error}{where}"

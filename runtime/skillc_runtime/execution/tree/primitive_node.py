@@ -14,7 +14,7 @@ from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.labelled import LabelledValue
-from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, foreign_code
 
 NO_VALUES: Mapping[str, LabelledValue] = MappingProxyType({})
 
@@ -45,13 +45,15 @@ class PrimitiveNode(Node):
         self._running = False
 
     def on_start(self) -> Status:
-        self._primitive = primitive = self._make()
+        with foreign_code:
+            self._primitive = primitive = self._make()
         self._tick = primitive.tick
         self._running = True
         if self._undo is not None:
             self._undo.push(self.release)
         try:
-            primitive.start()
+            with foreign_code:
+                primitive.start()
         except SkillFailure as refusal:
             self._running = False
             if self._undo is not None:
@@ -69,7 +71,9 @@ class PrimitiveNode(Node):
             return self._on_finished(status)
         except SkillFailure as failure:
             return self._halt_and_fail(str(failure), failure.values)
-        except FOREIGN_ERRORS as error:  # the boundary to skill code: it reports, halts and fails
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # noqa: BLE001  the boundary to skill code: it reports, halts and fails
             return self.fail_with_error(error)
 
     def stop(self, reason: str) -> None:
@@ -77,7 +81,8 @@ class PrimitiveNode(Node):
             self._running = False
             self.context.active.discard(self._primitive)
             try:
-                self._primitive.halt(reason)
+                with foreign_code:
+                    self._primitive.halt(reason)
             except FOREIGN_ERRORS as error:  # the other nodes must be halted too
                 self.context.note(f"{self.name} could not be halted: {describe_exception(error)}", self.id, self.source)
         self.undo_now()
@@ -92,7 +97,8 @@ class PrimitiveNode(Node):
         """Release the primitive, then undo the changes written by its posts; called by the undo stack."""
         assert self._primitive is not None, "release before start"
         self.context.active.discard(self._primitive)
-        self._primitive.release()
+        with foreign_code:
+            self._primitive.release()
         if self.undo_posts is not None:
             self.undo_posts()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 from importlib import import_module
+from types import TracebackType
 from typing import Any, TypeVar
 
 from skillc_rdf.vocabulary.types import local_name
@@ -12,7 +13,26 @@ from skillc_rdf.vocabulary.types import local_name
 T = TypeVar("T")
 
 FOREIGN_ERRORS = (Exception, SystemExit)
-"""What code of users may raise without ending the program; Ctrl-C is not among them."""
+"""What code of users may raise without ending the program, inside of `foreign_code`; Ctrl-C is not among them."""
+
+
+class ForeignError(Exception):
+    """Code of users raised what is neither an Exception nor Ctrl-C: its cause, such as a panic of an extension."""
+
+
+class _ForeignCode:
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if error is not None and not isinstance(error, (*FOREIGN_ERRORS, KeyboardInterrupt)):
+            raise ForeignError(f"{type(error).__name__}: {error}") from error
+
+
+foreign_code = _ForeignCode()
+"""`with foreign_code: ..` calls code of users: whatever it raises, but Ctrl-C, is one of FOREIGN_ERRORS outside."""
 
 
 class EvaluationError(ValueError):
@@ -28,9 +48,10 @@ def load_python(target: str) -> Any:
     """Import "module:attribute"; EvaluationError when it does not exist."""
     module, _, attribute = target.partition(":")
     try:
-        return getattr(import_module(module), attribute)
+        with foreign_code:
+            return getattr(import_module(module), attribute)
     except FOREIGN_ERRORS as error:  # foreign code: it may raise anything
-        expected = isinstance(error, ImportError | AttributeError | ValueError)
+        expected = isinstance(error, ImportError | AttributeError | ValueError | ForeignError)
         reason = error if expected else f"{type(error).__name__}: {error}"
         raise EvaluationError(f"the Python function {target} cannot be loaded: {reason}") from error
 
@@ -38,9 +59,11 @@ def load_python(target: str) -> Any:
 def call_python(function: Callable[..., T], name: str, state: object, *arguments: object) -> T:
     """Call a Python function with a version of the world; exceptions become EvaluationErrors with its `name`."""
     try:
-        return function(state, *arguments)
+        with foreign_code:
+            return function(state, *arguments)
     except EvaluationError:
         raise
     except FOREIGN_ERRORS as error:  # foreign code: it may raise anything, which fails the condition and not the run
         shown = ", ".join(local_name(str(argument)) for argument in arguments)
-        raise EvaluationError(f"{name}({shown}) failed: {type(error).__name__}: {error}") from error
+        reason = error if isinstance(error, ForeignError) else f"{type(error).__name__}: {error}"
+        raise EvaluationError(f"{name}({shown}) failed: {reason}") from error
