@@ -13,6 +13,7 @@ from safety.faults import CLASSES, Pushing, arguments, wanted
 from simulation.cells import vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.scene.load import load_scene
@@ -132,12 +133,12 @@ def cell() -> KinematicCell:
     return KinematicCell(WorldModel(known_world()))
 
 
-def postures(cell: KinematicCell) -> np.ndarray:
+def postures(cell: KinematicCell | SimulatedCell) -> np.ndarray:
     """Return the joint positions of all arms in rad, one after the other."""
     return np.concatenate([cell.arm(arm.individual).measured.q for arm in cell.scene.arms])
 
 
-def check_rest(cell: KinematicCell) -> None:
+def check_rest(cell: KinematicCell | SimulatedCell) -> None:
     """Check that nothing pushes, yields or moves, and that nothing begins to move by itself."""
     assert cell.is_at_rest()
     for arm in cell.scene.arms:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import itemgetter
@@ -13,6 +14,7 @@ from execution import actors
 from execution.actors import Acting, check_rest
 from execution.loops import LatePlanner, Watched
 from skillc_runtime.backends.kinematic.cell import KinematicCell
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, TRANSITIONS, Refusal
@@ -20,7 +22,7 @@ from skillc_runtime.execution.tree.gate import AtSkill, Gate
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.events import NodeEnded, Requested, StateChanged, TaskEnded, WorldChanged
+from skillc_runtime.recording.events import Event, NodeEnded, Requested, StateChanged, TaskEnded, WorldChanged
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
@@ -83,7 +85,7 @@ class Ran:
     """A run that has ended, its cell and envelopes."""
 
     watched: Watched
-    cell: KinematicCell
+    cell: KinematicCell | SimulatedCell
     envelopes: list[Envelope]
     commits: Counter[str]
 
@@ -96,25 +98,38 @@ def run(drawn: Drawn) -> Ran:
     count_commits(cell, ran.commits)
     loop = CellLoop(cell, library, LatePlanner(library, [drawn.looks]))
     assignment = Assignment("act", cell.world.snapshot(), ExecuteBody(drawn.play.body))
-    events: list = []
-    publish = Publisher("run", [ran.envelopes.append])
     gate = Gate(map(AtSkill, drawn.breakpoints))
-    ran.watched = Watched(loop, loop.submit(assignment, [events.append, publish], drawn.settings, gate, "run"), events)
+    drive(ran, loop, assignment, drawn.settings, gate, drawn.requests, MOST_TICKS)
+    return ran
+
+
+def drive(
+    ran: Ran,
+    loop: CellLoop,
+    assignment: Assignment,
+    settings: RunSettings,
+    gate: Gate,
+    requests: Sequence[tuple[int, Command]],
+    most_ticks: int,
+) -> None:
+    """Run a task, with requests before given ticks, to its end; it is stopped after `most_ticks`."""
+    events: list[Event] = []
+    publish = Publisher("run", [ran.envelopes.append])
+    ran.watched = Watched(loop, loop.submit(assignment, [events.append, publish], settings, gate, "run"), events)
     check_requests(ran)
-    requests = list(drawn.requests)
-    for tick in range(MOST_TICKS):
+    waiting = deque(requests)
+    for tick in range(most_ticks):
         if ran.watched.run.ended:
             break
-        while requests and requests[0][0] <= tick:
-            loop.request(ran.watched.run, requests.pop(0)[1])
+        while waiting and waiting[0][0] <= tick:
+            loop.request(ran.watched.run, waiting.popleft()[1])
         loop.tick()
     if not ran.watched.run.ended:
         loop.stop("time is up", ran.watched.run)
     ran.watched.until_end(600)
-    return ran
 
 
-def count_commits(cell: KinematicCell, commits: Counter[str]) -> None:
+def count_commits(cell: KinematicCell | SimulatedCell, commits: Counter[str]) -> None:
     """Count the writes to the world model by their origin."""
     commit = cell.world.commit
 
@@ -149,9 +164,14 @@ def check_requests(ran: Ran) -> None:
 
 def check(ran: Ran) -> None:
     """Check all that must be true after the end of a run."""
-    check_events(ran)
     check_primitives()
     check_facts(ran)
+    check_end(ran)
+
+
+def check_end(ran: Ran) -> None:
+    """Check what must be true after the end of any task: events, locks, claims, heartbeats, rest."""
+    check_events(ran)
     task = ran.watched.run
     assert task._context.locks.held == frozenset() == task._claims.devices_of(task.id)
     assert not ran.cell.watchdog.expired(ran.cell.now + 1e6)

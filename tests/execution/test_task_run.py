@@ -171,6 +171,7 @@ def test_a_world_edit_is_told_once_in_each_state(state: str) -> None:
     cell, watched = WAYS[state]()
     assert watched.run.request(turned(FLAGS[1], False), watched.loop.ticks) is None
     (change,) = watched.told(WorldChanged)
+    assert change.time == cell.now
     assert change.origin == "somebody: for the test"
     assert cell.world.snapshot().value(FLAGS[1], ON) is False
 

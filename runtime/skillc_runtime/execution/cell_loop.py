@@ -137,10 +137,12 @@ class CellLoop:
 
     def _take_requests(self) -> bool:
         """Give the stops, then the other requests that wait now, to their runs; return whether there were any."""
+        if not self._stops and not self._requests:
+            return False
         waiting = (*_take_all(self._stops), *_take_all(self._requests))
         for request in waiting:
             request.answer(self.ticks)
-        return bool(waiting)
+        return True
 
     def _advance(self) -> None:
         """Let time pass; an error of the cell fails all runs."""

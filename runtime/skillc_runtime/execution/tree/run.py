@@ -228,6 +228,7 @@ class TreeRun:
         return status
 
     def _emit_world_change(self, event: ChangeEvent) -> None:
+        self._context.time = self._context.cell.now  # others change the world between ticks
         self._listeners(make_change_event(event, self._context.time))
 
 
