@@ -223,9 +223,15 @@ def test_ending_in_a_pause_leaves_the_arm_stiff_and_at_rest(robot, phase):
 
 
 @pytest.mark.parametrize("phase", ["approaching", "pressing"])
-def test_an_arm_that_has_stopped_by_itself_does_not_push_again(robot, phase):
+def test_an_arm_that_has_stopped_by_itself_is_held_until_it_pushes_again(robot, phase):
     arm = Pressing(robot, gap=0.06, seconds=0.6 if phase == "approaching" else 2.5)
     arm.driver.abort("a fault")
+    arm.run(1.0)
+    arm.bench.data.xfrc_applied[arm.bench.model.body("eraser").id, :3] = -5.0 * arm.normal
     arm.run(0.5)
     force, heights = arm.run(2.0)
-    assert force.max() < 0.5 and np.ptp(heights) < 5e-3
+    assert force.max() < 5.0 + 0.2 * arm.force_n and np.ptp(heights) < 1e-4
+    arm.bench.data.xfrc_applied[:] = 0.0
+    again = arm.driver.compliance.start_push(arm.push.push)
+    force, heights = arm.run(2.5)
+    assert again.pressed_s is not None and abs(force[-1] / arm.force_n - 1) < 0.02

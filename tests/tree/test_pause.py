@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import pytest
 
 from skillc_model import tree
@@ -12,7 +14,7 @@ from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.execution.tree.run_cell import RunCell
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, Listener, Paused, Resumed
-from tree.stage import PERIOD_S, Library, Script, Scripted, Stage, act, here, par, seq, stage, with_
+from tree.stage import PERIOD_S, Library, Script, Scripted, Stage, act, here, par, seq, stage, with_, world
 
 LONG = Script(ticks=1000)
 
@@ -82,6 +84,47 @@ def test_a_primitive_sees_the_devices_of_its_cell_and_nothing_else() -> None:
     assert seen.world is cell.world and seen.now == cell.now
     with pytest.raises(AttributeError):
         seen.scripts  # type: ignore[attr-defined]  # noqa: B018
+
+
+@dataclass
+class Fingers:
+    """A gripper that moves as long as the test says."""
+
+    moving: bool = True
+
+
+@dataclass
+class Handed(Stage):
+    """A stage with a gripper."""
+
+    fingers: Fingers = field(default_factory=Fingers)
+
+    def gripper(self, individual: str) -> Fingers:
+        return self.fingers
+
+
+class Grips(Scripted):
+    """Uses the gripper of its cell."""
+
+    def __init__(self, cell: Stage, **rest: object) -> None:
+        super().__init__(cell, **rest)  # type: ignore[arg-type]
+        self.cell.gripper("a gripper")
+
+
+def test_a_run_is_still_when_its_devices_have_been_at_rest_for_a_while() -> None:
+    cell = Handed(world(), {"a": [LONG]})
+    run = TreeRun(act("a"), Library("tree.test_pause:Grips").build(), cell)
+    run.tick()
+    assert not run.is_still
+    run.pause()
+    steps = ((0.1, True, False), (0.25, False, False), (0.1, True, False), (0.25, False, False), (0.1, False, True))
+    for seconds, moving, still in steps:
+        cell.now += seconds
+        cell.fingers.moving = moving
+        run.tick()
+        assert run.is_still is still
+    run.resume()
+    assert not run.is_still
 
 
 def paused_in_scopes(*listeners: Listener) -> tuple[Stage, TreeRun]:

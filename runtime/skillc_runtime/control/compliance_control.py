@@ -53,6 +53,7 @@ class ComplianceControl:
         Without a push the tool does not move; pushed with F it moves with about F / release damping. Raises ValueError
         for a nested release that is neither parallel nor perpendicular to the first.
         """
+        self._let_go()
         self._task.move_tool().compliance.release(self._in_tool(axis), stiffness)
 
     def restore(self) -> None:
@@ -82,6 +83,7 @@ class ComplianceControl:
 
         The tool is braked if it moves faster than `fastest_m_s` in the direction of the push, for whatever reason.
         """
+        self._let_go()
         tool = self._task.move_tool()
         tool.push(-self._task.measured.in_base(axis), force_n, fastest_m_s, self._task.now)
 
@@ -124,7 +126,7 @@ class ComplianceControl:
         if tool.compliance.held:
             if tool.lifting(now):
                 return
-            tool.let_go_released(now)
+            self._let_go()
             for active in self.active_pushes:
                 active.approach()
                 self._approach(active.push)
@@ -148,9 +150,11 @@ class ComplianceControl:
                 assert_never(never)
         return None
 
-    def forget_pushes(self) -> None:
-        """Let no push continue that was started, for an arm that stops by itself."""
+    def abandon(self) -> None:
+        """Abandon all pushes and hold the tool along released axes, for an arm that stops by itself."""
         self.active_pushes = ()
+        self.push_off()
+        self._hold()
 
     def secure(self) -> bool:
         """Stop pushing and restore all releases; tell whether any were left."""
@@ -169,6 +173,11 @@ class ComplianceControl:
         self._task.tool.hold_released(self._task.now)
         for active in self.active_pushes:
             active.hold()
+
+    def _let_go(self) -> None:
+        """Let released axes yield, if they are held."""
+        if self._task.tool.compliance.held:
+            self._task.tool.let_go_released(self._task.now)
 
     def _lift(self, push: GuardedPush) -> None:
         way = min(LIFT_M, push.travel.distance_m / 2) * self._task.measured.in_base(push.along)

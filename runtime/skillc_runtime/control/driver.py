@@ -75,17 +75,17 @@ class CompliantArmDriver:
         return fault
 
     def abort(self, reason: str) -> None:
-        """Stop motion, overlays and push; the reason is reported in `fault`."""
+        """Stop motion, overlays and push, and hold released axes; the reason is reported in `fault`."""
         self.fault = reason
-        self.compliance.forget_pushes()
         self._task.stop()
         self._task.tool.let_go(self._task.now)
+        self.compliance.abandon()
 
     def hold_still(self, reason: str) -> None:
         """Hold the arm at its position, at once, and stop pushing; the reason is reported in `fault`."""
         self.fault = reason
-        self.compliance.forget_pushes()
         self._task.hold_still()
+        self.compliance.abandon()
 
     def secure(self) -> bool:
         """Come to rest, stop pushing and restore all releases; tell whether any were left."""

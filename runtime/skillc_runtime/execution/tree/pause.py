@@ -11,6 +11,9 @@ from skillc_runtime.recording.events import Paused, Resumed
 APPROACH_S = 30.0
 """How long, at the end of a pause, withdrawn tools may take until they are in contact again, in s of the cell."""
 
+STILL_S = 0.3
+"""For how long devices must be at rest to count as still: a push that ends fades out, and measured speeds are noisy."""
+
 PausePhase: TypeAlias = Literal["none", "kept", "withdrawn", "approaching"]
 """kept: paused, tools go on pressing; withdrawn: they were taken off; approaching: they are to touch again."""
 
@@ -21,13 +24,19 @@ class Pause:
     def __init__(self, context: TreeContext) -> None:
         self.phase: PausePhase = "none"
         self._context = context
-        self._approach_by = 0.0
+        self._approach_by = self._moved_at = 0.0
+
+    @property
+    def is_still(self) -> bool:
+        """Whether the devices that the run has used have come to rest; pushes may go on."""
+        return self.phase != "none" and self._context.time - self._moved_at >= STILL_S
 
     def begin(self) -> None:
         """Pause; if tools approach again already, withdraw them."""
         if self.phase == "none":
             self.phase = "kept"
             self._emit(Paused)
+            self._moved_at = self._context.time
             self._context.stop_own_time()
             self._context.active.pause()
         elif self.phase == "approaching":
@@ -52,6 +61,8 @@ class Pause:
         fault = self._context.run_cell.take_fault()
         if fault is not None:
             raise SkillFailure(fault)
+        if not self._context.run_cell.is_still:
+            self._moved_at = self._context.time
         if self.phase == "approaching":
             self._approach()
 

@@ -86,8 +86,8 @@ class TreeRun:
 
     @property
     def is_still(self) -> bool:
-        """Whether the devices that the run has used have come to rest; pushes may go on."""
-        return self._context.run_cell.is_still
+        """Whether the run is paused and the devices that it has used have come to rest; pushes may go on."""
+        return self._pause.is_still
 
     @property
     def last_node(self) -> int:
