@@ -1,4 +1,4 @@
-"""What the conformance suite needs of a back-end, and the back-ends there are.
+"""What the conformance suite needs of a backend, and the backends there are.
 
 A new one, simulated or real, adds a function to `BACKENDS` that makes it; nothing else.
 """
@@ -39,6 +39,7 @@ class Backend(Protocol):
 
     arm: Arm
     driver: CompliantArmDriver
+    period_s: float
 
     def advance(self, seconds: float) -> None:
         """Let time pass; the driver is stepped."""
@@ -102,6 +103,7 @@ class ModelBackend:
         self._cell, self._clock, self._lock = cell, clock, RLock() if clock is None else clock._lock
         facts = cell.scene.arms[0]
         assert facts.gripper is not None
+        self.period_s = cell.period_s
         self._palm = part_name(cell.scene.names[facts.gripper.individual], "palm")
         self.arm = self._real_arm = cell.arms[facts.individual]
         self.driver = cell.arm(facts.individual)

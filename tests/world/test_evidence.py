@@ -54,6 +54,18 @@ def test_the_last_write_decides_also_when_it_changes_nothing() -> None:
     assert world.deciding_write(weight).origin == "Forget"
 
 
+def test_a_rule_of_the_cell_decides_what_counts_but_not_what_is_assumed() -> None:
+    world, weight = WorldModel(SCENE), PropertyFact(iri("box"), iri("weight"))
+    world.weigh_evidence(lambda changes, stated: "idealised" if stated == "sensed" else stated)
+    world.commit([assign("box", "weight", 4.0)], evidence="sensed")
+    assert known(world, weight) == "idealised"
+    with world.transaction("Weigh", "sensed") as transaction:
+        transaction.add(assign("box", "weight", 5.0))
+    assert known(world, weight) == "idealised"
+    world.commit([assign("box", "weight", 4.0)], evidence="assumed")
+    assert known(world, weight) == "assumed"
+
+
 def test_what_a_write_displaces_is_known_by_it() -> None:
     world = WorldModel(SCENE)
     gone = related("shelf", "contain", "eraser", holds=False)

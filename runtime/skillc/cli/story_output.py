@@ -7,7 +7,12 @@ from itertools import chain as together
 
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.history import Attempt, FailedNode, RecordedCall, RecordedFact, RunHistory
-from skillc_runtime.recording.known_facts import assumed_facts, describe_missing_sensing, format_evidence, format_status
+from skillc_runtime.recording.known_facts import (
+    describe_missing_sensing,
+    format_evidence,
+    format_status,
+    unverified_facts,
+)
 from skillc_runtime.recording.question import CallSelection
 from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
@@ -44,14 +49,14 @@ def _ending(story: RunHistory) -> str:
 
 
 def _rests_on(story: RunHistory) -> list[str]:
-    """Return the facts that a success rests on and, for assumed ones, how to sense them."""
+    """Return the facts that a success rests on and, for those that are not verified, what would confirm them."""
     if not story.known:
         return []
     lines = [f"{format_fact(each.fact)}  ({format_evidence(each)})" for each in story.known]
     return [
         "rests on:",
         *_indented(lines),
-        *_indented(describe_missing_sensing(each) for each in assumed_facts(story.known)),
+        *_indented(describe_missing_sensing(each) for each in unverified_facts(story.known)),
     ]
 
 

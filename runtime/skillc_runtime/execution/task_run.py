@@ -31,7 +31,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.known_facts import KnownFact, assumed_facts
+from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.transactions import StoreError
@@ -98,7 +98,7 @@ class TaskRun:
     @property
     def verified(self) -> bool | None:
         """Whether a success rests on no fact that is only assumed; None if the task did not succeed."""
-        return None if self.state != "succeeded" else not assumed_facts(self.facts)
+        return None if self.state != "succeeded" else not unverified_facts(self.facts)
 
     def request(self, command: commands.Command, tick: int) -> Refusal | None:
         """Do what is requested in a tick of the loop; return why not if it is refused, and nothing has changed."""

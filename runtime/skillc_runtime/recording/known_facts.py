@@ -17,20 +17,20 @@ from skillc_runtime.world.state.labelled import (
 from skillc_runtime.world.state.labelled_text import format_fact
 
 UNVERIFIED = "finished, not verified"
-"""The status of a task that succeeded if the facts hold that are only assumed."""
+"""The status of a task that succeeded if the facts hold that are only assumed or idealised."""
 
 
 class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """A fact and its evidence: `given` before the run, or established by the skill or device `by`."""
 
     fact: LabelledFact
-    known: Literal["sensed", "reported", "assumed", "given"]
+    known: Literal["sensed", "reported", "idealised", "assumed", "given"]
     by: str = ""
 
 
-def assumed_facts(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
-    """Return the facts that are only assumed."""
-    return tuple(fact for fact in facts if fact.known == "assumed")
+def unverified_facts(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
+    """Return the facts that nothing real has confirmed: they are only assumed, or were sensed in an idealised cell."""
+    return tuple(fact for fact in facts if fact.known in ("assumed", "idealised"))
 
 
 def format_evidence(fact: KnownFact) -> str:
@@ -39,17 +39,19 @@ def format_evidence(fact: KnownFact) -> str:
 
 
 def format_status(status: str, verified: bool | None) -> str:
-    """Return the status of a task as text; a success that rests on an assumption is not called one."""
+    """Return the status of a task as text; a success that is not verified is not called one."""
     return UNVERIFIED if verified is False else status
 
 
-def format_assumption(known: KnownFact) -> str:
-    """Return a sentence that a fact is only assumed, and what would have to be sensed."""
-    return f"{format_fact(known.fact)} is only assumed: {describe_missing_sensing(known)}"
+def format_unverified(known: KnownFact) -> str:
+    """Return a sentence that a fact is only assumed or idealised, and what would have to be sensed."""
+    return f"{format_fact(known.fact)} is only {known.known}: {describe_missing_sensing(known)}"
 
 
 def describe_missing_sensing(known: KnownFact) -> str:
-    """Describe what would have to be sensed to confirm a fact that is only assumed."""
+    """Describe what would have to be sensed to confirm a fact that is only assumed or idealised."""
+    if known.known == "idealised":
+        return f"{known.by or 'a device'} measured it without physics; a cell with physics would have to confirm it"
     after = f" after {known.by}" if known.by else ""
     match known.fact:
         case LabelledProperty(individual, property_):

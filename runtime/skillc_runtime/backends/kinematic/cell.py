@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import mujoco
 
@@ -12,7 +12,10 @@ from skillc_runtime.backends.kinematic.touch import Touch
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import AT, DEVICE_STATE
 
 
 class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
@@ -25,7 +28,7 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
     def __init__(
         self,
         world: WorldModel,
-        timestep_s: float = 0.001,
+        timestep_s: float = 0.002,
         steps_per_command: int = 1,
         reality: Callable[[SceneSpec], Variation] = exact_variation,
     ) -> None:
@@ -35,6 +38,20 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         """
         scene = read_scene_spec(world.snapshot())
         super().__init__(world, scene, reality(scene), timestep_s, steps_per_command)
+
+    def _weigh_evidence(self, changes: Sequence[Change], stated: Evidence) -> Evidence:
+        """Let only what does not depend on contact count as sensed or reported: where bases are, and device states."""
+        free = all(self._is_free_of_contact(change) for change in changes)
+        return stated if free or stated == "assumed" else "idealised"
+
+    def _is_free_of_contact(self, change: Change) -> bool:
+        match change:
+            case AddRelation(subject, relation, _) | RemoveRelation(subject, relation, _):
+                return relation == AT and subject in self._bases
+            case SetProperty(_, property_, _):
+                return property_ == DEVICE_STATE
+            case _:
+                return False
 
     def _make_arms(self) -> tuple[dict[str, KinematicArm], dict[str, KinematicGripper]]:
         self.model.opt.gravity[:] = 0.0

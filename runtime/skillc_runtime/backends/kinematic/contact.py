@@ -11,8 +11,8 @@ from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cross
 from skillc_runtime.motion.pose import Array
 
-STIFFNESS_N_M = 1500.0
-"""Stiffness of a contact point; a working face has four to eight of them, together about as stiff as felt."""
+RIGID_N_M = 5000.0
+"""Stiffness of a contact point of fingers and of rigid tools."""
 
 DAMPING_S_M = 10.0
 """Share of the spring's force by which it grows with the speed of indentation, in 1/(m/s)."""
@@ -42,8 +42,8 @@ class Motion:
     """The motion of the last links of all arms, and of what yields, in the world; arrays change with the cell.
 
     centre (a, 3): m, where the twist (a, 6) [angular rad/s; linear m/s] holds; tool (a, 3): m, the tool centre points.
-    axis, anchor (j, 3): of joints of fixtures, anchor in m; speed (j,): m/s or rad/s. slides (j,): 1 if it slides, 0 if
-    it turns; moves (j, geoms): 1 if the joint moves a geom, else 0.
+    axis, anchor (j, 3): of joints of fixtures, anchor in m. slides (j,): 1 if it slides, 0 if it turns; moves (j,
+    geoms): 1 if the joint moves a geom, else 0.
     """
 
     centre: OutMatrix
@@ -51,7 +51,6 @@ class Motion:
     tool: OutMatrix
     axis: OutMatrix
     anchor: OutMatrix
-    speed: OutVector
     slides: Vector
     moves: Matrix
 
@@ -90,15 +89,18 @@ def along_joint(motion: Motion, joint: int, place: Array, normal: Array) -> floa
 
 @inlined
 def leaving_speed(motion: Motion, arm: int, theirs: int, place: Array, normal: Array) -> float:
-    """Return the speed in m/s along the normal (3,) of a point (3,) m of an arm, relative to a geom that it presses."""
+    """Return the speed in m/s of a point (3,) m of an arm along the normal (3,) of a geom; 0 if that yields.
+
+    What yields has dampers of its own.
+    """
     lever, turning, speed = np.empty(3), np.empty(3), 0.0
     for i in range(3):
         lever[i] = place[i] - motion.centre[arm, i]
     cross(motion.twist[arm, :3], lever, turning)
     for i in range(3):
         speed += normal[i] * (motion.twist[arm, 3 + i] + turning[i])
-    for j in range(motion.speed.size):
-        speed -= motion.moves[j, theirs] * motion.speed[j] * along_joint(motion, j, place, normal)
+    for j in range(motion.slides.size):
+        speed *= 1.0 - motion.moves[j, theirs]
     return speed
 
 
@@ -113,15 +115,16 @@ def add_force(forces: Forces, motion: Motion, carrier: int, theirs: int, place: 
         forces.wrench[arm, i] += force[i]
         forces.wrench[arm, 3 + i] += moment[i]
         forces.on_geom[row, i] -= force[i]
-    for j in range(motion.speed.size):
+    for j in range(motion.slides.size):
         forces.joint[j, 0] -= motion.moves[j, theirs] * along_joint(motion, j, place, force)
 
 
 @compiled
-def add_contacts(forces: Forces, points: Points, motion: Motion, carrier: Vector) -> None:
+def add_contacts(forces: Forces, points: Points, motion: Motion, carrier: Vector, stiffness: Vector) -> None:
     """Add up F = k d (1 + c dd/dt) for each overlap d of something carried with something that is not.
 
-    carrier (geoms,): the carrier of each geom, or `FIXED` or `FREE`. Hunt and Crossley 1975, with exponent 1.
+    carrier (geoms,): the carrier of each geom, or `FIXED` or `FREE`; stiffness (2 a,): k of each carrier, N/m. Hunt and
+    Crossley 1975, with exponent 1.
     """
     normal, force = np.empty(3), np.empty(3)
     for n in range(points.distance.size):
@@ -133,11 +136,11 @@ def add_contacts(forces: Forces, points: Points, motion: Motion, carrier: Vector
         for i in range(3):
             normal[i] = sign * points.normal[n, i]
         leaving = leaving_speed(motion, who // 2, theirs, place, normal)
-        newton = max(0.0, -STIFFNESS_N_M * points.distance[n] * (1.0 - DAMPING_S_M * leaving))
+        newton = max(0.0, -stiffness[who] * points.distance[n] * (1.0 - DAMPING_S_M * leaving))
         for i in range(3):
             force[i] = newton * normal[i]
         forces.total[who] += newton
         add_force(forces, motion, who, theirs, place, force)
-        for j in range(motion.speed.size):
+        for j in range(motion.slides.size):
             along = motion.moves[j, theirs] * along_joint(motion, j, place, normal)
-            forces.joint[j, 1] += STIFFNESS_N_M * along * along
+            forces.joint[j, 1] += stiffness[who] * along * along

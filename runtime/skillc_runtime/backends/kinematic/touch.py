@@ -12,6 +12,7 @@ from skillc_runtime.backends.kinematic.contact import (
     FINGERS,
     FIXED,
     FREE,
+    RIGID_N_M,
     TOOL,
     Motion,
     Points,
@@ -25,6 +26,9 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.arrays import OutVector
 
+PAD_POINTS = 8
+"""Contact points of a pad that lies flat; together they are as stiff as its sheet says."""
+
 
 class Touch:
     """All contacts of a cell, updated once a step. Tools that nobody holds touch nothing."""
@@ -35,6 +39,8 @@ class Touch:
         self._geoms = {each.individual: geoms_of(model, names[each.individual]) for each in scene.tools}
         self._bits = model.geom_contype.copy(), model.geom_conaffinity.copy()
         self._held: list[str | None] = [None] * count
+        self._pads = {each.individual: each for each in scene.tools if not each.rigid}
+        self._stiffness: OutVector = np.full(2 * count, RIGID_N_M)
         self._carrier: OutVector = np.full(model.ngeom, float(FIXED))
         for number, arm in enumerate(scene.arms):
             if arm.gripper is not None:
@@ -42,8 +48,8 @@ class Touch:
         for tool in self._geoms:
             self._set_carrier(tool, FREE)
         centres, tools, twists = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros((count, 6))
-        axes, anchors, speeds = np.zeros((parts.count, 3)), np.zeros((parts.count, 3)), np.zeros(parts.count)
-        self._motion = Motion(centres, twists, tools, axes, anchors, speeds, parts.slides, parts.moves)
+        axes, anchors = np.zeros((parts.count, 3)), np.zeros((parts.count, 3))
+        self._motion = Motion(centres, twists, tools, axes, anchors, parts.slides, parts.moves)
         self._forces, self._touched = make_forces(count, model.ngeom, parts.count), False
         self._sensors = ContactSensors(scene, self._forces, model, data)
 
@@ -56,6 +62,9 @@ class Touch:
             self._set_carrier(before, FREE)
         if tool is not None:
             self._set_carrier(tool, 2 * number + TOOL)
+            pad = self._pads.get(tool)
+            stiffness = RIGID_N_M if pad is None else pad.sheet.number("padStiffness") / PAD_POINTS
+            self._stiffness[2 * number + TOOL] = stiffness
 
     def update(self, period_s: float) -> None:
         """Find the contacts in the present positions; let arms and sensors feel them, and yielding parts yield."""
@@ -76,9 +85,9 @@ class Touch:
         for number, arm in enumerate(self._arms):
             motion.twist[number], motion.centre[number] = arm.motion
             motion.tool[number] = arm.tool_point()
-        motion.axis[:], motion.anchor[:], motion.speed[:] = parts.axes, parts.anchors, parts.speeds
+        motion.axis[:], motion.anchor[:] = parts.axes, parts.anchors
         points = Points(contact.dist, contact.frame, contact.pos, contact.geom.astype(np.float64))
-        add_contacts(self._forces, points, motion, self._carrier)
+        add_contacts(self._forces, points, motion, self._carrier, self._stiffness)
 
     def _set_carrier(self, tool: str, carrier: int) -> None:
         """Set who carries a tool; the geoms that it works with touch nothing while it is free."""

@@ -40,12 +40,6 @@ class YieldingParts:
         anchors: Array = self._data.xanchor[self._joints]
         return anchors
 
-    @property
-    def speeds(self) -> Array:
-        """The speeds (j,) of the joints in m/s or rad/s."""
-        speeds: Array = self._data.qvel[self._dofs]
-        return speeds
-
     def step(self, pressed: Array, period_s: float) -> None:
         """Move for one step: (d / T + k + k_c) dq = f - k (q - q_0).
 

@@ -1,4 +1,4 @@
-"""An arm in the model of a cell: its measurements and its payload; a back-end moves it."""
+"""An arm in the model of a cell: its measurements and its payload; a backend moves it."""
 
 from __future__ import annotations
 

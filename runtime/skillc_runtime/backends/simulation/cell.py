@@ -78,6 +78,7 @@ class ModelledCell(ABC, Generic[A, G]):
             scene, variation, self._observers, self.coverage, self._buttons, self.people, self.data
         )
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
+        world.weigh_evidence(self._weigh_evidence)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
         world.commit(idle, "start of the cell", "reported")
 
@@ -195,6 +196,10 @@ class ModelledCell(ABC, Generic[A, G]):
 
     def close(self) -> None:
         """Do nothing: a cell in lock step has no threads."""
+
+    def _weigh_evidence(self, changes: Sequence[Change], stated: Evidence) -> Evidence:
+        """Return the evidence that counts for changes of the world model, of what their writer states."""
+        return stated
 
     @abstractmethod
     def _make_arms(self) -> tuple[dict[str, A], dict[str, G]]:

@@ -44,6 +44,7 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base:
     """Attach an arm to the body `mount` at `base`, given in that body's frame, and its gripper to its flange."""
     model = mujoco.MjSpec.from_file(str(arm.model))
     _check_posture(model, names[arm.individual], arm)
+    model.option.timestep = spec.option.timestep
     for joint in model.joints:
         joint.armature = arm.sheet.number("armature")
     if arm.has_servos:

@@ -1,4 +1,4 @@
-"""A gripper in the model of a cell: its fingers, what they touch, and what it holds; a back-end moves it."""
+"""A gripper in the model of a cell: its fingers, what they touch, and what it holds; a backend moves it."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import SimulatedPerson
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.backends.simulation.variation import Variation, exact_variation
 from skillc_runtime.devices.ground_truth import Guidance, Recording
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
@@ -38,8 +38,9 @@ class SimulatedTruth:
 
     @property
     def variation(self) -> str:
-        """How reality differed from the world model at the start, as text."""
-        return self.reality.describe(self.scene.names)
+        """How reality differed from the world model at the start, as text; empty if it did not."""
+        exact = self.reality == exact_variation(self.scene)
+        return "" if exact else self.reality.describe(self.scene.names)
 
     def recording(self, tool: str) -> Recording:
         """Return the recording of a tool while it was held; KeyError if the cell has no such tool."""

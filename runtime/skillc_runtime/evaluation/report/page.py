@@ -11,7 +11,7 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import format_choice_reason, list_table_rows
 from skillc_runtime.evaluation.report.wiping_figure import FigureFiles
 from skillc_runtime.film.film import SPEED_UP, FilmFiles
-from skillc_runtime.recording.known_facts import assumed_facts, format_assumption, format_status
+from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
 
@@ -30,11 +30,11 @@ def render_page(
     return environment.get_template("page.html.j2").render(
         result=result,
         status=format_status(result.status, result.verified),
-        assumed=assumed_facts(result.facts),
+        unverified=unverified_facts(result.facts),
         rows=list_table_rows(result) if result.sim_time_s else [],
         format_choice_reason=format_choice_reason,
         format_value=format_value,
-        format_assumption=format_assumption,
+        format_unverified=format_unverified,
         trees=trees,
         figure=b64encode(figure.svg).decode() if figure else "",
         filmed=filmed,

@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
-from skillc_runtime.recording.known_facts import assumed_facts, format_assumption, format_evidence, format_status
+from skillc_runtime.recording.known_facts import format_evidence, format_status, format_unverified, unverified_facts
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
 END_STYLES = {"succeeded": "bold green", "failed": "bold red", "refused": "bold red"}
@@ -20,7 +20,7 @@ def render_table(result: TaskResult) -> RenderableType:
     words = format_status(result.status, result.verified)
     title = Text.assemble((result.task, "bold"), "  ", (words, END_STYLES.get(words, "bold yellow")))
     parts: list[RenderableType] = [title]
-    parts += [Text(format_assumption(fact), style="yellow") for fact in assumed_facts(result.facts)]
+    parts += [Text(format_unverified(fact), style="yellow") for fact in unverified_facts(result.facts)]
     if result.failure:
         parts.append(Text(result.failure, style="red"))
     if result.plan:
@@ -71,7 +71,7 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
         *planned,
         *((format_fact(fact.fact), format_evidence(fact)) for fact in result.facts),
         ("robot", f"{result.robot}, controller {result.controller}"),
-        ("reality", f"{result.variation} (seed {result.seed})"),
+        ("reality", f"{result.variation} (seed {result.seed})" if result.variation else "as the facts say"),
         *(("planned again", why) for why in result.replanned),
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),

@@ -29,7 +29,7 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Listener
-from skillc_runtime.recording.known_facts import assumed_facts
+from skillc_runtime.recording.known_facts import unverified_facts
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
@@ -86,7 +86,7 @@ class TrialRunner:
             status=result.status,
             reason=result.failure,
             verified=result.verified,
-            assumed=tuple(format_fact(fact.fact) for fact in assumed_facts(result.facts)),
+            assumed=tuple(format_fact(fact.fact) for fact in unverified_facts(result.facts)),
             variation=result.variation,
             works=_measure_work(RunEvidence(self._library, state, truth, trees, choices, wiping_results)),
             coverage=_least_coverage(state, truth),

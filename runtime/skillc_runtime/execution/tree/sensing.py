@@ -53,7 +53,7 @@ def _is_sensed(change: Change, world: WorldModel, writes_before: int) -> bool:
 def _is_sensed_since(established: DecidingWrite | None, writes_before: int) -> bool:
     if established is None or established.number <= writes_before:
         return False
-    return established.evidence in ("sensed", "reported")
+    return established.evidence in ("sensed", "reported", "idealised")
 
 
 def _describe_ground(ground: Ground, world: WorldModel) -> str:

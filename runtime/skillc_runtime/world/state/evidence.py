@@ -1,4 +1,4 @@
-"""Evidence for the facts of a world model: sensed, reported by a device, or only assumed.
+"""Evidence for the facts of a world model: sensed, reported by a device, idealised, or only assumed.
 
 A ledger keeps the writes of a run. The write that decides the evidence for a fact is the last one that stated it, or
 that made it true or false by an axiom: to put an object into a gripper also takes it out of the box.
@@ -6,7 +6,7 @@ that made it true or false by an axiom: to put an object into a gripper also tak
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias, assert_never
 
@@ -25,10 +25,16 @@ from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
-Evidence: TypeAlias = Literal["sensed", "reported", "assumed"]
-"""`sensed`: measured; `reported`: a device reports it about itself; `assumed`: neither."""
+Evidence: TypeAlias = Literal["sensed", "reported", "idealised", "assumed"]
+"""`sensed`: measured; `reported`: a device reports it about itself; `assumed`: neither.
 
-_STRENGTH: dict[Evidence | None, int] = {"assumed": 0, "reported": 1, "sensed": 2, None: 3}
+`idealised`: measured or reported in a cell that idealises what was measured, such as contact in a cell without physics.
+"""
+
+EvidenceRule: TypeAlias = Callable[[Sequence[Change], Evidence], Evidence]
+"""Returns the evidence that counts for changes and the evidence that their writer states."""
+
+_STRENGTH: dict[Evidence | None, int] = {"assumed": 0, "idealised": 1, "reported": 2, "sensed": 3, None: 4}
 
 MAX_WRITES = 500
 """The number of writes that are kept separately; older ones are merged, and the weakest evidence counts."""

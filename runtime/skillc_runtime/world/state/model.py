@@ -18,7 +18,7 @@ from skillc_runtime.world.state.changes import (
     named_individuals,
 )
 from skillc_runtime.world.state.difference import changes_between
-from skillc_runtime.world.state.evidence import DecidingWrite, Evidence, EvidenceLedger
+from skillc_runtime.world.state.evidence import DecidingWrite, Evidence, EvidenceLedger, EvidenceRule
 from skillc_runtime.world.state.facts import Fact
 from skillc_runtime.world.state.open_transaction import OpenTransaction
 from skillc_runtime.world.state.transactions import ChangeEvent, Listener, NullStore, StoreError, TransactionLog
@@ -49,6 +49,7 @@ class WorldModel:
         self._in_transaction = False
         self._past: deque[ChangeEvent] = deque(maxlen=MAX_UNDO)
         self.ledger = EvidenceLedger()
+        self._rule: EvidenceRule = lambda _changes, stated: stated
 
     def snapshot(self) -> WorldState:
         """Return the current version, which never changes."""
@@ -58,6 +59,10 @@ class WorldModel:
         """Call the listener after every write; return a function that ends the subscription."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
+
+    def weigh_evidence(self, rule: EvidenceRule) -> None:
+        """Let a rule decide the evidence of all writes from now on, for example because a cell idealises contact."""
+        self._rule = rule
 
     def deciding_write(self, fact: Fact) -> DecidingWrite | None:
         """Return the write that decides the evidence for a current fact; None for a fact given at the start."""
@@ -178,7 +183,7 @@ class WorldModel:
         ]
         if problems:
             raise WorldError("; ".join(dict.fromkeys(problems)))
-        return ChangeEvent(changes, origin, before, after, evidence)
+        return ChangeEvent(changes, origin, before, after, None if evidence is None else self._rule(changes, evidence))
 
     def _notify(self, event: ChangeEvent) -> None:
         for listener in tuple(self._listeners):

@@ -1,0 +1,57 @@
+"""Running tasks in kinematic cells."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from skillc.services import libraries
+from skillc.services.library_files import SHIPPED, find_library
+from skillc_model.skills import SkillLibrary
+from skillc_ontology import catalogue
+from skillc_runtime.backends.kinematic.cell import KinematicCell
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.summary import summarise_run
+from skillc_runtime.evaluation.report.wiping import find_wipings
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.model import WorldModel
+
+
+@cache
+def library(name: str) -> SkillLibrary:
+    """Return a shipped library."""
+    outcome = libraries.compile_library(find_library(SHIPPED / name))
+    assert outcome.ok, outcome.diagnostics
+    return outcome.value
+
+
+def shipped_tasks() -> dict[str, str]:
+    """Return the library of every shipped task."""
+    return {task: name for name in ("contact", "wiping") for task in library(name).tasks}
+
+
+def run_task(compiled: SkillLibrary, name: str, scene: Path) -> tuple[Execution[KinematicCell], TaskResult]:
+    """Run a task of a library; return its execution and its result."""
+    task, state = compiled.tasks[name], load_scene(scene, compiled.vocabulary)
+    if task.goal is not None:
+        objective: AchieveGoal | ExecuteBody = AchieveGoal(task.goal)
+    else:
+        assert task.body is not None
+        objective = ExecuteBody(task.body)
+    prepared = prepare_task(Assignment(name, state, objective), compiled)
+    assert isinstance(prepared, PreparedTask), prepared
+    cell, choices = KinematicCell(WorldModel(state)), ChoiceListener()
+    execution = execute_task(prepared, compiled, cell, [choices])
+    wipings = find_wipings([each.tree for each in execution.attempts], choices, cell.world.snapshot())
+    return execution, summarise_run(execution, choices, compiled, wipings, cell)
+
+
+def run_shipped(name: str) -> tuple[Execution[KinematicCell], TaskResult]:
+    """Run a shipped task; return its execution and its result."""
+    compiled = library(shipped_tasks()[name])
+    scene = compiled.tasks[name].scene
+    assert scene is not None
+    return run_task(compiled, name, catalogue.scene_path(scene))
