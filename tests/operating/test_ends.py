@@ -70,6 +70,7 @@ def read_ends(out: Path) -> tuple[TaskResult, TaskEnded, str]:
     result = msgspec.json.decode((out / "result.json").read_bytes(), type=TaskResult)
     first, *_, last = TraceReader(out / "events.jsonl").events
     assert isinstance(first, TaskStarted) and isinstance(last, TaskEnded)
+    assert Path(first.scene).is_file()
     return result, last, (out / "report.html").read_text(encoding="utf-8")
 
 

@@ -122,7 +122,9 @@ class _Run:
         poller = StorePoller(self.cell.cell.world, self.reporter)
         hooks = (poller.poll,) if self.film is None else (poller.poll, self.film.sample)
         preparation = prepare_after(planning, plan_again)
-        return CellLoop(self.cell, self.task.library, preparation, CellOrigin(seed=self.options.seed), hooks)
+        return CellLoop(
+            self.cell, self.task.library, preparation, CellOrigin(self.task.scene, self.options.seed), hooks
+        )
 
 
 def _start_planning(

@@ -48,11 +48,12 @@ class TaskRequest:
 
 @dataclass(frozen=True, slots=True)
 class LoadedTask:
-    """A compiled library, the assignment to carry out, and its world."""
+    """A compiled library, the assignment to carry out, and its world; the file of its scene, empty if it is stored."""
 
     library: SkillLibrary
     assignment: Assignment
     world: WorldModel
+    scene: str = ""
 
 
 @contextmanager
@@ -88,7 +89,7 @@ def _load_named(reference: str, request: TaskRequest, reporter: Reporter) -> Ite
         else:
             assert task.body is not None
             aim = ExecuteBody(task.body)
-        yield LoadedTask(library, Assignment(task.name, world.snapshot(), aim), world)
+        yield LoadedTask(library, Assignment(task.name, world.snapshot(), aim), world, _origin(request, scene))
 
 
 @contextmanager
@@ -102,11 +103,17 @@ def _load_goal(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]
         if request.goal is not None:
             goal = parse_goal(request.goal, library.vocabulary, individuals, prefixes)
             aim = AchieveGoal(_valid(goal, request.goal))
-            yield LoadedTask(library, Assignment(request.goal, state, aim), world)
+            yield LoadedTask(library, Assignment(request.goal, state, aim), world, _origin(request, scene))
             return
         assert request.call is not None
         call = _valid(parse_call(request.call, library, individuals, prefixes), request.call)
-        yield LoadedTask(library, Assignment(call.skill, state, ExecuteBody(call)), world)
+        assignment = Assignment(call.skill, state, ExecuteBody(call))
+        yield LoadedTask(library, assignment, world, _origin(request, scene))
+
+
+def _origin(request: TaskRequest, scene: Path | None) -> str:
+    """Return the file of the scene that a world was read from; empty if it comes from a store."""
+    return str(scene) if scene is not None and request.store.place is None else ""
 
 
 def _valid(outcome: Outcome[Any], text: str) -> Any:

@@ -52,5 +52,5 @@ def _record(task: LoadedTask, path: Path, result: TaskResult) -> None:
     failure = Failure(kind="halted" if stopped else "plan", message=result.failure or "")
     with TraceWriter(path) as writer:
         publish = Publisher(make_run_id(result.task), (writer,))
-        publish(make_start_event(task.assignment, task.library, CellOrigin(seed=result.seed), 0.0))
+        publish(make_start_event(task.assignment, task.library, CellOrigin(task.scene, result.seed), 0.0))
         publish(TaskEnded(time=0.0, task=result.task, status="stopped" if stopped else "failed", failure=failure))

@@ -278,7 +278,6 @@ class TaskRun:
 
     def _finish(self, state: EndState, failure: Failure | None) -> None:
         world = self._context.backend.cell.world
-        self._attempt = None
         self._claims.release(self.id)
         self.state = self.end = state
         self.reason, self.failure = failure.message if failure else "", failure
