@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
+from skillc.services.backends import BackendName, make_backend
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.operating import RunMonitor, operate
@@ -17,7 +18,6 @@ from skillc.services.store_polling import StorePoller
 from skillc.services.task_loading import LoadedTask
 from skillc.services.unstarted_runs import end_unstarted
 from skillc.services.watchdog.process import TICK_TIMEOUT_S
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.summary import summarise_start
@@ -39,7 +39,7 @@ from skillc_runtime.world.state.transactions import StoreError
 
 @dataclass(frozen=True, slots=True)
 class RunOptions:
-    """The folder of recording and report (None: neither), the seed, the planners, and the meshes in films.
+    """The folder of recording and report (None: neither), the seed, the planners, the meshes in films, the backend.
 
     A run in which a tick takes longer than `tick_timeout_s` is ended (0: never). With `prints_json` the caller prints
     the result as JSON, and the watchdog does if the run is interrupted. The task fails if it has not ended
@@ -58,6 +58,7 @@ class RunOptions:
     deadline_s: float | None = None
     step: bool = False
     pause_at: tuple[str, ...] = ()
+    backend: BackendName = "mujoco"
 
     def __post_init__(self) -> None:
         if self.looks != PRIMITIVE_LOOKS and self.out is None:
@@ -77,7 +78,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
     with _start_planning(task, task.assignment, FailedSteps(task.library), options) as planning:
         try:
             monitor.say("planning, and building the simulation")
-            cell = SimulatedCell(task.world, options.seed)
+            cell = make_backend(options.backend, task.world, options.seed)
             film = None if options.out is None else make_film(cell, options.looks)
         except (SheetError, FrameError, StoreError) as error:
             return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)
@@ -122,9 +123,8 @@ class _Run:
         poller = StorePoller(self.cell.cell.world, self.reporter)
         hooks = (poller.poll,) if self.film is None else (poller.poll, self.film.sample)
         preparation = prepare_after(planning, plan_again)
-        return CellLoop(
-            self.cell, self.task.library, preparation, CellOrigin(self.task.scene, self.options.seed), hooks
-        )
+        origin = CellOrigin(self.task.scene, self.options.seed, self.options.backend)
+        return CellLoop(self.cell, self.task.library, preparation, origin, hooks)
 
 
 def _start_planning(

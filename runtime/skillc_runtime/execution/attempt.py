@@ -29,10 +29,14 @@ SETTLE_S = 5.0
 
 @dataclass(frozen=True, slots=True)
 class CellOrigin:
-    """What a simulated cell was built from: the file of its scene, empty if it came from elsewhere, and the seed."""
+    """What a simulated cell was built from: the file of its scene, empty if it came from elsewhere, the seed, and how.
+
+    `backend` is the name of the backend, empty if the cell was built by a program.
+    """
 
     scene: str = ""
     seed: int = 0
+    backend: str = ""
 
 
 @dataclass(frozen=True, slots=True)

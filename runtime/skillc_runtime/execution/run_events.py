@@ -37,6 +37,7 @@ def make_start_event(
         hash=library.hash,
         scene=origin.scene,
         seed=origin.seed,
+        backend=origin.backend,
         goal=objective.goal if isinstance(objective, AchieveGoal) else None,
         minimise=objective.minimise if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,

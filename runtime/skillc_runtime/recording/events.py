@@ -32,9 +32,9 @@ class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
 
-    The objective is a `goal`, with what the plan minimises, or a `body` to run as it is. `scene` and `seed` are those
-    of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses at
-    `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
+    The objective is a `goal`, with what the plan minimises, or a `body` to run as it is. `scene`, `seed` and `backend`
+    are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
+    at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
     """
 
     format: int
@@ -43,6 +43,7 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     hash: str = ""
     scene: str = ""
     seed: int = 0
+    backend: str = ""
     goal: Condition | None = None
     minimise: Literal["", "work", "makespan"] = ""
     body: Node | None = None

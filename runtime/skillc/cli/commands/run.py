@@ -24,6 +24,7 @@ from skillc.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from skillc.services.backends import BackendName
     from skillc_runtime.execution.pace import Pace
 
 
@@ -41,6 +42,13 @@ if TYPE_CHECKING:
 @planner_options
 @click.option(
     "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
+)
+@click.option(
+    "--backend",
+    type=click.Choice(["mujoco", "kinematic"]),
+    default="mujoco",
+    show_default=True,
+    help="Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then.",
 )
 @click.option(
     "--tick-timeout",
@@ -65,6 +73,7 @@ def command(
     minimise: str,
     plan_cache: bool,
     seed: int,
+    backend: BackendName,
     tick_timeout: float,
     pace: Pace,
     deadline: float | None,
@@ -85,7 +94,7 @@ def command(
     request = task_loading.TaskRequest(task, scene, goal, skill, library, StoreChoice(store, reset))
     request.check()
     options = RunOptions(
-        out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json, deadline, step, pause_at
+        out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json, deadline, step, pause_at, backend
     )
     check_operable(options)
     check_writable(out)
