@@ -5,10 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from msgspec import structs
 
+from skillc.cli.main import skillc
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model import skills as model
@@ -217,3 +220,32 @@ def test_an_opening_that_follows_from_a_fact_is_refused_beyond_what_the_fingers_
     refused = prepare("clean_table", SetProperty(LAB + "Eraser-1", GRASP_WIDTH, 0.13))
     assert isinstance(refused, NotStarted)
     assert "lab:Robotiq-1 opens to 155 mm, not to 170 mm" in refused.reason
+
+
+BOX = """
+lab:Iiwa-1 skillc:hasWorkspace lab:Box .
+lab:Box a skillc:Workspace ; skiros:SizeX 1.0 ; skiros:SizeY 0.7 ; skiros:SizeZ 3.0 ;
+    skiros:FrameId "box" ; skiros:BaseFrameId "map" ;
+    skiros:PositionX 0.3 ; skiros:PositionY {y} ; skiros:PositionZ 1.1 ;
+    skiros:OrientationW 1.0 ; skiros:OrientationX 0.0 ; skiros:OrientationY 0.0 ; skiros:OrientationZ 0.0 .
+"""
+
+
+@pytest.mark.parametrize(
+    ("y", "why"),
+    [
+        (
+            -0.25,
+            r"FollowPath: `path` is up to 124 mm outside the workspace of lab:Iiwa-1, at \(0.423, 0.224, 0.750\) m",
+        ),
+        (-2.5, r"Pick\[from_approach\]"),
+    ],
+)
+def test_a_run_outside_the_workspace_is_refused(y: float, why: str, tmp_path: Path) -> None:
+    cell = tmp_path / "cell.ttl"
+    cell.write_text(catalogue.scene_path("iiwa_table").read_text("utf-8") + BOX.format(y=y), "utf-8")
+    asked = ("run", "--library", "wiping", "--scene", str(cell), "--goal", "lab:Table-1.isClean == true")
+    result = CliRunner().invoke(skillc, asked)
+    assert result.exit_code == 3
+    assert re.search(why, " ".join(result.stdout.split())), result.stdout
+    assert "refused" in result.stdout
