@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import partial
-from threading import RLock
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -17,7 +16,7 @@ from simulation.cells import ARM, world
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.real_time.cell import DRIVER_PARTS, RealTimeCell
-from skillc_runtime.backends.real_time.locked import locked
+from skillc_runtime.backends.real_time.locked import CellLock, locked
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.names import part_name
@@ -45,8 +44,16 @@ class Backend(Protocol):
         """Let time pass; the driver is stepped."""
         ...
 
-    def watch(self, seconds: float, read: Callable[[], T], *, neglected: bool = False) -> list[T]:
-        """Let time pass; return what was read in each control period. Nobody commands the arm if it is neglected."""
+    def watch(self, seconds: float, read: Callable[[], T]) -> list[T]:
+        """Let time pass; return what was read in each control period."""
+        ...
+
+    def neglect(self) -> None:
+        """Let nobody command the arm from now on, until `attend`."""
+        ...
+
+    def attend(self) -> None:
+        """Let the driver command the arm again."""
         ...
 
     def put_wall(self, gap_m: float) -> Array:
@@ -59,7 +66,7 @@ class Backend(Protocol):
         ...
 
     def at_once(self) -> AbstractContextManager[object]:
-        """Let no time pass within the block, but in `advance` and `watch`."""
+        """Let no time pass within the block."""
         ...
 
     def close(self) -> None:
@@ -100,7 +107,7 @@ class ModelBackend:
     """The arm of a cell that is computed from a model, in lock step or with a control thread."""
 
     def __init__(self, cell: SimulatedCell | KinematicCell, clock: RealTimeCell | None = None) -> None:
-        self._cell, self._clock, self._lock = cell, clock, RLock() if clock is None else clock._lock
+        self._cell, self._clock, self._lock = cell, clock, CellLock() if clock is None else clock._turn
         facts = cell.scene.arms[0]
         assert facts.gripper is not None
         self.period_s = cell.period_s
@@ -118,16 +125,20 @@ class ModelBackend:
     def advance(self, seconds: float) -> None:
         (self._clock or self._cell).advance(seconds)
 
-    def watch(self, seconds: float, read: Callable[[], T], *, neglected: bool = False) -> list[T]:
-        reader, control = Reader(read), self._cell._control
+    def watch(self, seconds: float, read: Callable[[], T]) -> list[T]:
+        reader = Reader(read)
         with self._lock:
             self._add(reader)
-            if neglected:
-                self._cell._control = lambda *_: None  # type: ignore[method-assign]
-            self.advance(seconds)
+        self.advance(seconds)
+        with self._lock:
             self._cell.people = self._cell.people[:-1]
-            self._cell._control = control  # type: ignore[method-assign]
         return reader.found
+
+    def neglect(self) -> None:
+        self._cell._control = lambda *_: None  # type: ignore[method-assign]
+
+    def attend(self) -> None:
+        vars(self._cell).pop("_control", None)
 
     def put_wall(self, gap_m: float) -> Array:
         with self._lock:

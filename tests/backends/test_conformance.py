@@ -135,30 +135,38 @@ def test_it_changes_its_mode_on_the_way_without_a_jump_and_rests_until_the_first
     driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     for mode in (*arm.capabilities.modes, before):
         backend.advance(0.25)
-        with backend.at_once():
+        if mode == before:
             arm.switch(mode)
-            assert arm.interface == mode
-            if mode != before:
-                check_change_of_mode(backend, mode, before)
+        else:
+            check_change_of_mode(backend, mode, before)
     backend.advance(1.0)
     assert driver.motion.done
     assert driver.motion.tracking_error_message is None
 
 
 def check_change_of_mode(backend: Backend, mode: Mode, before: Mode) -> None:
-    """Check that an arm that was just switched, on its way, comes to rest; and forgets commands of both modes."""
+    """Check that an arm that is switched on its way comes to rest, and forgets commands of both modes."""
     arm = backend.arm
-    speeds = backend.watch(0.2, lambda: arm.state().dq.copy(), neglected=True)
+    with backend.at_once():
+        arm.switch(mode)
+        backend.neglect()
+    assert arm.interface == mode
+    speeds = backend.watch(0.2, lambda: arm.state().dq.copy())
     assert np.abs(speeds[0]).max() > 0.01
     assert np.abs(np.diff(speeds, axis=0)).max() < 40.0 * backend.period_s, "rad/s^2 from one period to the next"
     assert np.abs(speeds[-1]).max() < 0.02
-    arm.switch(before)
+    with backend.at_once():
+        arm.switch(before)
+        backend.attend()
     backend.advance(0.1)
-    moving = arm.state().dq.copy()
-    arm.switch(mode)
-    arm.switch(before)
-    backend.watch(0.04, arm.state, neglected=True)
+    with backend.at_once():
+        moving = arm.state().dq.copy()
+        arm.switch(mode)
+        arm.switch(before)
+        backend.neglect()
+    backend.advance(0.04)
     assert np.abs(arm.state().dq).max() < 0.3 * np.abs(moving).max(), "what was told before is forgotten"
+    backend.attend()
 
 
 def test_a_motion_of_the_joints_that_runs_into_something_does_not_press_ever_harder(backend: Backend) -> None:
@@ -182,12 +190,14 @@ def test_an_arm_that_nobody_commands_holds_still_and_goes_on_without_a_jump(back
     driver.motion.move_along(path_through([driver.motion.stopping_pose(), beside(backend, 0.0, 0.08, 0.0)], LIMITS))
     backend.advance(0.4)
     assert np.abs(driver.measured.velocity[:3]).max() > 0.1
-    backend.watch(0.6, driver.take_fault, neglected=True)
+    backend.neglect()
+    backend.advance(0.6)
     stopped = backend.arm.state()
     assert np.abs(stopped.dq).max() < 0.02
     place = stopped.tool.position.copy()
-    backend.watch(0.2, driver.take_fault, neglected=True)
+    backend.advance(0.2)
     assert np.abs(backend.arm.state().tool.position - place).max() < 1e-3
+    backend.attend()
     speeds = []
     for _ in range(20):
         backend.advance(0.01)

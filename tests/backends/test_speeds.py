@@ -103,9 +103,10 @@ def test_what_is_no_number_makes_it_hold_and_not_drift() -> None:
     joints[:] = good
     assert len(speeds) == 1
     assert not speeds[0].any()
-    there.watch(0.2, state, neglected=True)
+    there.neglect()
+    there.advance(0.2)
     stopped = state().q.copy()
-    there.watch(1.0, state, neglected=True)
+    there.advance(1.0)
     assert np.abs(state().q - stopped).max() < 1e-4
 
 

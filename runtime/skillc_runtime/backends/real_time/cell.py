@@ -31,8 +31,8 @@ CATCH_UP_S = 0.1
 SHORTEST_WAIT_S = 1e-4
 """Time between two control periods, at least, in which others get the lock."""
 
-STALL_S = 5.0
-"""A control thread that has run no control period for this wall time is given up."""
+STALL_S = 60.0
+"""A control thread that has run no control period for this wall time is given up; its first one compiles the laws."""
 
 BRAKING_S = 2.0
 """After a stop from outside, devices are commanded until they are at rest, or for this time; then they hold still."""
