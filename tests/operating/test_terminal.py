@@ -34,7 +34,7 @@ def read_events(folder: Path) -> list[Event]:
 
 def test_a_task_is_stepped_paused_and_continued_to_its_end(tmp_path: Path) -> None:
     with Terminal(command(tmp_path, "--step"), ENVIRONMENT) as terminal:
-        terminal.expect(r"paused since 0\.0 s: step: Deliver is next\s+next  Deliver  call:1\s+s step over")
+        terminal.expect(r"paused since 0\.\d s: step: Deliver is next\s+next  Deliver  call:1\s+s step over")
         assert not terminal.echoes
         terminal.type("i")
         terminal.expect(rf"step: Lift is next\s+next  Lift     {LIFT}\s+Deliver  ")
