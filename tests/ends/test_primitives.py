@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -14,30 +15,45 @@ import pytest
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.reader import TraceReader
 
-pytestmark = pytest.mark.sim
-
 LIBRARY = Path(__file__).with_name("blocking.skill")
 BLOCKED, GONE = "no tick ended within 5 s, so its process was ended, in ", "its process ended without notice, in "
 SWING = "Swing[slowly] (blocking.skill:13) and "
 
 
+@dataclass(frozen=True)
+class Case:
+    """A task, and the exit code of its process, its end and the beginning of its failure."""
+
+    task: str
+    code: int
+    status: str
+    failure: str
+
+
+CASES = (
+    Case("sleep", 3, "interrupted", f"{BLOCKED}{SWING}Break[sleeping] (blocking.skill:22)"),
+    Case("lock", 3, "interrupted", f"{BLOCKED}{SWING}Break[locking] (blocking.skill:26)"),
+    Case("match", 3, "interrupted", f"{BLOCKED}Break[matching] (blocking.skill:30)"),
+    Case("leave", 0, "interrupted", f"{GONE}Break[leaving] (blocking.skill:34)"),
+    Case("exit", 3, "failed", "SystemExit: "),
+    Case("kill", -signal.SIGKILL, "interrupted", f"{GONE}Break[killed] (blocking.skill:42)"),
+)
+FAST = ("lock", "exit")
+
+
 @pytest.mark.parametrize(
-    ("task", "code", "status", "failure"),
+    ("backend", "case"),
     [
-        ("sleep", 3, "interrupted", f"{BLOCKED}{SWING}Break[sleeping] (blocking.skill:22)"),
-        ("lock", 3, "interrupted", f"{BLOCKED}{SWING}Break[locking] (blocking.skill:26)"),
-        ("match", 3, "interrupted", f"{BLOCKED}Break[matching] (blocking.skill:30)"),
-        ("leave", 0, "interrupted", f"{GONE}Break[leaving] (blocking.skill:34)"),
-        ("exit", 3, "failed", "SystemExit: "),
-        ("kill", -signal.SIGKILL, "interrupted", f"{GONE}Break[killed] (blocking.skill:42)"),
+        pytest.param(backend, case, id=f"{backend} {case.task}", marks=() if fast else pytest.mark.sim)
+        for backend in ("mujoco", "kinematic")
+        for case in CASES
+        for fast in (backend == "kinematic" and case.task in FAST,)
     ],
 )
-def test_whatever_a_primitive_does_the_run_has_an_end(
-    tmp_path: Path, task: str, code: int, status: str, failure: str
-) -> None:
-    command = ("run", f"{LIBRARY}:{task}", "--json", "--tick-timeout", "5", "--out", str(tmp_path))
+def test_whatever_a_primitive_does_the_run_has_an_end(tmp_path: Path, backend: str, case: Case) -> None:
+    command = ("run", f"{LIBRARY}:{case.task}", "--json", "--tick-timeout", "5", "--backend", backend)
     done = subprocess.run(
-        (sys.executable, "-m", "skillc", *command),
+        (sys.executable, "-m", "skillc", *command, "--out", str(tmp_path)),
         capture_output=True,
         text=True,
         timeout=300,
@@ -46,10 +62,10 @@ def test_whatever_a_primitive_does_the_run_has_an_end(
     )
     result = json.loads(done.stdout)
     *_, ended = TraceReader(tmp_path / "events.jsonl").events
-    assert done.returncode == code, done.stderr
+    assert done.returncode == case.code, done.stderr
     assert isinstance(ended, TaskEnded) and ended.failure is not None
-    assert (result["status"], ended.status) == (status, status)
-    assert result["failure"].startswith(failure) and result["failure"].startswith(ended.failure.message)
+    assert (result["status"], ended.status) == (case.status, case.status)
+    assert result["failure"].startswith(case.failure) and result["failure"].startswith(ended.failure.message)
     assert result["sim_time_s"] > 0.0
     assert json.loads((tmp_path / "result.json").read_text(encoding="utf-8")) == result
     assert ended.failure.message in (tmp_path / "report.html").read_text(encoding="utf-8")

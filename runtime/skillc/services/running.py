@@ -108,8 +108,9 @@ class _Run:
         recording = RecordingOptions(options.out, options.tick_timeout_s, options.prints_json)
         with recorded_run(start, recording, self.reporter) as recorded:
             loop, began = self._make_loop(planning), perf_counter()
-            settings = RunSettings(deadline_s=options.deadline_s)
-            run = loop.submit(task.assignment, (choices, self.monitor, recorded.publisher), settings, self.gate)
+            settings, publisher = RunSettings(deadline_s=options.deadline_s), recorded.publisher
+            listeners = (choices, self.monitor, publisher)
+            run = loop.submit(task.assignment, listeners, settings, self.gate, publisher.run)
             operate(loop, run, self.monitor, lambda: recorded.watchdog.count_tick(cell.clock.now))
             recorded.watchdog.disarm()
             execution = describe_execution(run, cell, perf_counter() - began)

@@ -35,7 +35,9 @@ if TYPE_CHECKING:
 @click.option("--skill", help="The skill call to run instead of a goal, such as `Wipe(surface: lab:Table-1)`.")
 @click.option("--library", type=PATH, help="The library with the skills to use; by default the shipped one.")
 @click.option(
-    "--out", type=FOLDER, help="Write report.html, events.jsonl, the figure, the film and stills to this folder."
+    "--out",
+    type=FOLDER,
+    help="Write report.html, result.json, events.jsonl, the figure, the film and stills to this folder.",
 )
 @looks_option
 @store_options
