@@ -31,7 +31,7 @@ def test_a_shipped_task_succeeds_and_is_not_called_verified(name: str) -> None:
         assert wiping.coverage >= 0.99
         assert abs(wiping.force_mean_n / wiping.force_command_n - 1) <= 0.1
         assert wiping.contact_lost <= 0.01
-    assert bool(result.wipings) == name.startswith(("clean", "share"))
+    assert bool(result.wipings) == name.startswith(SLOW)
 
 
 def test_what_is_not_verified_is_said_with_the_reason() -> None:

@@ -32,14 +32,18 @@ class KinematicArm(ModelledArm):
         super().__init__(facts, name, gripper, model, data, start, steps)
         if self._feels_force:
             self._gain[:, :6] = np.eye(6)
-        self._wrench, self._measured_at = np.zeros(6), -1.0
+        self._wrench, self._measured_at, self._twist = np.zeros(6), -1.0, data.cvel[self._link]
         self._palm = self._link if gripper is None else int(model.body(part_name(gripper, "palm")).id)
+
+    @property
+    def links(self) -> tuple[int, int]:
+        """The bodies of the last link and of its root."""
+        return self._link, int(self._model.body_rootid[self._link])
 
     @property
     def motion(self) -> tuple[Array, Array]:
         """The twist (6,) of the last link, [angular rad/s; linear m/s], and where it holds (3,) m; in the world."""
-        data, link = self._data, self._link
-        return data.cvel[link], data.subtree_com[self._model.body_rootid[link]]
+        return self._twist, self._sensing.centre
 
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""

@@ -41,13 +41,15 @@ class Points:
 class Motion:
     """The motion of the last links of all arms, and of what yields, in the world; arrays change with the cell.
 
-    centre (a, 3): m, where the twist (a, 6) [angular rad/s; linear m/s] holds; tool (a, 3): m, the tool centre points.
+    links (a, 2): the bodies of the last link and of the root of each arm. Of all bodies: twist (bodies, 6) [angular
+    rad/s; linear m/s], which holds at the centre (bodies, 3) in m of the root. tool (a, 3): m, the tool centre points;
     axis, anchor (j, 3): of joints of fixtures, anchor in m. slides (j,): 1 if it slides, 0 if it turns; moves (j,
     geoms): 1 if the joint moves a geom, else 0.
     """
 
-    centre: OutMatrix
-    twist: OutMatrix
+    links: Matrix
+    twist: Matrix
+    centre: Matrix
     tool: OutMatrix
     axis: OutMatrix
     anchor: OutMatrix
@@ -57,21 +59,24 @@ class Motion:
 
 @dataclass(frozen=True, slots=True)
 class Forces:
-    """The result: wrench (a, 6) N and N m of the surroundings on each arm at its tool centre point, world axes.
+    """The result, for a arms: wrench (a, 6), N and N m of the surroundings at the tool centre point, world axes.
 
-    on_geom (2 a * geoms, 3): N, of a carrier on a geom, in the world; total (2 a,): N, sum of all normal forces on a
-    carrier. joint (j, 2): N or N m along each joint of a fixture, and the stiffness of the contacts along it.
+    on_geom (2 a * geoms, 3): N, of a carrier on a geom, in the world; net (2 a, 3): N, of a carrier on all geoms; total
+    (2 a,): N, the sum of all normal forces on a carrier. joint (j, 2): N or N m along each joint of a fixture, and the
+    stiffness of the contacts along it.
     """
 
     wrench: OutMatrix
     on_geom: OutMatrix
+    net: OutMatrix
     total: OutVector
     joint: OutMatrix
 
 
 def make_forces(arms: int, geoms: int, joints: int) -> Forces:
     """Return forces that are zero."""
-    return Forces(np.zeros((arms, 6)), np.zeros((2 * arms * geoms, 3)), np.zeros(2 * arms), np.zeros((joints, 2)))
+    net, total = np.zeros((2 * arms, 3)), np.zeros(2 * arms)
+    return Forces(np.zeros((arms, 6)), np.zeros((2 * arms * geoms, 3)), net, total, np.zeros((joints, 2)))
 
 
 @inlined
@@ -93,12 +98,13 @@ def leaving_speed(motion: Motion, arm: int, theirs: int, place: Array, normal: A
 
     What yields has dampers of its own.
     """
+    link, root = int(motion.links[arm, 0]), int(motion.links[arm, 1])
     lever, turning, speed = np.empty(3), np.empty(3), 0.0
     for i in range(3):
-        lever[i] = place[i] - motion.centre[arm, i]
-    cross(motion.twist[arm, :3], lever, turning)
+        lever[i] = place[i] - motion.centre[root, i]
+    cross(motion.twist[link, :3], lever, turning)
     for i in range(3):
-        speed += normal[i] * (motion.twist[arm, 3 + i] + turning[i])
+        speed += normal[i] * (motion.twist[link, 3 + i] + turning[i])
     for j in range(motion.slides.size):
         speed *= 1.0 - motion.moves[j, theirs]
     return speed
@@ -115,17 +121,30 @@ def add_force(forces: Forces, motion: Motion, carrier: int, theirs: int, place: 
         forces.wrench[arm, i] += force[i]
         forces.wrench[arm, 3 + i] += moment[i]
         forces.on_geom[row, i] -= force[i]
+        forces.net[carrier, i] -= force[i]
     for j in range(motion.slides.size):
         forces.joint[j, 0] -= motion.moves[j, theirs] * along_joint(motion, j, place, force)
 
 
+@inlined
+def clear(forces: Forces) -> None:
+    """Set all forces to zero."""
+    for array in (forces.wrench, forces.on_geom, forces.net, forces.joint):
+        for i in range(array.shape[0]):
+            for j in range(array.shape[1]):
+                array[i, j] = 0.0
+    for i in range(forces.total.size):
+        forces.total[i] = 0.0
+
+
 @compiled
-def add_contacts(forces: Forces, points: Points, motion: Motion, carrier: Vector, stiffness: Vector) -> None:
-    """Add up F = k d (1 + c dd/dt) for each overlap d of something carried with something that is not.
+def compute_contacts(forces: Forces, points: Points, motion: Motion, carrier: Vector, stiffness: Vector) -> None:
+    """Set the forces to sums of F = k d (1 + c dd/dt), one for each overlap d of what is carried with what is fixed.
 
     carrier (geoms,): the carrier of each geom, or `FIXED` or `FREE`; stiffness (2 a,): k of each carrier, N/m. Hunt and
     Crossley 1975, with exponent 1.
     """
+    clear(forces)
     normal, force = np.empty(3), np.empty(3)
     for n in range(points.distance.size):
         first, second = int(points.geoms[n, 0]), int(points.geoms[n, 1])

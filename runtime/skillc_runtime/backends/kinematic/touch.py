@@ -16,7 +16,7 @@ from skillc_runtime.backends.kinematic.contact import (
     TOOL,
     Motion,
     Points,
-    add_contacts,
+    compute_contacts,
     make_forces,
 )
 from skillc_runtime.backends.kinematic.contact_sensors import ContactSensors
@@ -47,9 +47,11 @@ class Touch:
                 self._carrier[geoms_of(model, names[arm.gripper.individual])] = 2 * number + FINGERS
         for tool in self._geoms:
             self._set_carrier(tool, FREE)
-        centres, tools, twists = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros((count, 6))
+        links, tools = np.array([each.links for each in arms], dtype=np.float64), np.zeros((count, 3))
         axes, anchors = np.zeros((parts.count, 3)), np.zeros((parts.count, 3))
-        self._motion = Motion(centres, twists, tools, axes, anchors, parts.slides, parts.moves)
+        self._motion = Motion(
+            links.reshape(count, 2), data.cvel, data.subtree_com, tools, axes, anchors, parts.slides, parts.moves
+        )
         self._forces, self._touched = make_forces(count, model.ngeom, parts.count), False
         self._sensors = ContactSensors(scene, self._forces, model, data)
 
@@ -70,9 +72,7 @@ class Touch:
         """Find the contacts in the present positions; let arms and sensors feel them, and yielding parts yield."""
         forces, touched = self._forces, self._data.ncon > 0
         if touched or self._touched:
-            for array in (forces.wrench, forces.on_geom, forces.total, forces.joint):
-                array[:] = 0.0
-            self._add_contacts()
+            self._compute_contacts()
             self._sensors.update(self._held)
         self._touched = touched
         if self._parts.count:
@@ -80,14 +80,14 @@ class Touch:
         for number, arm in enumerate(self._arms):
             arm.feel(forces.wrench[number])
 
-    def _add_contacts(self) -> None:
+    def _compute_contacts(self) -> None:
         contact, motion, parts = self._data.contact, self._motion, self._parts
         for number, arm in enumerate(self._arms):
-            motion.twist[number], motion.centre[number] = arm.motion
             motion.tool[number] = arm.tool_point()
-        motion.axis[:], motion.anchor[:] = parts.axes, parts.anchors
+        if parts.count:
+            motion.axis[:], motion.anchor[:] = parts.axes, parts.anchors
         points = Points(contact.dist, contact.frame, contact.pos, contact.geom.astype(np.float64))
-        add_contacts(self._forces, points, motion, self._carrier, self._stiffness)
+        compute_contacts(self._forces, points, motion, self._carrier, self._stiffness)
 
     def _set_carrier(self, tool: str, carrier: int) -> None:
         """Set who carries a tool; the geoms that it works with touch nothing while it is free."""
