@@ -25,7 +25,7 @@ def test_whatever_is_requested_a_run_ends_in_order(drawn: Drawn) -> None:
 
 
 @pytest.mark.sim
-@settings(max_examples=RUNS, deadline=None, suppress_health_check=QUIET)
+@settings(max_examples=RUNS, deadline=None, derandomize=True, suppress_health_check=QUIET)
 @given(DRAWN)
 def test_whatever_is_requested_many_runs_end_in_order(drawn: Drawn) -> None:
     random_runs.check(random_runs.run(drawn))
