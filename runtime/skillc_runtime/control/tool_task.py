@@ -111,9 +111,9 @@ class ToolTask:
 
     def _sample(self, now: float) -> Reference:
         reference = self.reference_generator.sample(now)
-        if self._shift.is_over(now):
-            return reference
-        return self._shift.add_to(reference, now)
+        if self._shift is not NO_SHIFT and self._shift.is_over(now):
+            self._shift = NO_SHIFT
+        return reference if self._shift is NO_SHIFT else self._shift.add_to(reference, now)
 
     def _error(self, now: float) -> tuple[Pose, Array]:
         """Return the pose of the reference, and the tool's position (3,) relative to it in m, in base."""

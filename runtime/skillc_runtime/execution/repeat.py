@@ -69,7 +69,7 @@ class _Player:
         self._recorded, self._library, self._backend = tuple(recorded), library, backend
         self._requests = deque(event for event in recorded if isinstance(event, Requested))
         self._arrivals = deque(event for event in recorded if isinstance(event, PlanArrived))
-        self.loop = CellLoop(backend, library, self._prepare, CellOrigin(started.scene, started.seed))
+        self.loop = CellLoop(backend, library, self._prepare, CellOrigin(started.scene, started.seed, started.backend))
         gate = Gate(map(read_breakpoint, started.breakpoints))
         if started.stepped:
             gate.step("into", ())
