@@ -43,11 +43,11 @@ def finish_and(then: Callable[[], object]) -> Callable[[RecordedRun], object]:
 
 def be_suspended(run: RecordedRun) -> None:
     """Be suspended for longer than a tick may take, and go on."""
+    this = os.getpid()
     if os.fork() == 0:
-        time.sleep(0.2)
-        os.kill(os.getppid(), signal.SIGSTOP)
-        time.sleep(2.0 * float(sys.argv[2]))
-        os.kill(os.getppid(), signal.SIGCONT)
+        for number, after_s in ((signal.SIGSTOP, 0.2), (signal.SIGCONT, 2.0 * float(sys.argv[2]))):
+            time.sleep(after_s)
+            os.kill(this, number)
         os._exit(0)
     for _ in range(50):
         time.sleep(0.01)
