@@ -177,6 +177,7 @@ def test_a_soft_axis_is_held_and_is_soft_again_at_its_place():
     assert abs(driver.measured.pose.position @ x - start) < 1e-3
 
 
+@pytest.mark.sim
 def test_a_tool_that_loses_contact_in_a_pause_is_held(robot):
     arm = Pressing(robot)
     pressed_at = arm.height
@@ -190,6 +191,7 @@ def test_a_tool_that_loses_contact_in_a_pause_is_held(robot):
     assert arm.push.pressed_s is not None and arm.height < pressed_at - 0.03
 
 
+@pytest.mark.sim
 @pytest.mark.parametrize("phase", ["kept", "withdrawn", "taken off", "approaching"])
 def test_ending_in_a_pause_leaves_the_arm_stiff_and_at_rest(robot, phase):
     arm = Pressing(robot)
@@ -222,6 +224,7 @@ def test_ending_in_a_pause_leaves_the_arm_stiff_and_at_rest(robot, phase):
     assert again.pressed_s is not None
 
 
+@pytest.mark.sim
 @pytest.mark.parametrize("phase", ["approaching", "pressing"])
 def test_an_arm_that_has_stopped_by_itself_is_held_until_it_pushes_again(robot, phase):
     arm = Pressing(robot, gap=0.06, seconds=0.6 if phase == "approaching" else 2.5)

@@ -27,7 +27,7 @@ DEEP = {
 
 
 @pytest.mark.parametrize("kind", DEEP)
-@pytest.mark.parametrize("levels", [DEEPEST + 1, 400, 10_000])
+@pytest.mark.parametrize("levels", [DEEPEST + 1, 4000])
 def test_what_is_too_deep_is_one_error_and_the_rest_is_understood(kind: str, levels: int) -> None:
     source = Source("", f"impl one of A {{\n{DEEP[kind](levels)}\nprefer 2\n}}\nimpl two of A {{ do wait 1 s }}\n")
     outcome = parse(source)

@@ -50,12 +50,12 @@ def read_result(folder: Path) -> TaskResult:
     ("how", "code", "why"),
     [
         ("sleep", 3, BLOCKED),
-        ("lock", 3, BLOCKED),
+        pytest.param("lock", 3, BLOCKED, marks=pytest.mark.sim),
         pytest.param("match", 3, BLOCKED, marks=pytest.mark.sim),
         pytest.param("ignore", -signal.SIGKILL, BLOCKED, marks=pytest.mark.sim),
-        ("leave", 0, GONE),
+        pytest.param("leave", 0, GONE, marks=pytest.mark.sim),
         ("kill", -signal.SIGKILL, GONE),
-        ("crash", -signal.SIGSEGV, GONE),
+        pytest.param("crash", -signal.SIGSEGV, GONE, marks=pytest.mark.sim),
         pytest.param("hang up", -signal.SIGHUP, GONE, marks=pytest.mark.sim),
     ],
 )
@@ -76,7 +76,7 @@ def test_the_end_of_a_process_that_cannot_write_it_is_written(tmp_path: Path, ho
 @pytest.mark.parametrize(
     ("how", "code", "why"),
     [
-        ("exit", 0, "SystemExit: "),
+        pytest.param("exit", 0, "SystemExit: ", marks=pytest.mark.sim),
         ("error", 1, "ValueError: what was expected is missing"),
         ("interrupt", -signal.SIGINT, "it was interrupted twice"),
     ],
@@ -89,7 +89,9 @@ def test_the_end_of_a_run_that_is_broken_off_is_written(tmp_path: Path, how: str
     assert ended.status == read_result(tmp_path).status == "interrupted"
 
 
-@pytest.mark.parametrize("how", ["finish", "report", "suspend", pytest.param("compile", marks=pytest.mark.sim)])
+@pytest.mark.parametrize(
+    "how", ["finish", *(pytest.param(how, marks=pytest.mark.sim) for how in ("report", "suspend", "compile"))]
+)
 def test_a_run_that_may_take_its_time_is_not_ended(tmp_path: Path, how: str) -> None:
     if how == "compile" and not COMPILES:
         pytest.skip("needs numba")
@@ -111,7 +113,7 @@ def test_a_process_that_dies_after_the_end_of_the_run_changes_nothing_in_it(tmp_
     [
         pytest.param("sleep", True, marks=pytest.mark.sim),
         pytest.param("lock", False, marks=pytest.mark.sim),
-        ("alive", True),
+        pytest.param("alive", True, marks=pytest.mark.sim),
     ],
 )
 def test_devices_with_a_control_thread_have_stopped_when_the_process_ends(

@@ -15,7 +15,7 @@ from fuzz.runner import Plan, Result, run
 class Faulty:
     """A kind whose case `at` does something bad."""
 
-    SECONDS = 0.2
+    SECONDS = 0.1
 
     def __init__(self, bad: Callable[[], None], at: int) -> None:
         self.bad, self.at, self.count = bad, at, 0

@@ -7,8 +7,8 @@ import pytest
 from fuzz.kinds import kind_names
 from fuzz.runner import run_case
 
-CASES = 12
-SLOW = {"editor": 2, "planning": 4}
+CASES = 8
+SLOW = {"editor": 1, "planning": 3}
 """How many cases of kinds that take long."""
 
 

@@ -21,7 +21,7 @@ skill Lift { noplan }
 impl slowly of Lift { do wait 1 s }
 
 skill Carry { noplan }
-impl far of Carry { do wait 2000 s }
+impl far of Carry { do wait FAR }
 
 skill Lower { noplan }
 impl slowly of Lower { do wait 1 s }
@@ -42,9 +42,9 @@ lab:shelf a skiros:Location .
 """
 
 
-def write_depot(folder: Path) -> tuple[str, ...]:
+def write_depot(folder: Path, far_s: int = 2000) -> tuple[str, ...]:
     """Write the library and its scene into a folder; return the options that select them."""
-    (folder / "depot.skill").write_text(SKILLS, encoding="utf-8")
+    (folder / "depot.skill").write_text(SKILLS.replace("FAR", f"{far_s} s"), encoding="utf-8")
     (folder / "scene.ttl").write_text(SCENE, encoding="utf-8")
     return ("--library", str(folder), "--scene", str(folder / "scene.ttl"))
 

@@ -21,9 +21,9 @@ ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
 LIFT, CARRY, LOWER = (f"depot.skill:{line_of(f'    {name}()')}" for name in ("Lift", "Carry", "Lower"))
 
 
-def command(folder: Path, *options: str) -> tuple[str, ...]:
+def command(folder: Path, *options: str, far_s: int = 2000) -> tuple[str, ...]:
     """Return the command that runs the delivery; its recording is written to the folder `out` in a folder."""
-    place = write_depot(folder)
+    place = write_depot(folder, far_s)
     given = ("--skill", "Deliver()", "--out", str(folder / "out"))
     return (sys.executable, "-m", "skillc", "run", *place, *given, *options)
 
@@ -33,7 +33,7 @@ def read_events(folder: Path) -> list[Event]:
 
 
 def test_a_task_is_stepped_paused_and_continued_to_its_end(tmp_path: Path) -> None:
-    with Terminal(command(tmp_path, "--step"), ENVIRONMENT) as terminal:
+    with Terminal(command(tmp_path, "--step", far_s=20), ENVIRONMENT) as terminal:
         terminal.expect(r"paused since 0\.\d s: step: Deliver is next\s+next  Deliver  call:1\s+s step over")
         assert not terminal.echoes
         terminal.type("i")
@@ -56,7 +56,7 @@ def test_a_task_is_stepped_paused_and_continued_to_its_end(tmp_path: Path) -> No
 
 def test_a_task_pauses_at_breakpoints_and_after_what_is_around_a_call(tmp_path: Path) -> None:
     places = ("--pause-at", "Lift", "--pause-at", f"depot.skill:{LOWER.partition(':')[2]}")
-    with Terminal(command(tmp_path, *places), ENVIRONMENT) as terminal:
+    with Terminal(command(tmp_path, *places, far_s=20), ENVIRONMENT) as terminal:
         terminal.expect(rf"breakpoint at Lift\s+next  Lift     {LIFT}")
         terminal.type("c")
         terminal.expect(rf"breakpoint at {LOWER}\s+next  Lower    {LOWER}")
@@ -86,7 +86,11 @@ def test_a_task_that_runs_is_paused_and_stopped(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("number", "said"),
-    [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "ended by SIGTERM"), (signal.SIGHUP, "ended by SIGHUP")],
+    [
+        (signal.SIGINT, "interrupted"),
+        pytest.param(signal.SIGTERM, "ended by SIGTERM", marks=pytest.mark.sim),
+        pytest.param(signal.SIGHUP, "ended by SIGHUP", marks=pytest.mark.sim),
+    ],
 )
 def test_a_signal_stops_a_task_and_the_terminal_is_as_it_was(tmp_path: Path, number: signal.Signals, said: str) -> None:
     with Terminal(command(tmp_path, "--pace", "real"), ENVIRONMENT) as terminal:

@@ -6,6 +6,7 @@ import itertools
 import os
 import resource
 from multiprocessing.connection import Connection
+from multiprocessing.synchronize import Barrier
 from pathlib import Path
 from random import Random
 
@@ -18,12 +19,14 @@ from store.worlds import facts_of, model_of, random_write
 from world.lab import VOCABULARY, assign
 
 
-def write(tell: Connection, place: str, seed: int, count: int, name: str) -> None:
-    """Make so many random writes, whatever others do meanwhile; tell the origin of each."""
+def write(tell: Connection, place: str, seed: int, count: int, name: str, begin: Barrier | None = None) -> None:
+    """Make so many random writes, whatever others do meanwhile; tell the origin of each. All begin together."""
     store = open_store(place)
     kept = store.read()
     model = WorldModel(build_world(kept.triples, VOCABULARY, place), store, kept.sequence)
     chance, made = Random(seed), 0
+    if begin:
+        begin.wait(timeout=60.0)
     while made < count:
         try:
             model.commit(random_write(chance), f"{name} {made}")

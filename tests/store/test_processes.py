@@ -5,7 +5,7 @@ from pathlib import Path
 
 from skillc_runtime.store.disk import DiskStore
 from store.actors import write
-from store.processes import Actor
+from store.processes import PROCESSES, Actor
 from store.worlds import facts_of, model_of
 
 WRITERS, WRITES = 3, 60
@@ -14,7 +14,8 @@ WRITERS, WRITES = 3, 60
 def test_processes_that_write_at_once_agree_on_one_order(tmp_path: Path) -> None:
     store = DiskStore(tmp_path / "store")
     model = model_of(store)
-    writers = [Actor(write, str(tmp_path / "store"), seed, WRITES, f"writer-{seed}") for seed in range(WRITERS)]
+    place, begin = str(tmp_path / "store"), PROCESSES.Barrier(WRITERS)
+    writers = [Actor(write, place, seed, WRITES, f"writer-{seed}", begin) for seed in range(WRITERS)]
     heard: list[str] = []
     model.subscribe(lambda event: heard.append(event.origin))
     while any(writer.process.is_alive() for writer in writers):

@@ -38,12 +38,12 @@ class VersionedMap(Generic[K, V]):
 
     def items(self) -> Iterator[tuple[K, V]]:
         """Yield the entries, in no particular order."""
-        recent, empty = self._recent, self._empty
+        recent = self._recent
         if not recent:
             yield from self._base.items()
             return
         yield from (entry for entry in self._base.items() if entry[0] not in recent)
-        yield from (entry for entry in recent.items() if entry[1] != empty)
+        yield from (entry for entry in recent.items() if self._is_entry(entry[1]))
 
     def with_changes(self, changes: Mapping[K, V]) -> VersionedMap[K, V]:
         """Return the next version; this one does not change."""
@@ -51,7 +51,11 @@ class VersionedMap(Generic[K, V]):
         if len(recent) <= 16 + 2 * isqrt(len(self._base)):
             return VersionedMap(self._empty, self._base, recent)
         merged = {**self._base, **recent}
-        return VersionedMap(self._empty, {key: value for key, value in merged.items() if value != self._empty})
+        return VersionedMap(self._empty, {key: value for key, value in merged.items() if self._is_entry(value)})
+
+    def _is_entry(self, value: V) -> bool:
+        # A set that another process sent is empty without being `empty`; an array cannot be compared.
+        return value is not self._empty and not (isinstance(value, frozenset) and not value)
 
 
 class VersionedSet:
