@@ -24,7 +24,7 @@ from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
 SCENES = ("iiwa_table", "ur5e_whiteboard", "two_robots")
-TASKS = {"press_button": "contact", "insert_peg": "contact", "clean_table": "wiping", "clean_whiteboard": "wiping"}
+TASKS = {"press_button": "contact", "insert_peg": "contact", "clean_table": "wiping"}
 BURST_S, REPEATS = 0.1, 40
 
 Maker: TypeAlias = Callable[[WorldModel], SimulatedCell | KinematicCell]

@@ -33,8 +33,8 @@ def shipped_tasks() -> dict[str, str]:
     return {task: name for name in ("contact", "wiping") for task in library(name).tasks}
 
 
-def run_task(compiled: SkillLibrary, name: str, scene: Path) -> tuple[Execution[KinematicCell], TaskResult]:
-    """Run a task of a library; return its execution and its result."""
+def prepare(compiled: SkillLibrary, name: str, scene: Path) -> PreparedTask:
+    """Plan a task of a library."""
     task, state = compiled.tasks[name], load_scene(scene, compiled.vocabulary)
     if task.goal is not None:
         objective: AchieveGoal | ExecuteBody = AchieveGoal(task.goal)
@@ -43,6 +43,13 @@ def run_task(compiled: SkillLibrary, name: str, scene: Path) -> tuple[Execution[
         objective = ExecuteBody(task.body)
     prepared = prepare_task(Assignment(name, state, objective), compiled)
     assert isinstance(prepared, PreparedTask), prepared
+    return prepared
+
+
+def run_task(compiled: SkillLibrary, name: str, scene: Path) -> tuple[Execution[KinematicCell], TaskResult]:
+    """Run a task of a library; return its execution and its result."""
+    prepared = prepare(compiled, name, scene)
+    state = prepared.assignment.state
     cell, choices = KinematicCell(WorldModel(state)), ChoiceListener()
     execution = execute_task(prepared, compiled, cell, [choices])
     wipings = find_wipings([each.tree for each in execution.attempts], choices, cell.world.snapshot())

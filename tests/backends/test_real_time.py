@@ -6,19 +6,22 @@ import re
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 
 import numpy as np
 import pytest
 
 from backends.backend import scene_with
+from backends.kinematic_runs import library, prepare
 from simulation.cells import ARM
+from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.real_time.cell import RealTimeCell
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import BackendBroken
+from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
@@ -199,6 +202,20 @@ def test_the_same_commands_at_the_same_times_lead_to_the_same_place_as_in_lock_s
         cell.advance(3.0)
         assert arm.motion.done
         assert np.abs(arm.measured.q - there.measured.q).max() < 1e-6
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize(("task", "scene"), [("press_button", "ur5e_button"), ("insert_peg_iiwa", "iiwa_peg")])
+def test_a_shipped_task_succeeds_by_the_wall_clock(task: str, scene: str) -> None:
+    compiled = library("contact")
+    prepared = prepare(compiled, task, catalogue.scene_path(scene))
+    inside = KinematicCell(WorldModel(prepared.assignment.state))
+    with closing(RealTimeCell(inside)) as cell:
+        execution = execute_task(prepared, compiled, cell)
+        assert execution.status == "succeeded", execution.failure
+        assert execution.verified is False
+        assert cell.is_at_rest()
+        assert cell.secure() == ()
 
 
 def test_a_control_period_that_never_ends_breaks_the_calls_that_wait_for_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -106,6 +106,7 @@ def test_a_tool_that_was_taken_off_does_not_drift_for_a_minute(robot, pull_n):
     assert np.ptp(heights) < 1e-4
 
 
+@pytest.mark.sim
 def test_a_pause_beside_the_way_keeps_the_motion(robot):
     arm = Pressing(robot)
     start = arm.driver.motion.stopping_pose()

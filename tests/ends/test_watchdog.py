@@ -78,7 +78,7 @@ def test_the_end_of_a_process_that_cannot_write_it_is_written(tmp_path: Path, ho
     [
         pytest.param("exit", 0, "SystemExit: ", marks=pytest.mark.sim),
         ("error", 1, "ValueError: what was expected is missing"),
-        ("interrupt", -signal.SIGINT, "it was interrupted twice"),
+        pytest.param("interrupt", -signal.SIGINT, "it was interrupted twice", marks=pytest.mark.sim),
     ],
 )
 def test_the_end_of_a_run_that_is_broken_off_is_written(tmp_path: Path, how: str, code: int, why: str) -> None:
@@ -101,6 +101,7 @@ def test_a_run_that_may_take_its_time_is_not_ended(tmp_path: Path, how: str) -> 
     assert not (tmp_path / "out/result.json").exists(), "it is written by what follows the run"
 
 
+@pytest.mark.sim
 def test_a_process_that_dies_after_the_end_of_the_run_changes_nothing_in_it(tmp_path: Path) -> None:
     done = run(tmp_path, "die in the report")
     assert done.stderr == f"warning: play had succeeded: {GONE}, before its report was written\n"

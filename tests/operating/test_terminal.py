@@ -104,6 +104,7 @@ def test_a_signal_stops_a_task_and_the_terminal_is_as_it_was(tmp_path: Path, num
     assert (ended.status, ended.failure.message) == ("stopped", said)
 
 
+@pytest.mark.sim
 def test_a_suspended_run_leaves_the_terminal_to_the_shell_and_goes_on(tmp_path: Path) -> None:
     run = shlex.join(command(tmp_path, "--pace", "real"))
     script = f"set -m; {run}; echo suspended; read line; echo got $line; fg; echo code $?"
@@ -131,7 +132,7 @@ def test_a_run_in_the_background_takes_no_keys_from_the_shell(tmp_path: Path) ->
         assert terminal.wait() == 0
 
 
-@pytest.mark.parametrize("option", [("--step",), ("--pause-at", "Lift")])
+@pytest.mark.parametrize("option", [("--step",), pytest.param(("--pause-at", "Lift"), marks=pytest.mark.sim)])
 def test_without_a_terminal_nothing_may_pause(tmp_path: Path, option: tuple[str, ...]) -> None:
     done = subprocess.run(command(tmp_path, *option), env=ENVIRONMENT, capture_output=True, text=True, check=False)
     assert done.returncode == 2

@@ -28,7 +28,7 @@ def missed_targets(result: WipingResult) -> list[str]:
     return [f"{metric.name}: {value:g}" for metric, value in values if value is not None and not metric.is_met(value)]
 
 
-@pytest.mark.parametrize(("task", "seed"), zip(ARMS, (7, 0, 3), strict=True))
+@pytest.mark.parametrize(("task", "seed"), list(zip(ARMS, (7, 0, 3), strict=True)))
 def test_in_a_short_pause_of_wiping_the_force_is_kept(task: str, seed: int) -> None:
     paused = PausedRun("FollowPath", after_s=3.0, lasts_s=1.5).start(wiping(), task, seed)
     assert paused.run.state == "succeeded", paused.run.failure

@@ -110,7 +110,7 @@ class Pressing:
 def advance_pressing(pressed: Pressing, speed: float, period: float) -> Pressing:
     """Advance by `period` s with `speed` m/s in the direction of the push."""
     fast = pressed.fast + period if speed > FALL_SHARE * pressed.speed else 0.0
-    return replace(pressed, fast=fast, lasted=pressed.lasted + period)
+    return Pressing(pressed.speed, fast, pressed.lasted + period)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
@@ -51,11 +50,11 @@ class Grip:
 
     def _load(self, data: Any) -> float:
         """Return the force of the weld in N across the pressing direction; 0 before it acts."""
-        kinds, owners = data.efc_type[: data.ne], data.efc_id[: data.ne]
-        rows = np.flatnonzero((kinds == mujoco.mjtConstraint.mjCNSTR_EQUALITY) & (owners == self.equality))
-        force = data.efc_force[rows[:3]]
-        if force.size == 0:
+        owners = data.efc_id[: data.ne].tolist()  # the rows of equality constraints come before all others
+        if self.equality not in owners:
             return 0.0
+        first = owners.index(self.equality)
+        force = data.efc_force[first : first + 3]
         pressing = data.xmat[self.palm].reshape(3, 3) @ self.pressing
         return float(np.linalg.norm(force - force @ pressing * pressing))
 
