@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from operating.terminal import Terminal
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.reader import TraceReader
 
@@ -62,3 +63,14 @@ def test_whatever_a_primitive_does_the_run_has_an_end(tmp_path: Path, backend: s
     assert result["sim_time_s"] > 0.0
     assert json.loads((tmp_path / "result.json").read_text(encoding="utf-8")) == result
     assert ended.failure.message in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.sim
+def test_a_terminal_that_keys_were_read_from_is_as_it_was(tmp_path: Path) -> None:
+    command = ("run", f"{LIBRARY}:lock", "--tick-timeout", "5", "--backend", "kinematic", "--out", str(tmp_path))
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    with Terminal((sys.executable, "-m", "skillc", *command), environment) as terminal:
+        terminal.expect("q stop")
+        assert not terminal.echoes
+        assert terminal.wait() == 3
+        assert terminal.modes == terminal.modes_before

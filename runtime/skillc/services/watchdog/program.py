@@ -16,6 +16,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import termios
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -101,6 +102,7 @@ def main(parent: int, folder: Path, timeout_s: float) -> None:
     if reason == "blocked":
         state.request_stop()
         time.sleep(STOP_S)
+        _restore_terminal(parent)
         _end(parent)
     if reason is not None:
         _write_end(folder, reason)
@@ -133,9 +135,25 @@ def _read_message() -> bytes | None:
 
 def _is_suspended(pid: int) -> bool:
     """Whether a process is stopped, for example by Ctrl-Z; False on systems without /proc."""
+    return _read_status(pid)[:1] in (["T"], ["t"])
+
+
+def _read_status(pid: int) -> list[str]:
+    """Return state, parent, process group, session, terminal, its foreground group, ...; empty without /proc."""
     with contextlib.suppress(OSError):
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] in ("T", "t")
-    return False
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return []
+
+
+def _restore_terminal(pid: int) -> None:
+    """Let the terminal show what is typed again if a process has it, which reads single keys."""
+    status = _read_status(pid)
+    if not status or status[2] != status[5]:
+        return
+    with contextlib.suppress(termios.error):
+        modes = termios.tcgetattr(sys.stderr)
+        modes[3] |= termios.ICANON | termios.ECHO
+        termios.tcsetattr(sys.stderr, termios.TCSANOW, modes)
 
 
 def _end(parent: int) -> None:
