@@ -1,0 +1,201 @@
+"""The bodies of a world: what has a size and a pose exists, with a shape, a mass, a friction and a colour."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.bounding_boxes import FRAME_HEIGHT
+from skillc_runtime.world.space.frame_tree import Unplaced
+from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.space.shapes import (
+    Bin,
+    Box,
+    Capsule,
+    Cylinder,
+    Shape,
+    ShapeError,
+    Size,
+    Solid,
+    Sphere,
+    centre_of,
+    solids_of,
+)
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
+from skillc_runtime.world.state.terms import (
+    AREA,
+    ARM_DEVICE,
+    CENTRE_OF_MASS,
+    COLOUR,
+    CONTAINER,
+    DENSITY,
+    END_EFFECTOR,
+    FIXTURE,
+    FRICTION,
+    FURNITURE,
+    MANIPULATABLE,
+    PERSON,
+    ROBOT,
+    SENSOR,
+    SHAPE,
+    SIZE,
+    SURFACE,
+    TOOL,
+    TRANSFORMATION_POSE,
+    WALL_THICKNESS,
+    WEIGHT,
+    WORKSPACE,
+    WORKSTATION,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+Colour: TypeAlias = tuple[float, float, float, float]
+
+REGIONS: Final = (WORKSPACE, AREA, WORKSTATION, TRANSFORMATION_POSE)
+"""Classes of what is a part of space, not a body."""
+
+MODELLED: Final = (ROBOT, ARM_DEVICE, END_EFFECTOR, SENSOR, SURFACE, FIXTURE, TOOL, PERSON)
+"""Classes of what a simulation models in another way: from data sheets, or as a surface."""
+
+FRICTION_UNLESS_STATED = 0.6
+"""Wood on wood."""
+
+DENSITY_UNLESS_STATED = 1000.0
+"""Water, kg/m^3."""
+
+BIN_WALL_M = 0.004
+"""The thickness of the walls of a bin that states none."""
+
+WOOD: Final[Colour] = (0.62, 0.52, 0.4, 1.0)
+PLASTIC: Final[Colour] = (0.35, 0.5, 0.65, 1.0)
+GOODS: Final[Colour] = (0.85, 0.55, 0.2, 1.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """A thing that exists: its shape, the convex solids of it in its frame, mass in kg, centre of mass (3,) in m.
+
+    pose: in the world, of the thing's frame, which for furniture lies in the middle of the top, for all others in the
+    middle of the bounding box. friction: sliding, without unit. colour: red, green, blue and opacity, 0 to 1.
+    movable: whether it lies free, as things to handle do; all others are fixed where they are.
+    """
+
+    individual: str
+    pose: Pose
+    shape: Shape
+    solids: tuple[Solid, ...]
+    mass_kg: float
+    centre: Array
+    friction: float
+    colour: Colour
+    movable: bool
+
+    @property
+    def size(self) -> Array:
+        """The size (3,) in m of the bounding box."""
+        return np.array(self.shape.size)
+
+
+def read_bodies(state: WorldState) -> tuple[Body, ...]:
+    """Return all bodies in order of IRI; errors as of `read_body`."""
+    sized = sorted({each for name in SIZE if (values := state.stored.get(name)) for each, _ in values.items()})
+    return tuple(body for each in sized if (body := read_body(state, each)) is not None)
+
+
+def read_body(state: WorldState, individual: str) -> Body | None:
+    """Return the body of a thing; None if it has none: no size, no known pose, a part of space, or a model of its own.
+
+    MissingFact if a part of its size is missing, FrameError if its pose is contradictory, SheetError if its shape is
+    impossible.
+    """
+    if not has_body(state, individual):
+        return None
+    shape = read_shape(state, individual)
+    try:
+        place = pose(state, individual)
+    except Unplaced:
+        return None
+    solids = _in_own_frame(state, individual, shape)
+    return Body(
+        individual=individual,
+        pose=place,
+        shape=shape,
+        solids=solids,
+        mass_kg=_mass_kg(state, individual, solids),
+        centre=_centre(state, individual, solids),
+        friction=number_of(state, individual, FRICTION, default=FRICTION_UNLESS_STATED),
+        colour=_colour(state, individual),
+        movable=state.is_a(individual, MANIPULATABLE),
+    )
+
+
+def has_body(state: WorldState, individual: str) -> bool:
+    """Whether a thing has a body as soon as its pose is known: it has a size, and is neither a region nor modelled."""
+    sized = any(state.value(individual, name) is not None for name in SIZE)
+    return sized and not any(state.is_a(individual, cls) for cls in (*REGIONS, *MODELLED))
+
+
+def read_shape(state: WorldState, individual: str) -> Shape:
+    """Return the shape that a thing states, else that of its class; MissingFact or SheetError if it has no such."""
+    x, y, z = size(state, individual).tolist()
+    match state.value(individual, SHAPE) or ("bin" if state.is_a(individual, CONTAINER) else "box"):
+        case "box":
+            return Box((x, y, z))
+        case "cylinder":
+            return Cylinder((x, y, z))
+        case "sphere":
+            return Sphere((x, y, z))
+        case "capsule":
+            return Capsule((x, y, z))
+        case "bin":
+            return Bin((x, y, z), number_of(state, individual, WALL_THICKNESS, default=BIN_WALL_M))
+        case other:
+            short = state.vocabulary.short
+            raise SheetError(f"{short(individual)} has the {short(SHAPE)} {other!r}, which has no body yet")
+
+
+def _in_own_frame(state: WorldState, individual: str, shape: Shape) -> tuple[Solid, ...]:
+    try:
+        solids = solids_of(shape)
+    except ShapeError as error:
+        raise SheetError(f"{state.vocabulary.short(individual)} {error}") from error
+    share = next((share for cls, share in FRAME_HEIGHT.items() if state.is_a(individual, cls)), 0.0)
+    middle = Pose.of((0.0, 0.0, -share * shape.size[2]))
+    return tuple(replace(each, place=middle @ each.place) for each in solids)
+
+
+def _mass_kg(state: WorldState, individual: str, solids: tuple[Solid, ...]) -> float:
+    density = number_of(state, individual, DENSITY, default=DENSITY_UNLESS_STATED)
+    return number_of(state, individual, WEIGHT, default=density * sum(each.volume for each in solids))
+
+
+def _centre(state: WorldState, individual: str, solids: tuple[Solid, ...]) -> Array:
+    stated = _triple(state, individual, CENTRE_OF_MASS)
+    return centre_of(solids) if stated is None else np.array(stated)
+
+
+def _colour(state: WorldState, individual: str) -> Colour:
+    stated = _triple(state, individual, COLOUR)
+    if stated is not None:
+        return (*stated, 1.0)
+    if state.is_a(individual, MANIPULATABLE):
+        return GOODS
+    return WOOD if state.is_a(individual, FURNITURE) else PLASTIC
+
+
+def _triple(state: WorldState, individual: str, name: str) -> Size | None:
+    """Return the three numbers of a text, None if there is none; SheetError if it is anything else."""
+    text = state.value(individual, name)
+    if text is None:
+        return None
+    try:
+        x, y, z = map(float, str(text).split())
+    except ValueError as error:
+        short = state.vocabulary.short
+        raise SheetError(
+            f"{short(individual)} has the {short(name)} {text!r}; it is three numbers separated by spaces"
+        ) from error
+    return x, y, z
