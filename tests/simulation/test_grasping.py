@@ -1,5 +1,7 @@
 """Fingers close on a thing, contact from both sides makes a grasp, and the arm knows what it carries."""
 
+import re
+
 import numpy as np
 import pytest
 from cells import (
@@ -27,8 +29,16 @@ from skillc_runtime.primitives.gripper import ParallelGripper
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError
 from skillc_runtime.world.space.frames import placement_changes, pose
-from skillc_runtime.world.state.changes import AddRelation, ClearProperty
-from skillc_runtime.world.state.terms import BASE_FRAME_ID, CONTAIN, FRAME_ID, POSITION, SKILLC
+from skillc_runtime.world.state.changes import AddRelation, ClearProperty, SetProperty
+from skillc_runtime.world.state.terms import (
+    BASE_FRAME_ID,
+    CONTAIN,
+    FRAME_ID,
+    GRASP_WIDTH,
+    POSITION,
+    SKILLC,
+    WIDTH_TOLERANCE,
+)
 
 
 def release(there: SimulatedCell, scene: str) -> Release:
@@ -106,6 +116,50 @@ def test_fingers_that_cannot_open_do_not_let_go() -> None:
     assert hand.holding == ERASER
 
 
+def test_fingers_feel_that_something_is_as_wide_as_what_they_should_hold() -> None:
+    scene = "iiwa_table"
+    there = at_the_eraser(scene, changes=[SetProperty(ERASER, GRASP_WIDTH, 0.04)])
+    reach_for_eraser(there, scene)
+    with pytest.raises(SkillFailure, match=r"its fingers stand 2\d\.\d mm open, lab:Eraser-1 is 40\.0 mm wide"):
+        grasp(there, scene)
+    assert there.gripper(GRIPPER[scene]).holding is None
+    there.world.commit([SetProperty(ERASER, WIDTH_TOLERANCE, 0.02)])
+    grasp(there, scene)
+    assert there.gripper(GRIPPER[scene]).holding == ERASER
+
+
+def test_what_somebody_takes_away_is_missed_when_the_fingers_have_closed() -> None:
+    scene = "iiwa_table"
+    there = at_the_eraser(scene)
+    reach_for_eraser(there, scene)
+    grasp(there, scene)
+    hand, joint = there.gripper(GRIPPER[scene]), there.model.joint(there.scene.names[ERASER] + "/free").qposadr[0]
+    hand.lose()
+    there.data.qpos[joint] += 0.3
+    assert hand.carries is None
+    assert hand.holding == ERASER, "no finger has moved yet"
+    there.advance(1.0)
+    assert hand.holding is None
+    fault = there.arm(ARM[scene]).take_fault()
+    assert fault is not None and re.search(r"lost lab:Eraser-1: its fingers have closed from 2\d mm", fault)
+
+
+def test_a_measured_opening_has_the_errors_of_the_data_sheet_and_follows_from_the_seed() -> None:
+    def openings(seed: int) -> list[float]:
+        there, found = cell("iiwa_table", seed), []
+        for _ in range(200):
+            there.advance(0.02)
+            found.append(there.gripper(GRIPPER["iiwa_table"]).opening_m)
+        return found
+
+    first, wide = openings(1), 0.155 / 2
+    assert first == openings(1)
+    assert 0.00015 < np.std(first) < 0.00025
+    biases = [float(np.mean(each)) - wide for each in (first, openings(2), openings(3))]
+    assert 1e-4 < max(map(abs, biases)) < 0.0011
+    assert len({round(each, 6) for each in biases}) == 3
+
+
 def mean_force(there: SimulatedCell, arm: CompliantArmDriver) -> Array:
     """Return what the arm feels, in N, the noise of its sensors evened out."""
     felt = []
@@ -136,7 +190,7 @@ def test_nothing_is_grasped_where_no_eraser_is(scene: str) -> None:
     there.data.qpos[joint] += 0.2
     reach_for_eraser(there, scene)
     assert not there.gripper(GRIPPER[scene]).touches(ERASER)
-    with pytest.raises(SkillFailure, match=r"do not touch .*Eraser-1 from both sides"):
+    with pytest.raises(SkillFailure, match=r": nothing keeps its fingers from closing, they stand [01] mm open"):
         grasp(there, scene)
     with pytest.raises(RuntimeError):
         there.gripper(GRIPPER[scene]).attach(ERASER, pose(there.world.snapshot(), ERASER))
@@ -174,7 +228,7 @@ def test_three_fingers_move_in_the_steps_of_their_sheet() -> None:
     there = cell("iiwa_table")
     move_fingers(there, "iiwa_table", 0.1)
     count = round(0.1 / 0.155 * 255) * 0.155 / 255
-    assert there.gripper(GRIPPER["iiwa_table"]).opening_m == pytest.approx(count, abs=2e-4)
+    assert there.gripper(GRIPPER["iiwa_table"]).opening_m == pytest.approx(count, abs=2e-3)
 
 
 def test_three_fingers_need_the_steps_of_their_sheet() -> None:

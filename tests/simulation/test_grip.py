@@ -1,4 +1,4 @@
-"""What friction in the fingers does not bear slips out of them, and whoever moves the arm hears of it."""
+"""What friction in the fingers does not bear slips out of them; it is noticed as soon as the fingers close further."""
 
 import numpy as np
 import pytest
@@ -13,6 +13,9 @@ from skillc_runtime.world.state.terms import CONTAIN, WEIGHT
 
 FORCE, FRICTION = 20.0, 1.0
 """N; of rubber pads on a painted handle, as the grippers' models have it."""
+
+LOST = r"lab:\S+ has lost lab:Eraser-1: its fingers have closed from 2\d mm to \d+ mm|a force of \d+ N on the tool"
+"""What is said first: the fingers have closed, or the arm felt that a load of 5 kg was suddenly missing."""
 
 BORNE_KG = 2 * FRICTION * FORCE / 9.81
 
@@ -38,9 +41,7 @@ def test_a_grip_bears_what_its_force_and_friction_bear() -> None:
 def test_a_thing_too_heavy_for_the_grip_slips_and_the_motion_fails(scene: str) -> None:
     there = grasped(scene, 1.2 * BORNE_KG, FORCE)
     before = eraser_height(there)
-    with pytest.raises(
-        SkillFailure, match=r"lab:Eraser-1 slips out of lab:\S+: \d\d N pull at it, the grip bears 40 N"
-    ):
+    with pytest.raises(SkillFailure, match=LOST):
         lift(there, scene)
     there.advance(1.0)
     assert there.gripper(GRIPPER[scene]).holding is None
@@ -60,7 +61,7 @@ def test_slippery_fingers_do_not_hold() -> None:
     there.model.geom_friction[[*there.gripper(GRIPPER[scene]).pads, handle], 0] = 0.05
     reach_for_eraser(there, scene)
     grasp(there, scene)
-    with pytest.raises(SkillFailure, match="the grip bears 3 N"):
+    with pytest.raises(SkillFailure, match="has lost lab:Eraser-1"):
         lift(there, scene)
     assert there.arm(ARM[scene]).fault is None, "it was told once"
 
@@ -75,4 +76,4 @@ def test_a_jolt_is_no_slip() -> None:
         there.advance(seconds)
         there.data.xfrc_applied[block] = 0.0
         there.advance(0.1)
-        assert (there.gripper(GRIPPER[scene]).holding == ERASER) is holds
+        assert (there.gripper(GRIPPER[scene]).carries == ERASER) is holds

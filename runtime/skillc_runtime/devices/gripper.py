@@ -10,7 +10,10 @@ from skillc_runtime.motion.pose import Array, Pose
 
 
 class Gripper(Protocol):
-    """Fingers that open and close, and the object that they hold."""
+    """Fingers that open and close, what they measure, and the object that counts as held.
+
+    A gripper measures how far its fingers are apart and whether they are blocked. It cannot tell which object that is.
+    """
 
     @property
     def max_opening_m(self) -> float:
@@ -40,14 +43,22 @@ class Gripper(Protocol):
         """Stop the fingers at their present opening."""
         ...
 
-    def touches(self, thing: str) -> bool:
-        """Tell whether fingers touch an object, by IRI, from opposite sides."""
+    @property
+    def opening_error_m(self) -> float:
+        """The greatest error of the measured opening in m."""
+        ...
+
+    @property
+    def blocked(self) -> bool:
+        """Whether something keeps the fingers from closing: at rest, they press with the force that they were given."""
         ...
 
     def attach(self, thing: str, in_tool_centre: Pose) -> None:
         """Count an object as held, its frame at `in_tool_centre` in the frame of the gripper's tool centre point.
 
-        Raises RuntimeError if the fingers do not touch it from opposite sides.
+        It counts until `detach`, or until the fingers close by `CLOSED_FURTHER_M`.
+
+        Raises RuntimeError if the fingers are not blocked.
         """
         ...
 
@@ -57,8 +68,12 @@ class Gripper(Protocol):
 
     @property
     def holding(self) -> str | None:
-        """The IRI of the object that counts as held; None as soon as the gripper senses that it was lost."""
+        """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
         ...
+
+
+CLOSED_FURTHER_M = 0.003
+"""How much further the fingers close, from where an object counted as held, when it is lost."""
 
 
 def working_face(size: Array) -> Pose:

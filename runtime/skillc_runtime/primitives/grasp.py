@@ -1,18 +1,20 @@
-"""Grasps and releases objects."""
+"""Grasps and releases objects; that they are between the fingers, or not, is decided by what the fingers measure."""
 
 from __future__ import annotations
 
 from types import MappingProxyType
 
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.devices.gripper import working_face
+from skillc_runtime.devices.gripper import Gripper, working_face
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import placement_changes, pose, size
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
-from skillc_runtime.world.state.labelled import Quantity, label
-from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH
+from skillc_runtime.world.state.data_sheet import number_of
+from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
+from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH, WIDTH_TOLERANCE
+from skillc_runtime.world.state.world_state import WorldState
 
 FREE_CLEARANCE_M = 0.005
 """How much farther than while holding it the fingers must be open for an object to be free."""
@@ -21,8 +23,14 @@ RELEASE_CLEARANCE_M = 0.04
 """How much farther than the object's width the fingers open to release it."""
 
 
+WIDTH_TOLERANCE_M = 0.004
+"""By how much the fingers may be closer or further apart than what they hold is wide, unless that is stated."""
+
+
 class Grasp(Primitive):
-    """Attaches the object that the closed fingers touch from both sides to the gripper.
+    """Counts the object that keeps the fingers from closing as held by the gripper, if it is as wide as the object.
+
+    The fingers cannot tell one object from another of the same width.
 
     The object's pose in the hand is assumed to be that of its grasping pose. While it is held, the world model has its
     pose relative to the frame of the gripper, the tool centre point.
@@ -35,7 +43,7 @@ class Grasp(Primitive):
         self._gripper, self._object, self._grasp = gripper, object, grasp
 
     def start(self) -> None:
-        """Attach the object; SkillFailure if the fingers do not touch it from both sides."""
+        """Attach the object; SkillFailure if the fingers are not blocked, or not at its width."""
         gripper, state = self.cell.gripper(self._gripper), self.cell.world.snapshot()
         hand, thing = (label(each, state.vocabulary) for each in (self._gripper, self._object))
         frame = state.value(self._gripper, FRAME_ID)
@@ -43,13 +51,7 @@ class Grasp(Primitive):
             raise SkillFailure(
                 "{gripper} has no skiros:FrameId in the world model, so no pose can be relative to it", gripper=hand
             )
-        if not gripper.touches(self._object):
-            raise SkillFailure(
-                "the fingers of {gripper} do not touch {object} from both sides: they stand {opening:.0f mm} open",
-                gripper=hand,
-                object=thing,
-                opening=Quantity(gripper.opening_m, "m"),
-            )
+        self._check_fingers(gripper, hand, thing, state)
         self._frame = frame
         self._in_hand = pose(state, self._grasp).inverse() @ pose(state, self._object)
         gripper.attach(self._object, self._in_hand)
@@ -59,6 +61,29 @@ class Grasp(Primitive):
         self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Grasp", "sensed")
         self.cell.world.commit(placement_changes(self._object, self._in_hand, self._frame), "Grasp", "assumed")
         return Status.SUCCESS
+
+    def _check_fingers(self, gripper: Gripper, hand: LabelledIri, thing: LabelledIri, state: WorldState) -> None:
+        """SkillFailure if the fingers have closed on nothing, or stand where the object's width does not put them."""
+        opening = gripper.opening_m
+        if not gripper.blocked:
+            raise SkillFailure(
+                "{gripper} does not hold {object}: nothing keeps its fingers from closing, they stand {opening:.0f mm} "
+                "open",
+                gripper=hand,
+                object=thing,
+                opening=Quantity(opening, "m"),
+            )
+        width = state.value(self._object, GRASP_WIDTH)
+        tolerance = number_of(state, self._object, WIDTH_TOLERANCE, default=WIDTH_TOLERANCE_M)
+        if isinstance(width, float) and abs(opening - width) > tolerance + gripper.opening_error_m:
+            raise SkillFailure(
+                "{gripper} holds something else than {object}, or holds it elsewhere: its fingers stand "
+                "{opening:.1f mm} open, {object} is {width:.1f mm} wide",
+                gripper=hand,
+                object=thing,
+                opening=Quantity(opening, "m"),
+                width=Quantity(width, "m"),
+            )
 
 
 class Release(Primitive):

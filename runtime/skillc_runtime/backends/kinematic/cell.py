@@ -97,8 +97,8 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         found = False
         for number, (individual, arm) in enumerate(self.arms.items()):
             gripper = self._hands.get(individual)
-            self._touch.hold(number, None if gripper is None else gripper.holding)
-            if gripper is not None and gripper.holding is not None:
+            self._touch.hold(number, None if gripper is None else gripper.carries)
+            if gripper is not None and gripper.carries is not None:
                 twist, centre = arm.motion
                 gripper.move_held(centre, twist)
                 found = True
@@ -108,5 +108,5 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         for button in self._buttons.values():
             button.sample(now)
         for arm, gripper in self._hands.items():
-            if gripper.holding is not None:
-                self._observers[gripper.holding].sample(now, self._drivers[arm])
+            if gripper.carries is not None:
+                self._observers[gripper.carries].sample(now, self._drivers[arm])

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
@@ -32,12 +33,12 @@ class KinematicGripper(ModelledGripper):
         model: Any,
         data: Any,
     ) -> None:
-        super().__init__(facts, names, tools, arm, model, data)
+        super().__init__(facts, names, tools, arm, model, data, FingerSensor())
         self._in_palm = np.zeros(7)
 
     @property
-    def opening_m(self) -> float:
-        """The distance between the fingers in m."""
+    def _true_opening_m(self) -> float:
+        """The true distance between the fingers in m."""
         return self._opening
 
     def move(self, opening_m: float, force_n: float) -> None:
@@ -74,6 +75,10 @@ class KinematicGripper(ModelledGripper):
     def _let_go(self, thing: str) -> None:
         """Leave the object where it is, at rest."""
         self._free_speed[:] = 0.0
+
+    def _is_at_force_limit(self) -> bool:
+        """Return whether the fingers were stopped by what they touch."""
+        return any(map(self.touches, self._tools))
 
     def _set_fingers(self, opening_m: float) -> None:
         super()._set_fingers(opening_m)

@@ -48,7 +48,9 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             arm = SimulatedArm(facts, name, palm, self.model, self.data, self.variation, steps)
             arms[facts.individual] = arm
             if gripper is not None:
-                hands[facts.individual] = SimulatedGripper(gripper, names, self.scene.tools, arm, self.model, self.data)
+                hands[facts.individual] = SimulatedGripper(
+                    gripper, names, self.scene.tools, arm, self.model, self.data, self.variation.seed
+                )
         return arms, hands
 
     def _prepare(self) -> None:
@@ -69,16 +71,17 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         for button in self._buttons.values():
             button.sample(now)
         for arm, gripper in self._hands.items():
-            if gripper.holding is not None:
-                self._observers[gripper.holding].sample(now, self._drivers[arm])
-                why = gripper.slip_message(now)
-                if why is not None:
-                    self._lose(arm, gripper, gripper.holding, why)
+            if gripper.carries is not None:
+                self._observers[gripper.carries].sample(now, self._drivers[arm])
+                if gripper.slips(now):
+                    gripper.lose()
+            elif (why := gripper.loss_message()) is not None:
+                self._lose(arm, gripper, gripper.counted, why)
 
     def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
-        """Stop an arm whose gripper has lost an object, and report the object's pose."""
+        """Stop an arm whose gripper measures that an object is lost, and report the pose where that was noticed."""
         state, there = self._world.snapshot(), self._drivers[arm].measured.pose
         left_at = there @ working_face(size(state, thing)).inverse()
-        gripper.lose()
+        gripper.detach()
         self._drivers[arm].abort(why)
         self._report(placement_changes(thing, left_at), why, "assumed")

@@ -37,16 +37,16 @@ class Grip:
     overloaded_from: float = np.inf
     next_check: float = 0.0
 
-    def overload(self, data: Any, now: float) -> float | None:
-        """Return the load in N if it has exceeded the grip for `OVERLOAD_S`, else None.
+    def is_overloaded(self, data: Any, now: float) -> bool:
+        """Tell whether the load has exceeded the grip for `OVERLOAD_S`.
 
         To be called in each step, between `mj_step2` and the next `mj_step1`.
         """
         if now < self.next_check:
-            return None
+            return False
         self.next_check, pull = now + CHECK_PERIOD_S, self._load(data)
         self.overloaded_from = min(self.overloaded_from, now) if pull > self.bears_n else np.inf
-        return pull if now - self.overloaded_from >= OVERLOAD_S else None
+        return now - self.overloaded_from >= OVERLOAD_S
 
     def _load(self, data: Any) -> float:
         """Return the force of the weld in N across the pressing direction; 0 before it acts."""

@@ -10,6 +10,7 @@ from typing import Any
 
 from skillc_runtime.backends.mujoco.grip import Grip, make_grip
 from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
@@ -30,8 +31,9 @@ class SimulatedGripper(ModelledGripper):
         arm: ModelledArm,
         model: Any,
         data: Any,
+        seed: int,
     ) -> None:
-        super().__init__(facts, names, tools, arm, model, data)
+        super().__init__(facts, names, tools, arm, model, data, make_finger_sensor(facts, seed))
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self._data.ctrl[self._actuator] = self._target = self._goal
@@ -39,8 +41,8 @@ class SimulatedGripper(ModelledGripper):
         self._grip: Grip | None = None
 
     @property
-    def opening_m(self) -> float:
-        """The measured distance between the fingers in m."""
+    def _true_opening_m(self) -> float:
+        """The true distance between the fingers in m."""
         return float(self._length[0])
 
     def move(self, opening_m: float, force_n: float) -> None:
@@ -48,11 +50,11 @@ class SimulatedGripper(ModelledGripper):
         force = min(force_n, self._facts.max_force_n)
         self._model.actuator_forcerange[self._actuator] = (-force, force)
         self._goal = min(max(opening_m, 0.0), self._facts.max_opening_m)
-        self._target, self._idle, self._still_since = self.opening_m, False, self._data.time
+        self._target, self._idle, self._still_since = self._true_opening_m, False, self._data.time
 
     def stop(self) -> None:
         """Stop the fingers at their present opening."""
-        self._goal = self._target = self.opening_m
+        self._goal = self._target = self._true_opening_m
         self._data.ctrl[self._actuator], self._idle = self._target, True
 
     def step(self, period_s: float) -> None:
@@ -65,26 +67,29 @@ class SimulatedGripper(ModelledGripper):
         if abs(self._speed[0]) > STILL_M_S:
             self._still_since = self._data.time
         elif self._data.time - self._still_since > STILL_TIME_S:
-            arrived = abs(self.opening_m - self._goal) < STILL_M_S
+            arrived = abs(self._true_opening_m - self._goal) < STILL_M_S
             self._idle = arrived or self._target == self._goal or self._is_at_force_limit()
 
-    def slip_message(self, now: float) -> str | None:
-        """Return a message if the held object slips, None while friction carries it.
+    def slips(self, now: float) -> bool:
+        """Tell whether more pulls at the carried object than friction bears.
 
         To be called in each step, between `mj_step2` and the next `mj_step1`.
         """
-        pull = None if self._grip is None else self._grip.overload(self._data, now)
-        if self._grip is None or pull is None:
-            return None
-        return (
-            f"{self._names[self._holding]} slips out of {self._name}: {pull:.0f} N pull at it, "
-            f"the grip bears {self._grip.bears_n:.0f} N"
-        )
+        return self._grip is not None and self._grip.is_overloaded(self._data, now)
 
     def lose(self) -> None:
-        """Remove the weld of a held object and close the fingers with the same force."""
-        self.detach()
+        """Remove the weld of the carried object; contact and friction hold it as they can, and the fingers close on."""
+        self.drop()
         self.move(0.0, float(self._model.actuator_forcerange[self._actuator, 1]))
+
+    def loss_message(self) -> str | None:
+        """Return a message if the fingers have closed further than on what counts as held, else None."""
+        if self._carried or not self._holding or self.holding is not None:
+            return None
+        return (
+            f"{self._name} has lost {self._names[self._holding]}: its fingers have closed from "
+            f"{self._held_at_m * 1e3:.0f} mm to {self.opening_m * 1e3:.0f} mm"
+        )
 
     def _hold(self, thing: str, in_palm: Pose) -> None:
         """Activate the weld."""

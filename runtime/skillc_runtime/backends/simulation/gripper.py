@@ -6,9 +6,10 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
-from skillc_runtime.devices.gripper import working_face
+from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, working_face
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
 HANDLE, PAD = 4, 8
@@ -19,7 +20,11 @@ OPPOSING = -0.7
 
 
 class ModelledGripper(ABC):
-    """One gripper of a cell that is computed from a MuJoCo model, implementing `Gripper`; subclasses move it."""
+    """One gripper of a cell that is computed from a MuJoCo model, implementing `Gripper`; subclasses move it.
+
+    What counts as held follows from what the fingers measure. What the palm really `carries` is another matter: it is
+    decided by contact, and only the simulation and its ground truth see it.
+    """
 
     def __init__(
         self,
@@ -29,14 +34,17 @@ class ModelledGripper(ABC):
         arm: ModelledArm,
         model: Any,
         data: Any,
+        sensor: FingerSensor,
     ) -> None:
+        self._sensor = sensor
         self._facts, self._names, self._arm, self._model, self._data = facts, names, arm, model, data
         self._tools = {tool.individual: tool for tool in tools}
         self._name = names[facts.individual]
         self._actuator = model.actuator(part_name(self._name, "opening")).id
         self._palm = model.body(part_name(self._name, "palm")).id
         self.pads = frozenset(_pads(model, self._name))
-        self._holding, self._idle, self._goal = "", True, facts.first_opening_m
+        self._holding, self._held_at_m, self._carried = "", 0.0, ""
+        self._idle, self._goal = True, facts.first_opening_m
         self._set_fingers(facts.first_opening_m)
 
     @property
@@ -55,9 +63,20 @@ class ModelledGripper(ABC):
         return self._facts.max_force_n
 
     @property
-    @abstractmethod
     def opening_m(self) -> float:
         """The measured distance between the fingers in m."""
+        return self._sensor.read(self._data.time, self._true_opening_m)
+
+    @property
+    def opening_error_m(self) -> float:
+        """The greatest error of the measured opening in m."""
+        return self._sensor.greatest_error_m
+
+    @property
+    def blocked(self) -> bool:
+        """Whether something keeps the fingers from closing: at rest, they press with the force that they were given."""
+        pressing = bool(self._carried) or self._is_at_force_limit()
+        return self._idle and pressing and self.opening_m > self.opening_error_m
 
     @property
     def moving(self) -> bool:
@@ -66,8 +85,18 @@ class ModelledGripper(ABC):
 
     @property
     def holding(self) -> str | None:
-        """The IRI of the object that counts as held."""
-        return self._holding or None
+        """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
+        return None if not self._holding or self._has_closed_further() else self._holding
+
+    @property
+    def counted(self) -> str:
+        """The IRI of the object that was last counted as held, lost or not; empty for none."""
+        return self._holding
+
+    @property
+    def carries(self) -> str | None:
+        """The IRI of the object that really moves with the palm."""
+        return self._carried or None
 
     @abstractmethod
     def move(self, opening_m: float, force_n: float) -> None:
@@ -82,41 +111,68 @@ class ModelledGripper(ABC):
         """Advance the fingers by one step."""
 
     def touches(self, thing: str) -> bool:
-        """Tell whether pads of at least two fingers touch an object from opposite sides."""
+        """Tell whether pads of at least two fingers really touch an object from opposite sides."""
         normals, _ = self._contacts_with(thing)
         return any(one @ other < OPPOSING for one in normals for other in normals)
 
     def attach(self, thing: str, in_tool_centre: Pose) -> None:
-        """Hold a touched object at its true pose; it becomes the arm's payload and tool centre point.
+        """Count an object as held; it becomes the arm's payload and tool centre point, at `in_tool_centre`.
 
-        The arm assumes it at `in_tool_centre`. Raises RuntimeError if it is not touched from opposite sides.
+        What really is between the fingers, if anything is, moves with the palm from now on, at its true pose.
+        RuntimeError if the fingers are not blocked.
         """
-        if not self.touches(thing):
-            raise RuntimeError(f"the fingers do not touch {self._names[thing]} from both sides")
+        if not self.blocked:
+            raise RuntimeError(f"nothing keeps the fingers of {self._name} from closing")
+        self._holding, self._held_at_m, tool = thing, self.opening_m, self._tools[thing]
+        self._carry(next((each for each in (thing, *self._tools) if self.touches(each)), ""))
         block = self._model.body(part_name(self._names[thing], "block")).id
-        self._hold(thing, self._pose(self._palm).inverse() @ self._pose(block))
-        self._holding, tool = thing, self._tools[thing]
-        self._set_grip_contact(thing, False)
         centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
         payload = Payload(tool.mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
         self._arm.carry(payload, in_tool_centre @ working_face(tool.size))
 
     def detach(self) -> None:
         """Hold nothing; the arm's payload and tool centre point become those of the empty gripper."""
-        if not self._holding:
-            return
-        self._set_grip_contact(self._holding, True)
-        self._let_go(self._holding)
-        self._holding = ""
-        self._arm.carry_nothing()
+        self.drop()
+        if self._holding:
+            self._holding = ""
+            self._arm.carry_nothing()
+
+    def drop(self) -> None:
+        """Let what the palm carries go, which nobody may know of: it counts as held until the fingers measure it."""
+        if self._carried:
+            self._set_grip_contact(self._carried, True)
+            self._let_go(self._carried)
+            self._carried = ""
+
+    def _carry(self, thing: str) -> None:
+        """Let an object, which the fingers touch, move with the palm; none if empty."""
+        self.drop()
+        if thing:
+            block = self._model.body(part_name(self._names[thing], "block")).id
+            self._hold(thing, self._pose(self._palm).inverse() @ self._pose(block))
+            self._carried = thing
+            self._set_grip_contact(thing, False)
+
+    def _has_closed_further(self) -> bool:
+        """Whether the fingers have closed so far since they took hold that what they held is not between them."""
+        return self.opening_m < self._held_at_m - min(CLOSED_FURTHER_M, self._held_at_m / 2)
 
     def move_with_base(self, motion: Pose) -> None:
-        """Move a held object with the base of the arm: new = motion @ old, in the world."""
-        if self._holding:
-            first = int(self._model.joint(part_name(self._names[self._holding], "free")).qposadr[0])
+        """Move a carried object with the base of the arm: new = motion @ old, in the world."""
+        if self._carried:
+            first = int(self._model.joint(part_name(self._names[self._carried], "free")).qposadr[0])
             q = self._data.qpos[first : first + 7]
             moved = motion @ Pose.of(q[:3], q[3:])
             q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
+
+    @property
+    @abstractmethod
+    def _true_opening_m(self) -> float:
+        """The true distance between the fingers in m."""
+
+    @abstractmethod
+    def _is_at_force_limit(self) -> bool:
+        """Return whether the fingers press with the force that they were given."""
 
     @abstractmethod
     def _hold(self, thing: str, in_palm: Pose) -> None:

@@ -27,9 +27,12 @@ from skillc_runtime.world.state.terms import (
     JOINT_SPEED_NOISE,
     MOBILE_ROBOT,
     OFFSET_RANGE,
+    OPENING_BIAS,
+    OPENING_NOISE,
     POSITION_CONTROLLED_ARM,
     POSTURE_RANGE,
     RIGID_TOOL_SHEET,
+    SENSING_PERIOD,
     STIFFNESS_RANGE,
     SURFACE,
     TILT_RANGE,
@@ -51,13 +54,20 @@ MODES: Final[dict[str, Mode]] = {
 
 @dataclass(frozen=True, slots=True)
 class GripperSpec:
-    """A gripper: its model, greatest opening m, force N and finger speed m/s."""
+    """A gripper: its model, greatest opening m, force N and finger speed m/s.
+
+    Its sensor measures the opening each `sensing_period_s`, with a constant error up to `opening_bias_m` either way and
+    noise with the standard deviation `opening_noise_m`.
+    """
 
     individual: str
     model: Path
     max_opening_m: float
     max_force_n: float
     finger_speed_m_s: float
+    opening_bias_m: float = 0.0
+    opening_noise_m: float = 0.0
+    sensing_period_s: float = 0.0
 
     @property
     def first_opening_m(self) -> float:
@@ -221,6 +231,9 @@ def _gripper(state: WorldState, gripper: str) -> GripperSpec:
         sheet.number("maxOpening"),
         sheet.number("maxForce"),
         sheet.number("fingerSpeed"),
+        opening_bias_m=number_of(state, sheet.individual, OPENING_BIAS, default=0.0),
+        opening_noise_m=number_of(state, sheet.individual, OPENING_NOISE, default=0.0),
+        sensing_period_s=number_of(state, sheet.individual, SENSING_PERIOD, default=0.0),
     )
 
 

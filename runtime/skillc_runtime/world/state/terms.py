@@ -52,6 +52,10 @@ ORIENTATION = tuple(SKIROS + name for name in ("OrientationW", "OrientationX", "
 SIZE = tuple(SKIROS + name for name in ("SizeX", "SizeY", "SizeZ"))
 WEIGHT = SKIROS + "Weight"
 GRASP_WIDTH = SKILLC + "graspWidth"
+WIDTH_TOLERANCE = SKILLC + "widthTolerance"
+OPENING_BIAS = SKILLC + "openingBias"
+OPENING_NOISE = SKILLC + "openingNoise"
+SENSING_PERIOD = SKILLC + "sensingPeriod"
 
 COMPLIANT_CONTROLLER = SKIROS + "CompliantController"
 CONTAINER_STATE = SKIROS + "ContainerState"

@@ -1,0 +1,48 @@
+"""The sensor of a gripper's opening, with the errors that its data sheet states."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from skillc_runtime.backends.simulation.imperfections import Bias, Imperfection, WhiteNoise, distort
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec
+from skillc_runtime.devices.rng import rng_for
+
+NOISE_DEVIATIONS = 3.0
+"""Standard deviations of noise that count as its greatest error."""
+
+
+@dataclass(slots=True)
+class FingerSensor:
+    """Measures an opening once a period, at the first request in it, and returns that value until the period ends.
+
+    imperfections: none for an exact sensor; greatest_error_m: of a sample, in m.
+    """
+
+    period_s: float = 0.0
+    imperfections: tuple[Imperfection, ...] = ()
+    greatest_error_m: float = 0.0
+    _value: float = field(default=0.0, init=False)
+    _next: float = field(default=-np.inf, init=False)
+
+    def read(self, now: float, opening_m: float) -> float:
+        """Return the measured opening in m, at least 0, of the true one at `now` in s."""
+        if not self.imperfections:
+            return opening_m
+        if now >= self._next:
+            sample = distort(np.array([opening_m]), self.imperfections)
+            self._value = self._value if sample is None else max(0.0, float(sample[0]))
+            self._next = now + self.period_s
+        return self._value
+
+
+def make_finger_sensor(gripper: GripperSpec, seed: int) -> FingerSensor:
+    """Return the sensor of a gripper; its bias and noise follow from the seed."""
+    rng = rng_for(gripper.individual, seed, 3)
+    bias = np.array([gripper.opening_bias_m * rng.uniform(-1.0, 1.0)])
+    noise = WhiteNoise(np.array([gripper.opening_noise_m]), rng)
+    exact = gripper.opening_bias_m == gripper.opening_noise_m == 0.0
+    error = gripper.opening_bias_m + NOISE_DEVIATIONS * gripper.opening_noise_m
+    return FingerSensor(gripper.sensing_period_s, () if exact else (Bias(bias), noise), error)

@@ -1,0 +1,64 @@
+"""Errors of measurements: each kind is one class, and a device applies all of its own, in order, to every sample."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+
+
+class Imperfection(Protocol):
+    """One kind of error of a sensor, which may have a state of its own."""
+
+    def distort(self, sample: Array) -> Array | None:
+        """Return what becomes of a sample (n,), in the units of the device; None if it is lost."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Bias:
+    """A constant error (n,)."""
+
+    error: Array
+
+    def distort(self, sample: Array) -> Array:
+        """Return the sample plus the error."""
+        return sample + self.error
+
+
+@dataclass(frozen=True, slots=True)
+class WhiteNoise:
+    """Normally distributed errors with standard deviations (n,), independent between samples."""
+
+    deviation: Array
+    rng: np.random.Generator
+
+    def distort(self, sample: Array) -> Array:
+        """Return the sample plus noise."""
+        return sample + self.deviation * self.rng.standard_normal(sample.size)
+
+
+@dataclass(frozen=True, slots=True)
+class Dropout:
+    """Loses this share of the samples, independently of each other."""
+
+    share: float
+    rng: np.random.Generator
+
+    def distort(self, sample: Array) -> Array | None:
+        """Return the sample, or None."""
+        return None if self.rng.random() < self.share else sample
+
+
+def distort(sample: Array, imperfections: Sequence[Imperfection]) -> Array | None:
+    """Return what all imperfections, in order, make of a sample (n,); None if one of them loses it."""
+    found: Array | None = sample
+    for each in imperfections:
+        if found is None:
+            return None
+        found = each.distort(found)
+    return found
