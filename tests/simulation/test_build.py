@@ -46,7 +46,7 @@ def test_everything_is_where_it_belongs(scene: str) -> None:
     state, names = world(scene), built.scene.names
     arm, root = ARM[scene], {"iiwa_table": "base", "ur5e_whiteboard": "base_link"}[scene]
     np.testing.assert_allclose(built.data.body(f"{names[arm]}/{root}").xpos, pose(state, arm).position, atol=1e-9)
-    for piece in built.scene.furniture:
+    for piece in built.scene.bodies:
         top = built.data.body(names[piece.individual])
         np.testing.assert_allclose(top.xpos, pose(state, piece.individual).position, atol=1e-9)
     surface = built.scene.surfaces[0]

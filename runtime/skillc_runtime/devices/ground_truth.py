@@ -144,6 +144,10 @@ class GroundTruth(Protocol):
         """Return where the middle (3,) of a tool's working face is, in m in the world; KeyError for an unknown tool."""
         ...
 
+    def body_pose(self, individual: str) -> Pose:
+        """Return the true pose of a tool or a body in the world; KeyError if the cell has no such thing."""
+        ...
+
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if switched, else 0.
 

@@ -43,7 +43,7 @@ class Grasp(Primitive):
         self._gripper, self._object, self._grasp = gripper, object, grasp
 
     def start(self) -> None:
-        """Attach the object; SkillFailure if the fingers are not blocked, or not at its width."""
+        """Attach the object; SkillFailure if the fingers are not blocked, not at its width, or it cannot be held."""
         gripper, state = self.cell.gripper(self._gripper), self.cell.world.snapshot()
         hand, thing = (label(each, state.vocabulary) for each in (self._gripper, self._object))
         frame = state.value(self._gripper, FRAME_ID)
@@ -54,7 +54,10 @@ class Grasp(Primitive):
         self._check_fingers(gripper, hand, thing, state)
         self._frame = frame
         self._in_hand = pose(state, self._grasp).inverse() @ pose(state, self._object)
-        gripper.attach(self._object, self._in_hand)
+        try:
+            gripper.attach(self._object, self._in_hand)
+        except RuntimeError as error:
+            raise SkillFailure(str(error)) from error
 
     def tick(self) -> Status:
         """Write that the gripper holds the object, and its assumed pose in the hand; return SUCCESS."""

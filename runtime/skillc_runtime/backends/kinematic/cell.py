@@ -55,14 +55,14 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
 
     def _make_arms(self) -> tuple[dict[str, KinematicArm], dict[str, KinematicGripper]]:
         self.model.opt.gravity[:] = 0.0
-        names, tools, arms, hands = self.scene.names, self.scene.tools, {}, {}
+        names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
         for facts in self.scene.arms:
             palm = None if facts.gripper is None else names[facts.gripper.individual]
             name, start = names[facts.individual], self.variation.start(facts)
             arm = KinematicArm(facts, name, palm, self.model, self.data, start, self._steps_per_command)
             arms[facts.individual] = arm
             if facts.gripper is not None:
-                hands[facts.individual] = KinematicGripper(facts.gripper, names, tools, arm, self.model, self.data)
+                hands[facts.individual] = KinematicGripper(facts.gripper, names, things, arm, self.model, self.data)
         return arms, hands
 
     def _prepare(self) -> None:
@@ -108,5 +108,5 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         for button in self._buttons.values():
             button.sample(now)
         for arm, gripper in self._hands.items():
-            if gripper.carries is not None:
+            if gripper.carries in self._observers:
                 self._observers[gripper.carries].sample(now, self._drivers[arm])

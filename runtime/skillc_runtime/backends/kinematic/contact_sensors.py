@@ -42,7 +42,7 @@ class ContactSensors:
         for address, geoms in self._fixtures:
             values[address] = np.linalg.norm(on_geom[:, geoms].sum(axis=(0, 1)))
         for number, tool in enumerate(held):
-            if tool is not None:
+            if tool in self._tools:
                 carrier = 2 * number + TOOL
                 self._tools[tool].update(values, on_geom[carrier], forces.net[carrier], forces.total[carrier])
 

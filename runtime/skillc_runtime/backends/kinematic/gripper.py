@@ -15,6 +15,7 @@ from skillc_runtime.motion.arrays import OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cross
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
+from skillc_runtime.world.space.bodies import Body
 
 
 class KinematicGripper(ModelledGripper):
@@ -28,12 +29,12 @@ class KinematicGripper(ModelledGripper):
         self,
         facts: GripperSpec,
         names: dict[str, str],
-        tools: tuple[ToolSpec, ...],
+        things: tuple[ToolSpec | Body, ...],
         arm: ModelledArm,
         model: Any,
         data: Any,
     ) -> None:
-        super().__init__(facts, names, tools, arm, model, data, FingerSensor())
+        super().__init__(facts, names, things, arm, model, data, FingerSensor())
         self._in_palm = np.zeros(7)
 
     @property
@@ -54,7 +55,7 @@ class KinematicGripper(ModelledGripper):
         """Move the fingers by one step; closing fingers stop at what they touch from opposite sides."""
         if self._idle:
             return
-        if self._goal < self._opening and any(map(self.touches, self._tools)):
+        if self._goal < self._opening and any(map(self.touches, self._things)):
             self.stop()
             return
         way = self._facts.finger_speed_m_s * period_s
@@ -78,7 +79,7 @@ class KinematicGripper(ModelledGripper):
 
     def _is_at_force_limit(self) -> bool:
         """Return whether the fingers were stopped by what they touch."""
-        return any(map(self.touches, self._tools))
+        return any(map(self.touches, self._things))
 
     def _set_fingers(self, opening_m: float) -> None:
         super()._set_fingers(opening_m)

@@ -21,7 +21,7 @@ from skillc_runtime.backends.kinematic.contact import (
 )
 from skillc_runtime.backends.kinematic.contact_sensors import ContactSensors
 from skillc_runtime.backends.kinematic.yielding import YieldingParts
-from skillc_runtime.backends.simulation.model_builder import WORKS
+from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD, WORKS
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.arrays import OutVector
@@ -31,12 +31,12 @@ PAD_POINTS = 8
 
 
 class Touch:
-    """All contacts of a cell, updated once a step. Tools that nobody holds touch nothing."""
+    """All contacts of a cell, updated once a step. Tools and bodies that nobody holds touch only fingers."""
 
     def __init__(self, scene: SceneSpec, arms: Sequence[KinematicArm], model: Any, data: Any) -> None:
         names, parts, count = scene.names, YieldingParts(scene, model, data), len(arms)
         self._arms, self._model, self._data, self._parts = arms, model, data, parts
-        self._geoms = {each.individual: geoms_of(model, names[each.individual]) for each in scene.tools}
+        self._geoms = {each.individual: geoms_of(model, names[each.individual]) for each in scene.graspable}
         self._bits = model.geom_contype.copy(), model.geom_conaffinity.copy()
         self._held: list[str | None] = [None] * count
         self._pads = {each.individual: each for each in scene.tools if not each.rigid}
@@ -90,13 +90,13 @@ class Touch:
         compute_contacts(self._forces, points, motion, self._carrier, self._stiffness)
 
     def _set_carrier(self, tool: str, carrier: int) -> None:
-        """Set who carries a tool; the geoms that it works with touch nothing while it is free."""
+        """Set who carries a tool or a body: fingers touch it while it is free, all but fingers while it is held."""
         model, geoms = self._model, self._geoms[tool]
         self._carrier[geoms] = carrier
         types, affinities = self._bits
         working = geoms[types[geoms] & WORKS > 0]
-        model.geom_contype[working] = 0 if carrier == FREE else types[working]
-        model.geom_conaffinity[working] = 0 if carrier == FREE else affinities[working]
+        model.geom_contype[working] = types[working] & (HANDLE if carrier == FREE else ~HANDLE)
+        model.geom_conaffinity[working] = affinities[working] & (PAD if carrier == FREE else ~PAD)
 
 
 def geoms_of(model: Any, device: str) -> np.ndarray[tuple[int], np.dtype[np.int64]]:

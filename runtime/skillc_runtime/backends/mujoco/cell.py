@@ -40,7 +40,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         super().__init__(world, scene, reality(scene, seed), timestep_s, steps_per_command)
 
     def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
-        names, arms, hands = self.scene.names, {}, {}
+        names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
         for facts in self.scene.arms:
             gripper = facts.gripper
             palm = None if gripper is None else names[gripper.individual]
@@ -49,7 +49,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             arms[facts.individual] = arm
             if gripper is not None:
                 hands[facts.individual] = SimulatedGripper(
-                    gripper, names, self.scene.tools, arm, self.model, self.data, self.variation.seed
+                    gripper, names, things, arm, self.model, self.data, self.variation.seed
                 )
         return arms, hands
 
@@ -72,7 +72,8 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             button.sample(now)
         for arm, gripper in self._hands.items():
             if gripper.carries is not None:
-                self._observers[gripper.carries].sample(now, self._drivers[arm])
+                if gripper.carries in self._observers:
+                    self._observers[gripper.carries].sample(now, self._drivers[arm])
                 if gripper.slips(now):
                     gripper.lose()
             elif (why := gripper.loss_message()) is not None:

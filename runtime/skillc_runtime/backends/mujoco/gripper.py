@@ -15,6 +15,7 @@ from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.world.space.bodies import Body
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
 """Fingers that have been slower than this for this time, at their goal or blocked, have arrived."""
@@ -27,13 +28,13 @@ class SimulatedGripper(ModelledGripper):
         self,
         facts: GripperSpec,
         names: dict[str, str],
-        tools: tuple[ToolSpec, ...],
+        things: tuple[ToolSpec | Body, ...],
         arm: ModelledArm,
         model: Any,
         data: Any,
         seed: int,
     ) -> None:
-        super().__init__(facts, names, tools, arm, model, data, make_finger_sensor(facts, seed))
+        super().__init__(facts, names, things, arm, model, data, make_finger_sensor(facts, seed))
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self._data.ctrl[self._actuator] = self._target = self._goal

@@ -6,17 +6,19 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, working_face
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
-
-HANDLE, PAD = 4, 8
-"""Contact bits of handles and of the fingers' pads."""
+from skillc_runtime.world.space.bodies import Body
 
 OPPOSING = -0.7
 """Cosine below which two contact normals count as opposite sides."""
+
+
+NOTHING: frozenset[int] = frozenset()
 
 
 class ModelledGripper(ABC):
@@ -30,7 +32,7 @@ class ModelledGripper(ABC):
         self,
         facts: GripperSpec,
         names: dict[str, str],
-        tools: tuple[ToolSpec, ...],
+        things: tuple[ToolSpec | Body, ...],
         arm: ModelledArm,
         model: Any,
         data: Any,
@@ -38,7 +40,9 @@ class ModelledGripper(ABC):
     ) -> None:
         self._sensor = sensor
         self._facts, self._names, self._arm, self._model, self._data = facts, names, arm, model, data
-        self._tools = {tool.individual: tool for tool in tools}
+        self._things = {thing.individual: thing for thing in things}
+        self._handles = {thing: _find_handles(model, names[thing]) for thing in self._things}
+        self._bits = model.geom_contype.copy(), model.geom_conaffinity.copy()
         self._name = names[facts.individual]
         self._actuator = model.actuator(part_name(self._name, "opening")).id
         self._palm = model.body(part_name(self._name, "palm")).id
@@ -111,7 +115,7 @@ class ModelledGripper(ABC):
         """Advance the fingers by one step."""
 
     def touches(self, thing: str) -> bool:
-        """Tell whether pads of at least two fingers really touch an object from opposite sides."""
+        """Tell whether pads of two fingers really touch an object from opposite sides; never one without a body."""
         normals, _ = self._contacts_with(thing)
         return any(one @ other < OPPOSING for one in normals for other in normals)
 
@@ -119,16 +123,22 @@ class ModelledGripper(ABC):
         """Count an object as held; it becomes the arm's payload and tool centre point, at `in_tool_centre`.
 
         What really is between the fingers, if anything is, moves with the palm from now on, at its true pose.
-        RuntimeError if the fingers are not blocked.
+        RuntimeError if the fingers are not blocked, or the cell has no body of the object.
         """
         if not self.blocked:
             raise RuntimeError(f"nothing keeps the fingers of {self._name} from closing")
-        self._holding, self._held_at_m, tool = thing, self.opening_m, self._tools[thing]
-        self._carry(next((each for each in (thing, *self._tools) if self.touches(each)), ""))
+        held = self._things.get(thing)
+        if held is None:
+            raise RuntimeError(
+                f"{self._names.get(thing, thing)} cannot be held: it had no body when the cell was built. "
+                "A thing to handle needs a pose and skiros:SizeX, SizeY and SizeZ in the scene"
+            )
+        self._holding, self._held_at_m = thing, self.opening_m
+        self._carry(next((each for each in (thing, *self._things) if self.touches(each)), ""))
         block = self._model.body(part_name(self._names[thing], "block")).id
         centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
-        payload = Payload(tool.mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
-        self._arm.carry(payload, in_tool_centre @ working_face(tool.size))
+        payload = Payload(held.mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
+        self._arm.carry(payload, in_tool_centre @ working_face(held.size))
 
     def detach(self) -> None:
         """Hold nothing; the arm's payload and tool centre point become those of the empty gripper."""
@@ -192,25 +202,33 @@ class ModelledGripper(ABC):
 
     def _set_grip_contact(self, thing: str, on: bool) -> None:
         """Enable or disable contact of pads with an object: while it is held, contact would only cost time."""
-        handle = self._model.geom(part_name(self._names[thing], "handle")).id
-        self._model.geom_contype[handle], self._model.geom_conaffinity[handle] = (HANDLE, PAD) if on else (0, 0)
+        (kinds, met), handles = self._bits, sorted(self._handles[thing])
+        self._model.geom_contype[handles] = kinds[handles] & (~0 if on else ~HANDLE)
+        self._model.geom_conaffinity[handles] = met[handles] & (~0 if on else ~PAD)
         if not on:
             self.stop()
 
     def _contacts_with(self, thing: str) -> tuple[list[Array], float]:
         """Return the contact normals (3,), in the world, of pads on an object, and the least friction."""
-        contacts, handle = self._data.contact, self._model.geom(part_name(self._names[thing], "handle")).id
+        contacts, handles = self._data.contact, self._handles.get(thing, NOTHING)
         normals: list[Array] = []
         frictions: list[float] = []
         for index in range(self._data.ncon):
             one, other = contacts.geom[index]
-            if {one, other} & self.pads and handle in (one, other):
+            if {one, other} & self.pads and {one, other} & handles:
                 normals.append(contacts.frame[index, :3] * (1.0 if one in self.pads else -1.0))
                 frictions.append(float(contacts.friction[index, 0]))
         return normals, min(frictions, default=0.0)
 
     def _pose(self, body: int) -> Pose:
         return Pose(self._data.xpos[body].copy(), self._data.xmat[body].reshape(3, 3).copy())
+
+
+def _find_handles(model: Any, thing: str) -> frozenset[int]:
+    """Return the geoms of an object that pads of fingers touch: the handle of a tool, all solids of a body."""
+    block = model.body(part_name(thing, "block")).id
+    of_thing = (model.body_rootid[model.geom_bodyid] == block) & ((model.geom_contype & HANDLE) > 0)
+    return frozenset(of_thing.nonzero()[0].tolist())
 
 
 def _pads(model: Any, gripper: str) -> list[int]:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import product
 from typing import Any
 
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.simulation.body_builder import (
+    add_fixed_body,
+    add_movable_body,
+    set_support,
+)
 from skillc_runtime.backends.simulation.device_builder import add_arm, add_fixture, add_pressing_sensor, add_tool
 from skillc_runtime.backends.simulation.names import (
     base_body_name,
@@ -23,20 +29,17 @@ from skillc_runtime.motion.layout import Hole
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.state.data_sheet import SheetError
 
-CARRIES, WORKS = 1, 2
-"""Contact bits of supports and of tools; handles and finger pads have 4 and 8."""
-
 MARK_M = 0.0003
 """Thickness of the mark of a flat hole."""
 
-FURNITURE_FRICTION = 0.6
+FLOOR_FRICTION = 0.6
 """Wood against felt; it only keeps a tool where it lies."""
 
 WELD_SOLREF = (0.004, 1.0)
 WELD_SOLIMP = (0.99, 0.999, 0.0005, 0.5, 2.0)
 """A grasp as stiff as a 1 ms step allows: a few micrometres at 20 N."""
 
-WOOD, BOARD, STEEL = (0.62, 0.52, 0.4, 1.0), (0.93, 0.94, 0.95, 1.0), (0.4, 0.43, 0.47, 1.0)
+BOARD, STEEL = (0.93, 0.94, 0.95, 1.0), (0.4, 0.43, 0.47, 1.0)
 
 
 def build_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjModel:
@@ -56,8 +59,9 @@ def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0
     Raises ValueError if a model cannot be read or lacks a part.
     """
     spec = _empty(timestep_s)
-    for piece in scene.furniture:
-        _add_box(spec, scene.names[piece.individual], piece.pose, piece.size, FURNITURE_FRICTION, WOOD)
+    for body in scene.bodies:
+        if not body.movable and body.individual not in scene.mounted:
+            add_fixed_body(spec.worldbody, scene.names[body.individual], body, body.pose)
     for surface in scene.surfaces:
         true = variation.of(surface.individual)
         if true.present:
@@ -65,11 +69,14 @@ def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0
     for fixture, how in zip(scene.fixtures, variation.fixtures, strict=True):
         add_fixture(spec, scene.names[fixture.individual], fixture, how)
     mounts = {base.individual: _add_base(spec, scene, base) for base in scene.bases}
+    _add_mounted_bodies(scene, mounts)
     for arm in scene.arms:
-        body, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
-        add_arm(spec, scene.names, arm, body, frame.inverse() @ arm.base)
+        mount, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
+        add_arm(spec, scene.names, arm, mount, frame.inverse() @ arm.base)
     for tool in scene.tools:
         add_tool(spec, scene.names, tool, None if tool.rigid else variation.pad_stiffness(tool))
+    for body in scene.movable:
+        add_movable_body(spec, scene.names[body.individual], body)
     _add_welds(spec, scene)
     for tool, surface in product(scene.tools, scene.surfaces):
         if variation.of(surface.individual).present:
@@ -89,7 +96,7 @@ def _empty(timestep_s: float) -> Any:
     spec.worldbody.add_light(pos=[1.0, -2.0, 4.0], dir=[-0.2, 0.4, -1.0])
     floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[10.0, 10.0, 0.1])
     floor.rgba = [0.82, 0.84, 0.86, 1.0]
-    _carry(floor, FURNITURE_FRICTION)
+    set_support(floor, FLOOR_FRICTION)
     return spec
 
 
@@ -100,19 +107,12 @@ def _add_sky(spec: mujoco.MjSpec) -> None:
     sky.rgb1, sky.rgb2 = [0.93, 0.95, 0.97], [0.70, 0.75, 0.80]
 
 
-def _carry(geom: Any, friction: float) -> None:
-    """Let tools touch the geom; their own softness applies (solmix 0), and the geom's friction is the greater one."""
-    geom.contype, geom.conaffinity = CARRIES, WORKS
-    geom.friction = [friction, 0.005, 0.0001]
-    geom.solmix = 0.0
-
-
 def _add_box(spec: Any, name: str, top: Pose, size: Array, friction: float, rgba: tuple[float, ...]) -> None:
     """Add a fixed box with the centre of its top at `top`."""
     body = spec.worldbody.add_body(name=name, pos=top.position, quat=quaternion_from_rotation(top.rotation))
     geom = body.add_geom(name=box_geom_name(name), type=mujoco.mjtGeom.mjGEOM_BOX, size=size / 2)
     geom.pos, geom.rgba = [0.0, 0.0, -size[2] / 2], list(rgba)
-    _carry(geom, friction)
+    set_support(geom, friction)
 
 
 def _add_surface(spec: Any, name: str, surface: SurfaceSpec, true: SurfaceVariation) -> None:
@@ -143,14 +143,24 @@ def _add_base(spec: Any, scene: SceneSpec, base: BaseSpec) -> tuple[Any, Pose]:
     body.pos, body.quat = base.pose.position, quaternion_from_rotation(base.pose.rotation)
     geom = body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=base.size / 2, contype=0, conaffinity=0)
     geom.pos, geom.rgba = [0.0, 0.0, base.size[2] / 2], list(STEEL)
+    if scene.movable:
+        set_support(geom, FLOOR_FRICTION)
     return body, base.pose
 
 
+def _add_mounted_bodies(scene: SceneSpec, mounts: Mapping[str, tuple[Any, Pose]]) -> None:
+    """Add the fixed bodies that mobile bases carry to their bodies, which `mounts` has with their poses."""
+    for body in scene.bodies:
+        if body.individual in scene.mounted:
+            mount, frame = mounts[scene.mounted[body.individual]]
+            add_fixed_body(mount, scene.names[body.individual], body, frame.inverse() @ body.pose)
+
+
 def _add_welds(spec: Any, scene: SceneSpec) -> None:
-    """Add an inactive weld for every gripper and tool; a grasp activates it."""
+    """Add an inactive weld for every gripper and what it can hold; a grasp activates it."""
     grippers = [scene.names[arm.gripper.individual] for arm in scene.arms if arm.gripper is not None]
-    for gripper, tool in product(grippers, (scene.names[tool.individual] for tool in scene.tools)):
-        equality = spec.add_equality(name=weld_name(gripper, tool), type=mujoco.mjtEq.mjEQ_WELD)
+    for gripper, thing in product(grippers, (scene.names[each.individual] for each in scene.graspable)):
+        equality = spec.add_equality(name=weld_name(gripper, thing), type=mujoco.mjtEq.mjEQ_WELD)
         equality.objtype = mujoco.mjtObj.mjOBJ_BODY
-        equality.name1, equality.name2 = part_name(gripper, "palm"), part_name(tool, "block")
+        equality.name1, equality.name2 = part_name(gripper, "palm"), part_name(thing, "block")
         equality.solref, equality.solimp, equality.active = WELD_SOLREF, WELD_SOLIMP, False

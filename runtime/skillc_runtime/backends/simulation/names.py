@@ -14,8 +14,13 @@ def base_body_name(robot: str) -> str:
 
 
 def box_geom_name(individual: str) -> str:
-    """Return the name of the box of a surface or a piece of furniture."""
+    """Return the name of the box of a surface."""
     return f"{individual}/box"
+
+
+def solid_geom_name(individual: str, number: int) -> str:
+    """Return the name of a solid of a body, by its number; that of the first is `box_geom_name`."""
+    return f"{individual}/box/{number}" if number else box_geom_name(individual)
 
 
 def obstacle_name(surface: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -12,7 +13,8 @@ from skillc_runtime.backends.simulation.people import PersonSpec, read_people
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.space.bodies import Body, read_bodies
+from skillc_runtime.world.space.frames import moves_with, pose, size
 from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, least_force_n, surface_layout
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of, text_of
 from skillc_runtime.world.state.terms import (
@@ -20,7 +22,6 @@ from skillc_runtime.world.state.terms import (
     COMPLIANT_CONTROLLER,
     FORCE_NOISE,
     FORCE_TORQUE_SENSOR,
-    FURNITURE,
     HAS_ARM,
     HAS_GRIPPER,
     HAS_SENSOR,
@@ -153,43 +154,53 @@ class SurfaceSpec:
 
 
 @dataclass(frozen=True, slots=True)
-class FurnitureSpec:
-    """A box that supports objects: the pose of the centre of its top in the world, its size (3,) in m."""
-
-    individual: str
-    pose: Pose
-    size: Array
-
-
-@dataclass(frozen=True, slots=True)
 class SceneSpec:
-    """Everything that is built, each kind in order of IRI; `names` are the short names of all individuals."""
+    """Everything that is built, each kind in order of IRI; `names` are the short names of all individuals.
+
+    mounted: the mobile robots that carry fixed bodies, by IRI of the body.
+    """
 
     names: dict[str, str]
     arms: tuple[ArmSpec, ...]
     bases: tuple[BaseSpec, ...]
     tools: tuple[ToolSpec, ...]
     surfaces: tuple[SurfaceSpec, ...]
-    furniture: tuple[FurnitureSpec, ...]
+    bodies: tuple[Body, ...]
+    mounted: Mapping[str, str]
     fixtures: tuple[FixtureSpec, ...] = ()
     people: tuple[PersonSpec, ...] = ()
+
+    @property
+    def movable(self) -> tuple[Body, ...]:
+        """The bodies that lie free."""
+        return tuple(body for body in self.bodies if body.movable)
+
+    @property
+    def graspable(self) -> tuple[ToolSpec | Body, ...]:
+        """What a gripper can hold."""
+        return (*self.tools, *self.movable)
 
 
 def read_scene_spec(state: WorldState) -> SceneSpec:
     """Read what a simulation needs; SheetError or FrameError if a fact is missing."""
-    short = state.vocabulary.short
+    short, bodies = state.vocabulary.short, read_bodies(state)
     return SceneSpec(
         names={individual: short(individual) for individual in sorted(state.individuals)},
         arms=tuple(_arm(state, iri) for iri in sorted(state.instances(ARM_DEVICE))),
         bases=tuple(_base(state, iri) for iri in sorted(state.instances(MOBILE_ROBOT))),
         tools=tuple(_tool(state, iri) for iri in sorted(state.instances(TOOL))),
         surfaces=tuple(_surface(state, iri) for iri in sorted(state.instances(SURFACE))),
-        furniture=tuple(
-            FurnitureSpec(iri, pose(state, iri), size(state, iri)) for iri in sorted(state.instances(FURNITURE))
-        ),
+        bodies=bodies,
+        mounted=_mounted(state, bodies),
         fixtures=read_fixtures(state),
         people=read_people(state),
     )
+
+
+def _mounted(state: WorldState, bodies: tuple[Body, ...]) -> dict[str, str]:
+    """Return the mobile robot with which each fixed body moves."""
+    robots, fixed = sorted(state.instances(MOBILE_ROBOT)), [each.individual for each in bodies if not each.movable]
+    return {one: robot for one in fixed for robot in robots if moves_with(state, one, robot)}
 
 
 def _arm(state: WorldState, arm: str) -> ArmSpec:

@@ -73,6 +73,16 @@ class SimulatedTruth:
         """Return where the middle (3,) of a tool's working face is, in m in the world; KeyError for an unknown tool."""
         return np.array(self.data.site(part_name(self.scene.names[tool], "face")).xpos)
 
+    def body_pose(self, individual: str) -> Pose:
+        """Return the true pose of a tool or a body in the world; KeyError if the cell has no such thing."""
+        fixed = {each.individual for each in self.scene.bodies if not each.movable}
+        known = {each.individual for each in self.scene.graspable} | fixed
+        if individual not in known:
+            raise KeyError(individual)
+        name = self.scene.names[individual]
+        found = self.data.body(name if individual in fixed else part_name(name, "block"))
+        return Pose(found.xpos.copy(), found.xmat.reshape(3, 3).copy())
+
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if it had switched, else 0."""
         return self.buttons[button].pressing

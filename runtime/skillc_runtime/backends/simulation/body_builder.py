@@ -1,0 +1,89 @@
+"""Adds bodies to a model under construction: fixed ones to the world or a base, movable ones with a free joint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, assert_never
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.simulation.contact_bits import CARRIES, MOVABLE, WORKS
+from skillc_runtime.backends.simulation.names import part_name, solid_geom_name
+from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.world.space.bodies import Body
+from skillc_runtime.world.space.shapes import Solid, centre_of
+
+TORSION_M, ROLLING_M = 0.005, 0.0002
+"""Friction against spinning and against rolling: a ball on a table comes to rest."""
+
+SOLREF, SOLIMP = (0.006, 1.0), (0.95, 0.99, 0.001, 0.5, 2.0)
+"""Contact of movable bodies: as stiff as that of fingers, whose pads yield by less than 0.1 mm."""
+
+OWN_CONTACT = 1
+"""Priority of movable bodies: in their contacts, their friction counts, whatever they touch."""
+
+
+def add_fixed_body(parent: Any, name: str, body: Body, place: Pose) -> None:
+    """Add a fixed body to a parent, in whose frame it has a pose."""
+    added = parent.add_body(name=name, pos=place.position, quat=quaternion_from_rotation(place.rotation))
+    for geom in _add_solids(added, name, body):
+        set_support(geom, body.friction)
+
+
+def add_movable_body(spec: Any, name: str, body: Body) -> None:
+    """Add a body with a free joint, its mass and its own friction."""
+    place = body.pose
+    added = spec.worldbody.add_body(
+        name=part_name(name, "block"), pos=place.position, quat=quaternion_from_rotation(place.rotation)
+    )
+    added.add_freejoint(name=part_name(name, "free"))
+    for geom in _add_solids(added, name, body):
+        geom.contype, geom.conaffinity = MOVABLE
+        geom.condim, geom.priority = 6, OWN_CONTACT
+        geom.friction, geom.solref, geom.solimp = [body.friction, TORSION_M, ROLLING_M], SOLREF, SOLIMP
+    if not np.allclose(body.centre, centre_of(body.solids)):
+        _set_centre(added, body)
+
+
+def set_support(geom: Any, friction: float) -> None:
+    """Let tools and bodies touch the geom; their own softness applies (solmix 0), and the greater friction of both."""
+    geom.contype, geom.conaffinity = CARRIES, WORKS
+    geom.friction = [friction, 0.005, 0.0001]
+    geom.solmix = 0.0
+
+
+def _set_centre(added: Any, body: Body) -> None:
+    """Set a centre of mass other than that of the solids; the moments of inertia about it are those of the solids."""
+    alone = mujoco.MjSpec()
+    list(_add_solids(alone.worldbody.add_body(name="alone"), "alone", body))
+    model = alone.compile()
+    added.explicitinertial, added.mass, added.ipos = True, body.mass_kg, body.centre
+    added.inertia, added.iquat = model.body_inertia[1], model.body_iquat[1]
+
+
+def _add_solids(parent: Any, name: str, body: Body) -> Iterator[Any]:
+    """Add the solids of a body with their shares of its mass, and yield their geoms."""
+    volume = sum(each.volume for each in body.solids)
+    for number, solid in enumerate(body.solids):
+        kind, size = _geom_size(solid)
+        geom = parent.add_geom(name=solid_geom_name(name, number), type=kind, size=size)
+        geom.pos, geom.quat = solid.place.position, quaternion_from_rotation(solid.place.rotation)
+        geom.rgba, geom.mass = list(body.colour), body.mass_kg * solid.volume / volume
+        yield geom
+
+
+def _geom_size(solid: Solid) -> tuple[Any, list[float]]:
+    """Return MuJoCo's kind of a solid and its size, three numbers of which a kind uses the first."""
+    x, y, z = solid.half
+    match solid.kind:
+        case "box":
+            return mujoco.mjtGeom.mjGEOM_BOX, [x, y, z]
+        case "cylinder":
+            return mujoco.mjtGeom.mjGEOM_CYLINDER, [x, z, 0.0]
+        case "sphere":
+            return mujoco.mjtGeom.mjGEOM_SPHERE, [x, 0.0, 0.0]
+        case "capsule":
+            return mujoco.mjtGeom.mjGEOM_CAPSULE, [x, z - x, 0.0]
+        case _:
+            assert_never(solid.kind)
