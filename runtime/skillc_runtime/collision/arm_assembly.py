@@ -4,22 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from skillc_runtime.collision.scenery import BoxObstacle, pose_key
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.space.frame_tree import MissingFact, frame_tree_of
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
-from skillc_runtime.world.state.terms import (
-    BASE_FRAME_ID,
-    CLEARANCE,
-    CONTAIN,
-    FRAME_ID,
-    HAS_GRIPPER,
-    ORIENTATION,
-    POSITION,
-    SIZE,
-)
+from skillc_runtime.world.state.terms import BASE_FRAME_ID, CLEARANCE, CONTAIN, FRAME_ID, HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -69,9 +58,9 @@ def _hand(state: WorldState, gripper: str, opening_m: float) -> Hand:
 
 
 def _held(state: WorldState, thing: str) -> BoxObstacle | None:
-    """Return the box of a held object, None if its size is not known."""
-    numbers = [state.value(thing, name) for name in (*POSITION, *ORIENTATION)]
-    if any(state.value(thing, name) is None for name in SIZE) or any(not isinstance(n, float) for n in numbers):
+    """Return the box of a held object, None if its size or its pose in the hand is not known."""
+    try:
+        at, half = frame_tree_of(state).own_pose(thing), size(state, thing) / 2
+    except MissingFact:
         return None
-    at = Pose.of(np.array(numbers[:3], float), np.array(numbers[3:], float))
-    return BoxObstacle(state.vocabulary.short(thing), pose_key(at), tuple((size(state, thing) / 2).tolist()))
+    return BoxObstacle(state.vocabulary.short(thing), pose_key(at), tuple(half.tolist()))

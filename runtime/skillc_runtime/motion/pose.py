@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, sin, sqrt
+from math import atan2, cos, hypot, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +49,36 @@ def rotation_from_quaternion(quaternion: Array) -> Array:
             [s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)],
         ]
     )
+
+
+def rotation_from_angles(roll: float, pitch: float, yaw: float) -> Array:
+    """Return the rotation (3, 3), from a frame to its parent, of angles in rad about the axes of the parent.
+
+    R = Rz(yaw) Ry(pitch) Rx(roll): first about x, then about y, then about z, as in URDF, SDF and ROS (REP 103).
+    """
+    a, b, c = roll / 2, pitch / 2, yaw / 2
+    return rotation_from_quaternion(
+        np.array(
+            [
+                cos(a) * cos(b) * cos(c) + sin(a) * sin(b) * sin(c),
+                sin(a) * cos(b) * cos(c) - cos(a) * sin(b) * sin(c),
+                cos(a) * sin(b) * cos(c) + sin(a) * cos(b) * sin(c),
+                cos(a) * cos(b) * sin(c) - sin(a) * sin(b) * cos(c),
+            ]
+        )
+    )
+
+
+def angles_from_rotation(rotation: Array) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw in rad, about the axes of the parent, of a rotation (3, 3) of a frame.
+
+    Roll is 0 if pitch is a right angle: only the sum or difference of roll and yaw is known then.
+    """
+    (a, b, _), (d, e, _), (g, h, i) = rotation.tolist()
+    upright = hypot(a, d)
+    if upright < 1e-9:
+        return 0.0, atan2(-g, upright), atan2(-b, e)
+    return atan2(h, i), atan2(-g, upright), atan2(d, a)
 
 
 def quaternion_from_rotation(rotation: Array) -> Array:

@@ -9,7 +9,7 @@ from skillc_runtime.devices.gripper import Gripper, working_face
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
-from skillc_runtime.world.space.frames import placement_changes, pose, size
+from skillc_runtime.world.space.frames import pose, relocation_changes, size
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
@@ -62,7 +62,8 @@ class Grasp(Primitive):
     def tick(self) -> Status:
         """Write that the gripper holds the object, and its assumed pose in the hand; return SUCCESS."""
         self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Grasp", "sensed")
-        self.cell.world.commit(placement_changes(self._object, self._in_hand, self._frame), "Grasp", "assumed")
+        held = relocation_changes(self.cell.world.snapshot(), self._object, self._in_hand, self._frame)
+        self.cell.world.commit(held, "Grasp", "assumed")
         return Status.SUCCESS
 
     def _check_fingers(self, gripper: Gripper, hand: LabelledIri, thing: LabelledIri, state: WorldState) -> None:
@@ -168,7 +169,10 @@ class Release(Primitive):
         world = self.cell.world
         world.commit([RemoveRelation(self._hand, CONTAIN, self._object)], "Release", "sensed")
         world.commit(
-            (*placement_changes(self._object, left_at), AddRelation(self._to, CONTAIN, self._object)),
+            (
+                *relocation_changes(world.snapshot(), self._object, left_at),
+                AddRelation(self._to, CONTAIN, self._object),
+            ),
             "Release",
             "assumed",
         )

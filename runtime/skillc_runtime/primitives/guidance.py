@@ -9,7 +9,7 @@ import numpy as np
 
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.world.space.frames import placement_changes
+from skillc_runtime.world.space.frames import relocation_changes
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import IS_TAUGHT
@@ -49,7 +49,8 @@ class AwaitGuidance(Primitive):
         if away < GUIDED_DISTANCE_M or float(np.linalg.norm(self.arm.measured.velocity[:3])) > STANDSTILL_M_S:
             self._moved_at = now
         if now - self._moved_at >= self._still:
-            taught = [*placement_changes(self._pose, self.arm.measured.pose), SetProperty(self._pose, IS_TAUGHT, True)]
+            placed = relocation_changes(self.cell.world.snapshot(), self._pose, self.arm.measured.pose)
+            taught = [*placed, SetProperty(self._pose, IS_TAUGHT, True)]
             self.cell.world.commit(taught, "AwaitGuidance", "sensed")
             return Status.SUCCESS
         if now - self._began > self._patience:

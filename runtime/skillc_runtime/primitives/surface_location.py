@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.world.space.frames import placement_changes, pose
+from skillc_runtime.world.space.frames import pose, relocation_changes
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import LOCATED
 
@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 def write_surface_pose(world: WorldModel, surface: str, tool: Pose) -> None:
     """Write the pose of a surface that a tool, with the pose `tool` in the world, is flush with."""
-    found = correct_pose(pose(world.snapshot(), surface), tool)
-    world.commit([*placement_changes(surface, found), SetProperty(surface, LOCATED, True)], "Align", "sensed")
+    state = world.snapshot()
+    found = correct_pose(pose(state, surface), tool)
+    world.commit([*relocation_changes(state, surface, found), SetProperty(surface, LOCATED, True)], "Align", "sensed")
 
 
 def correct_pose(assumed: Pose, tool: Pose) -> Pose:

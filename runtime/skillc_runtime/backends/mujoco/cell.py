@@ -13,7 +13,7 @@ from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
 from skillc_runtime.devices.gripper import working_face
-from skillc_runtime.world.space.frames import placement_changes, size
+from skillc_runtime.world.space.frames import relocation_changes, size
 from skillc_runtime.world.state.model import WorldModel
 
 
@@ -85,4 +85,4 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         left_at = there @ working_face(size(state, thing)).inverse()
         gripper.detach()
         self._drivers[arm].abort(why)
-        self._report(placement_changes(thing, left_at), why, "assumed")
+        self._report(relocation_changes(state, thing, left_at), why, "assumed")

@@ -13,6 +13,7 @@ from skillc_model.traversal import conjuncts, free_variables
 from skillc_runtime.primitives.primitive import Primitive
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import states_own_pose
 from skillc_runtime.world.state.changes import AddRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldError
@@ -90,7 +91,7 @@ class Foresight:
     def place(self, thing: str, place: str | None) -> Foresight:
         """Return what is known once a thing is at a place, or at one that is not known."""
         placed = {each: at for each, at in self.placed.items() if each != thing}
-        if place is None or self.start.value(thing, BASE_FRAME_ID) is not None:
+        if place is None or states_own_pose(self.start, thing):
             return replace(self, placed=placed, moved=self.moved | {thing})
         return replace(self, placed={**placed, thing: place}, moved=self.moved - {thing})
 

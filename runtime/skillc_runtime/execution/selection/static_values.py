@@ -12,11 +12,11 @@ from skillc_runtime.execution.selection.python_targets import check_function
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.frame_tree import MissingFact
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.terms import BASE_FRAME_ID, ORIENTATION, POSITION
+from skillc_runtime.world.state.terms import ANGLES, BASE_FRAME_ID, ORIENTATION, POSITION
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
-MEASURED_PROPERTIES = frozenset({BASE_FRAME_ID, *POSITION, *ORIENTATION})
+MEASURED_PROPERTIES = frozenset({BASE_FRAME_ID, *POSITION, *ORIENTATION, *ANGLES})
 """Skills write where things are without declaring it in their posts."""
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 
+from skillc_runtime.scene.checks.stated_poses import check_stated_poses, supports_of
 from skillc_runtime.scene.violation import SceneViolation, stored_values
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.terms import (
+    ANGLES,
     AREA,
     ARM_DEVICE,
     AT,
@@ -18,9 +20,11 @@ from skillc_runtime.world.state.terms import (
     FURNITURE,
     HAS_A,
     MOBILE_ROBOT,
+    ON,
     ORIENTATION,
     PERSON,
     POSITION,
+    SCENE,
     SURFACE,
     TOOL,
 )
@@ -38,6 +42,7 @@ def check_frames(state: WorldState) -> Iterator[SceneViolation]:
     yield from _circles(state, parents)
     yield from _partial_poses(state)
     yield from _unplaced(state, parents)
+    yield from check_stated_poses(state)
 
 
 def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> Iterator[SceneViolation]:
@@ -56,7 +61,8 @@ def _unknown_frames(state: WorldState, owners: Mapping[str, Sequence[str]]) -> I
 
 def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:
     reported = set[str]()
-    for individual, _ in stored_values(state, BASE_FRAME_ID):
+    placed = {individual: BASE_FRAME_ID for individual, _ in stored_values(state, BASE_FRAME_ID)}
+    for individual, stated in sorted({**dict.fromkeys(supports_of(state), ON), **placed}.items()):
         path, at = [individual], parents.get(individual)
         while at is not None and at not in path:
             path.append(at)
@@ -66,7 +72,7 @@ def _circles(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneVio
             names = " and ".join(map(state.vocabulary.short, path))
             message = f"the frames of {names} form a circle" if len(path) > 1 else f"{names} is placed in its own frame"
             cure = f"place one of them in `{WORLD_FRAME}`"
-            yield SceneViolation(individual, BASE_FRAME_ID, "frame-circle", message, cure)
+            yield SceneViolation(individual, stated, "frame-circle", message, cure)
 
 
 def _carrier(state: WorldState, parents: Mapping[str, str], thing: str) -> str | None:
@@ -81,11 +87,12 @@ def _partial_poses(state: WorldState) -> Iterator[SceneViolation]:
     """Yield poses in a frame that lack some of their numbers."""
     short = state.vocabulary.short
     for individual, _ in stored_values(state, BASE_FRAME_ID):
-        numbers = [name for name in (*POSITION, *ORIENTATION) if name in state.stored]
+        is_turned = any(name in state.stored and state.value(individual, name) is not None for name in ANGLES)
+        numbers = [name for name in (*POSITION, *(() if is_turned else ORIENTATION)) if name in state.stored]
         lost = [short(name) for name in numbers if state.value(individual, name) is None]
         if lost:
             message = f"{short(individual)} has a {short(BASE_FRAME_ID)} and no {', '.join(lost)}"
-            cure = "write all of its position and orientation; for no turn write OrientationW 1.0 and three times 0.0"
+            cure = "write all of its position and orientation; for no turn write `skillc:yaw 0.0`"
             yield SceneViolation(individual, BASE_FRAME_ID, "partial-pose", message, cure)
 
 
@@ -94,21 +101,30 @@ def _unplaced(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneVi
     if BASE_FRAME_ID not in state.stored or AT not in state.facts:
         return
     short = state.vocabulary.short
-    based = {individual for individual, _ in stored_values(state, BASE_FRAME_ID)}
+    based = {individual for individual, _ in stored_values(state, BASE_FRAME_ID)} | supports_of(state).keys()
     needed = {thing for cls in PLACED for thing in state.instances(cls)}
-    needed |= {parent for thing in needed if (parent := parents.get(thing)) is not None}
+    needed |= {
+        parent for thing in needed if (parent := parents.get(thing)) is not None and not _is_floor(state, parent)
+    }
     for thing in sorted(needed - based - parents.keys()):
         message = f"the scene does not say where {short(thing)} is"
         cure = f'place it in a frame, `{short(BASE_FRAME_ID)} "{WORLD_FRAME}"`, or at a place, `{short(AT)} PLACE`'
+        cure += f", or on a thing, `{short(ON)} THING`" if ON in state.facts else ""
         yield SceneViolation(thing, None, "no-place", message, cure)
 
 
+def _is_floor(state: WorldState, thing: str) -> bool:
+    """Whether a thing is the whole scene, which needs no pose: what is on it stands on the floor of the world."""
+    return state.is_a(thing, SCENE)
+
+
 def _parents(state: WorldState, owners: Mapping[str, Sequence[str]]) -> dict[str, str]:
-    """Return the object in whose frame each object is, by its base frame or else the place that it is at."""
+    """Return the object in whose frame each object is: by its base frame, else what it is on, else the place."""
     places = sorted(state.pairs(AT), reverse=True) if AT in state.facts else []
     based = {individual: owners.get(str(base), []) for individual, base in stored_values(state, BASE_FRAME_ID)}
     framed = {individual: found[0] for individual, found in based.items() if len(found) == 1}
-    return {thing: place for thing, place in places if thing not in based} | framed
+    resting = {thing: support for thing, support in supports_of(state).items() if thing not in based}
+    return {thing: place for thing, place in places if thing not in based} | resting | framed
 
 
 def _owners(state: WorldState) -> dict[str, list[str]]:

@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.bounding_boxes import FRAME_HEIGHT
+from skillc_runtime.world.space.extents import FRAME_HEIGHT
 from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose, size
 from skillc_runtime.world.space.shapes import (

@@ -5,16 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.extents import Extent
 from skillc_runtime.world.space.frame_tree import FrameTree, frame_tree_of
 from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.state.terms import FURNITURE, MOBILE_ROBOT, SIZE, SURFACE
+from skillc_runtime.world.state.terms import SIZE
 from skillc_runtime.world.state.world_state import WorldState
 
 TOUCH_M = 0.005
 """Objects with at most this distance in m count as touching."""
-
-FRAME_HEIGHT = {FURNITURE: 0.5, SURFACE: 0.5, MOBILE_ROBOT: -0.5}
-"""The position of the frame along z above the middle, as a share of the height; 0 for other classes."""
 
 
 def bounding_box(state: WorldState, individual: str) -> OrientedBox:
@@ -26,8 +24,7 @@ def bounding_box(state: WorldState, individual: str) -> OrientedBox:
     if individual not in space.boxes:
         known = any(state.value(individual, name) is not None for name in SIZE if name in state.stored)
         half = _half(space, individual) if known else np.zeros(3)
-        share = next((share for cls, share in FRAME_HEIGHT.items() if state.is_a(individual, cls)), 0.0)
-        middle = space.pose(individual) @ Pose.of((0.0, 0.0, -2 * share * half[2]))
+        middle = space.pose(individual) @ Pose(Extent.of(half, state.classes.get(individual)).middle, np.eye(3))
         space.boxes[individual] = OrientedBox.of(middle, half)
     return space.boxes[individual]
 

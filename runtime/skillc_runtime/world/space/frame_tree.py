@@ -6,23 +6,32 @@ Versions that agree in all facts about space share one tree, so other writes cau
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import radians
 from typing import TypeAlias
 from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles, rotation_from_quaternion
+from skillc_runtime.world.space.extents import Extent, Spot, contact_pose
 from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import (
+    ANCHOR,
+    ANGLES,
     ARM_DEVICE,
     AT,
     BASE_FRAME_ID,
     CONTAIN,
+    FACE,
     FRAME_ID,
     HAS_A,
+    LOCATION,
+    OFFSET,
+    ON,
     ORIENTATION,
     POSITION,
+    SCENE,
     SIZE,
 )
 from skillc_runtime.world.state.values import Value
@@ -35,8 +44,8 @@ Values: TypeAlias = "VersionedMap[str, Value | None]"
 
 _NO_VALUES: Values = VersionedMap(None)
 _NO_LINKS = PairIndex.empty()
-_VALUES = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *SIZE)
-_LINKS = (AT, CONTAIN, HAS_A)
+_VALUES = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *ANGLES, *OFFSET, ANCHOR, FACE, *SIZE)
+_LINKS = (ON, AT, CONTAIN, HAS_A)
 
 
 class FrameError(ValueError):
@@ -58,9 +67,9 @@ class MissingFact(Unplaced):
 class FrameTree:
     """The poses of all objects in the world. An object moves with its carrier.
 
-    The carrier is the object whose frame its BaseFrameId names. Without a BaseFrameId it is the place that the object
-    is `at`, else what contains it, else what it is a part of, and the object has the carrier's pose. The pose of an
-    object that an arm carries is not known.
+    The carrier is the object whose frame its BaseFrameId names, else the object that it is `on`. Without either it is
+    the place that the object is `at`, else what contains it, else what it is a part of, and the object has the
+    carrier's pose. The pose of an object that an arm carries is not known.
     """
 
     def __init__(self, state: WorldState, former: FrameTree | None = None) -> None:
@@ -91,14 +100,14 @@ class FrameTree:
             chain.append(individual)
             carrier = self.carrier(individual)
             if carrier is None:
-                poses[individual] = self._own_pose(individual)
+                poses[individual] = self.own_pose(individual)
             else:
                 individual = carrier
         pose = poses[individual]
         for each in reversed(chain):
             if each != individual:
-                based = self._values[BASE_FRAME_ID].get(each) is not None
-                pose = poses[each] = _frozen(pose @ self._own_pose(each)) if based else pose
+                placed = self._values[BASE_FRAME_ID].get(each) is not None or self._support(each) is not None
+                pose = poses[each] = _frozen(pose @ self.own_pose(each)) if placed else pose
         return pose
 
     def carrier(self, individual: str) -> str | None:
@@ -108,6 +117,9 @@ class FrameTree:
             return None
         if base is not None:
             return self._owner(str(base), individual)
+        support = self._support(individual)
+        if support is not None:
+            return None if self._is_floor(support) else support
         for holders in (
             self._links[AT].forward.get(individual),
             self._links[CONTAIN].backward.get(individual),
@@ -117,7 +129,7 @@ class FrameTree:
                 return self._moved_with(min(holders), individual)
         raise Unplaced(
             f"the world model does not say where {self._short(individual)} is: "
-            "it has neither a BaseFrameId nor a place it is at"
+            "it has neither a BaseFrameId nor a place it is at, and it is on nothing"
         )
 
     def number(self, individual: str, name: str) -> float:
@@ -127,6 +139,17 @@ class FrameTree:
             return float(value)
         message = f"{self._short(individual)} has no {self._short(name)} in the world model"
         raise MissingFact(message, individual, name)
+
+    def own_pose(self, individual: str) -> Pose:
+        """Return the pose of an object in the frame of its carrier, or in the world if nothing carries it.
+
+        FrameError when it is contradictory, MissingFact when a number is missing.
+        """
+        support = self._support(individual)
+        if self._values[BASE_FRAME_ID].get(individual) is None and support is not None:
+            return _frozen(self._pose_on(individual, support))
+        position = [self.number(individual, name) for name in POSITION]
+        return _frozen(Pose(np.array(position), self._rotation(individual)))
 
     def _moved_with(self, holder: str, individual: str) -> str:
         if ARM_DEVICE not in self._classes.get(holder):
@@ -147,12 +170,49 @@ class FrameTree:
         found = f"{len(owners)} things have" if owners else "nothing has"
         raise FrameError(f"{self._short(individual)} is placed in the frame `{frame}`, but {found} this FrameId")
 
-    def _own_pose(self, individual: str) -> Pose:
-        position = [self.number(individual, name) for name in POSITION]
+    def _support(self, individual: str) -> str | None:
+        """Return what an object is stated to be on, None if it is not."""
+        return min(self._links[ON].forward.get(individual), default=None)
+
+    def _is_floor(self, support: str) -> bool:
+        """Whether an object is the whole scene, whose floor is the plane z = 0 of the world."""
+        stated = self._values[BASE_FRAME_ID].get(support) is not None or self._support(support) is not None
+        return SCENE in self._classes.get(support) and not stated
+
+    def _pose_on(self, individual: str, support: str) -> Pose:
+        is_place = any(cls in self._classes.get(support) for cls in (LOCATION, SCENE))
+        face = self._values[FACE].get(individual) or "top"
+        corner = self._values[ANCHOR].get(individual) == "corner"
+        x, y, z = (self._number_or(individual, name, 0.0) for name in OFFSET)
+        return contact_pose(
+            self._extent(support, optional=is_place and not corner and face == "top"),
+            self._extent(individual, optional=True),
+            self._rotation(individual, default=np.eye(3)),
+            Spot(str(face), corner, (x, y, z)),
+        )
+
+    def _extent(self, individual: str, *, optional: bool) -> Extent:
+        """Return the box of an object; a point if it is optional and no size is stated, else MissingFact."""
+        if optional and all(self._values[name].get(individual) is None for name in SIZE):
+            return Extent(np.zeros(3), np.zeros(3))
+        half = np.array([self.number(individual, name) for name in SIZE]) / 2
+        return Extent.of(half, self._classes.get(individual))
+
+    def _rotation(self, individual: str, default: Array | None = None) -> Array:
+        """Return the rotation of an object in its parent frame, from its quaternion or its angles in degrees."""
+        stated = {name for name in (*ORIENTATION, *ANGLES) if self._values[name].get(individual) is not None}
+        if stated.isdisjoint(ORIENTATION) and not stated.isdisjoint(ANGLES):
+            roll, pitch, yaw = (radians(self._number_or(individual, name, 0.0)) for name in ANGLES)
+            return rotation_from_angles(roll, pitch, yaw)
+        if not stated and default is not None:
+            return default
         quaternion = [self.number(individual, name) for name in ORIENTATION]
         if not any(quaternion):
             raise FrameError(f"the orientation of {self._short(individual)} is no rotation: all of it is 0")
-        return _frozen(Pose.of(np.array(position), np.array(quaternion)))
+        return rotation_from_quaternion(np.array(quaternion))
+
+    def _number_or(self, individual: str, name: str, default: float) -> float:
+        return default if self._values[name].get(individual) is None else self.number(individual, name)
 
 
 class _FrameTrees:

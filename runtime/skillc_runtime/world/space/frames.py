@@ -8,8 +8,19 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError, Unplaced, frame_tree_of
-from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.terms import BASE_FRAME_ID, FRAME_ID, ORIENTATION, POSITION, SIZE
+from skillc_runtime.world.state.changes import Change, ClearProperty, RemoveRelation, SetProperty
+from skillc_runtime.world.state.terms import (
+    ANCHOR,
+    ANGLES,
+    BASE_FRAME_ID,
+    FACE,
+    FRAME_ID,
+    OFFSET,
+    ON,
+    ORIENTATION,
+    POSITION,
+    SIZE,
+)
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -28,6 +39,13 @@ def relative_pose(state: WorldState, viewer: str, individual: str) -> Pose:
     return pose(state, viewer).inverse() @ pose(state, individual)
 
 
+def states_own_pose(state: WorldState, individual: str) -> bool:
+    """Whether the pose of an object is stated: in a frame, or by what it is on; else it has that of its carrier."""
+    return state.value(individual, BASE_FRAME_ID) is not None or (
+        ON in state.facts and bool(state.facts[ON].forward.get(individual))
+    )
+
+
 def placement_changes(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[SetProperty]:
     """Return the changes that place an object, by IRI, at a pose in the frame with a FrameId."""
     values = zip((*POSITION, *ORIENTATION), (*at.position, *quaternion_from_rotation(at.rotation)), strict=True)
@@ -35,7 +53,19 @@ def placement_changes(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[Se
     return [SetProperty(thing, BASE_FRAME_ID, frame), *numbers]
 
 
-def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[SetProperty]:
+def relocation_changes(state: WorldState, thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[Change]:
+    """Return the changes that place an object at another pose in the frame with a FrameId.
+
+    Facts that stated its former pose in another way, by angles or by what it is on, are retracted.
+    """
+    stated = (name for name in (*ANGLES, *OFFSET, ANCHOR, FACE) if name in state.stored)
+    cleared = [ClearProperty(thing, name) for name in stated if state.value(thing, name) is not None]
+    supports = state.facts[ON].forward.get(thing) if ON in state.facts else ()
+    left = [RemoveRelation(thing, ON, each) for each in sorted(supports)]
+    return [*cleared, *left, *placement_changes(thing, at, frame)]
+
+
+def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[Change]:
     """Return the changes that move an object to a pose in the frame of another, the viewer; its carrier stays the same.
 
     An object without a known pose is placed in the world frame. FrameError when the viewer's pose is not known or the
@@ -50,11 +80,11 @@ def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[S
     except Unplaced:
         carrier = None
     if carrier is None:
-        return placement_changes(thing, goal)
-    return placement_changes(thing, pose(state, carrier).inverse() @ goal, _frame(state, carrier))
+        return relocation_changes(state, thing, goal)
+    return relocation_changes(state, thing, pose(state, carrier).inverse() @ goal, _frame(state, carrier))
 
 
-def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[SetProperty]:
+def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[Change]:
     """Return the changes that attach an object to a carrier; its pose in the world stays the same.
 
     FrameError when a pose is not known, the carrier has no frame, or the carrier moves with the object.
@@ -62,7 +92,7 @@ def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[SetP
     if moves_with(state, carrier, thing):
         short = state.vocabulary.short
         raise FrameError(f"{short(carrier)} moves with {short(thing)}, so it cannot carry it")
-    return placement_changes(thing, relative_pose(state, carrier, thing), _frame(state, carrier))
+    return relocation_changes(state, thing, relative_pose(state, carrier, thing), _frame(state, carrier))
 
 
 def normal(state: WorldState, surface: str) -> Array:
