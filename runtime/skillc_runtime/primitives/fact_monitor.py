@@ -15,7 +15,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
-from skillc_runtime.world.state.evidence import DecidingWrite
+from skillc_runtime.world.state.evidence import describe_evidence
 from skillc_runtime.world.state.facts import RelationFact
 from skillc_runtime.world.state.labelled import label_fact
 from skillc_runtime.world.state.labelled_text import format_fact
@@ -66,13 +66,6 @@ class FactMonitor:
         change = RemoveRelation(fact.subject, fact.relation, fact.object)
         self._cell.world.commit([change], said, "reported")
         return f"{said}, but the world model said `{format_fact(label_fact(fact, state))}` ({describe_evidence(known)})"
-
-
-def describe_evidence(known: DecidingWrite | None) -> str:
-    """Return how a fact is known, such as `assumed by Place`."""
-    if known is None or known.evidence is None:
-        return "given"
-    return f"{known.evidence} by {known.origin}" if known.origin else known.evidence
 
 
 def _expected(cell: Cell, state: WorldState) -> Iterator[Expected]:

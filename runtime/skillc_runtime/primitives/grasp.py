@@ -37,6 +37,7 @@ class Grasp(Primitive):
     """
 
     moves = MappingProxyType({"object": None})
+    highlights = (("ends", "object", "grasped"),)
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, grasp: str, place: str) -> None:
         super().__init__(cell)
@@ -94,6 +95,7 @@ class Release(Primitive):
     """Opens the fingers; as soon as the object is free, the world model has the pose to which the arm brought it."""
 
     moves = MappingProxyType({"object": None})
+    highlights = (("ends", "object", "released"),)
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, to: str) -> None:
         super().__init__(cell)

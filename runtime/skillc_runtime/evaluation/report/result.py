@@ -57,13 +57,32 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
     lane_dwell_of: Literal["tool", "path"] = "tool"
 
 
+class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
+    """Where a thing that the run moved is at its end, in m in the world: believed, and as the simulator has it.
+
+    `holder` is what is believed to contain it, None for nothing; it is held if that is a gripper. `holder_known` and
+    `known` are the evidence for that and for the believed place. `error_m` and `turned_deg` are how far the true pose
+    is from the believed one. What is not known is None: a held thing is believed to be where the hand is.
+    """
+
+    thing: str
+    holder: str | None
+    is_held: bool
+    holder_known: str
+    known: str
+    believed_m: tuple[float, float, float] | None
+    true_m: tuple[float, float, float] | None
+    error_m: float | None
+    turned_deg: float | None
+
+
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     """The result of a task; one that did not start is `refused`, and `failure` is why it did not succeed.
 
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
     is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
-    was wiped, `wiping` is the first of them.
+    was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved.
     """
 
     task: str
@@ -84,5 +103,6 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     variation: str = ""
     wiping: WipingResult | None = None
     wipings: tuple[WipingResult, ...] = ()
+    placements: tuple[PlacementResult, ...] = ()
     replanned: tuple[str, ...] = ()
     failure: str | None = None

@@ -9,6 +9,7 @@ from msgspec import structs
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.execution.attempt import AttemptResult
@@ -55,6 +56,7 @@ def summarise_run(
         real_time_factor=now / wall if wall else 0.0,
         wiping=judged[0] if judged else None,
         wipings=judged,
+        placements=measure_placements(simulation.cell.world, truth),
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=_describe_failure(execution),
     )

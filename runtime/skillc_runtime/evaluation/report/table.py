@@ -7,7 +7,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, WipingResult
+from skillc_runtime.evaluation.report.result import ChoiceResult, PlacementResult, StepResult, TaskResult, WipingResult
 from skillc_runtime.recording.known_facts import format_evidence, format_status, format_unverified, unverified_facts
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
@@ -74,6 +74,7 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
         ("reality", f"{result.variation} (seed {result.seed})" if result.variation else "as the facts say"),
         *(("planned again", why) for why in result.replanned),
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
+        *((each.thing, format_placement(each)) for each in result.placements),
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
         ("speed", f"{result.real_time_factor:.1f} x real time"),
     ]
@@ -81,6 +82,17 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
 
 def _describe_plan(result: TaskResult) -> str:
     return f"{len(result.plan)} steps by {result.planner}, {result.plan_quality}"
+
+
+def format_placement(placed: PlacementResult) -> str:
+    """Return where a thing ended up, how that is known, and how far from there it really is."""
+    parts = [] if placed.holder is None else [f"{'held by' if placed.is_held else 'in'} {placed.holder}"]
+    if placed.believed_m is None or placed.error_m is None or placed.turned_deg is None:
+        return ", ".join((*parts, placed.holder_known)) if parts else placed.known
+    if placed.holder_known not in ("", placed.known):
+        parts.append(placed.holder_known)
+    parts.append(f"at {' '.join(f'{each:.3f}' for each in placed.believed_m)} m, {placed.known}")
+    return f"{', '.join(parts)}; really {placed.error_m * 1e3:.0f} mm and {placed.turned_deg:.0f} deg from there"
 
 
 def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, str]]:

@@ -52,6 +52,13 @@ class DecidingWrite:
     origin: str
 
 
+def describe_evidence(known: DecidingWrite | None) -> str:
+    """Return how a fact is known, such as `assumed by Place`."""
+    if known is None or known.evidence is None:
+        return "given"
+    return f"{known.evidence} by {known.origin}" if known.origin else known.evidence
+
+
 @dataclass(frozen=True, slots=True)
 class _Entry:
     write: DecidingWrite

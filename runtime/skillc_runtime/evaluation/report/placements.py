@@ -1,0 +1,68 @@
+"""Where the things that a run moved ended up, how that is known, and how far from there they really are."""
+
+from __future__ import annotations
+
+from math import degrees
+
+import numpy as np
+
+from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.evaluation.report.result import PlacementResult
+from skillc_runtime.motion.pose import Pose, log
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.evidence import DecidingWrite, describe_evidence
+from skillc_runtime.world.state.facts import PropertyFact, RelationFact
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, MANIPULATABLE, POSITION
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def measure_placements(world: WorldModel, truth: GroundTruth) -> tuple[PlacementResult, ...]:
+    """Return where each thing that was moved is believed to be and really is, in order of IRI."""
+    state = world.snapshot()
+    written = ((thing, world.deciding_write(PropertyFact(thing, POSITION[0]))) for thing in _movable(state))
+    return tuple(_measure(world, state, truth, thing, write) for thing, write in written if write is not None)
+
+
+def _movable(state: WorldState) -> list[str]:
+    return sorted(state.instances(MANIPULATABLE)) if CONTAIN in state.vocabulary.relations else []
+
+
+def _measure(
+    world: WorldModel, state: WorldState, truth: GroundTruth, thing: str, write: DecidingWrite
+) -> PlacementResult:
+    holder = min(state.subjects(CONTAIN, thing), default=None)
+    short, believed, true = state.vocabulary.short, _believed(state, thing), _true(truth, thing)
+    contained = None if holder is None else world.deciding_write(RelationFact(holder, CONTAIN, thing))
+    off = None if believed is None or true is None else believed.inverse() @ true
+    return PlacementResult(
+        thing=short(thing),
+        holder=None if holder is None else short(holder),
+        is_held=holder is not None and state.is_a(holder, END_EFFECTOR),
+        holder_known=describe_evidence(contained) if holder is not None else "",
+        believed_m=None if believed is None else _numbers(believed),
+        true_m=None if true is None else _numbers(true),
+        known=describe_evidence(write),
+        error_m=None if off is None else float(np.linalg.norm(off.position)),
+        turned_deg=None if off is None else degrees(float(np.linalg.norm(log(off.rotation)))),
+    )
+
+
+def _believed(state: WorldState, thing: str) -> Pose | None:
+    try:
+        return pose(state, thing)
+    except FrameError:
+        return None
+
+
+def _true(truth: GroundTruth, thing: str) -> Pose | None:
+    try:
+        return truth.body_pose(thing)
+    except KeyError:
+        return None
+
+
+def _numbers(at: Pose) -> tuple[float, float, float]:
+    x, y, z = at.position.tolist()
+    return x, y, z
