@@ -84,7 +84,7 @@ def test_an_arm_whose_speeds_are_wrong_does_not_drift() -> None:
 def test_an_arm_whose_speeds_are_wrong_gets_to_its_goals() -> None:
     there = arm_told_speeds()
     told(there, lambda dq: 1.05 * dq)
-    goal = there.driver.measured.q + 0.3
+    goal = there.driver.measured.q - 0.3
     there.driver.motion.move_joints(goal, 0.3)
     there.advance(2.0)
     assert there.driver.motion.done

@@ -103,6 +103,20 @@ class Guidance:
     forces: Array
 
 
+@dataclass(frozen=True, slots=True)
+class Touching:
+    """A contact of a part of a robot, or of what it holds, that is neither a grasp nor its tool's work.
+
+    part, other: what touched what, by short names; start_s, end_s: s; peak_force_n: N, None where it is not computed.
+    """
+
+    part: str
+    other: str
+    start_s: float
+    end_s: float
+    peak_force_n: float | None
+
+
 class GroundTruth(Protocol):
     """The true state of a cell; objects are named by IRI. `Cell` does not offer it, so primitives have no access."""
 
@@ -155,6 +169,10 @@ class GroundTruth(Protocol):
 
         KeyError if the cell has no such button.
         """
+        ...
+
+    def contacts(self) -> Sequence[Touching]:
+        """Return what links, hands, bases and the rigid parts of held objects have touched, in order of time."""
         ...
 
     def guidances(self) -> Sequence[Guidance]:

@@ -10,6 +10,7 @@ from skillc_runtime.backends.kinematic.arm import KinematicArm
 from skillc_runtime.backends.kinematic.gripper import KinematicGripper
 from skillc_runtime.backends.kinematic.touch import Touch
 from skillc_runtime.backends.simulation.cell import ModelledCell
+from skillc_runtime.backends.simulation.contact_bits import SOLID
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
@@ -55,6 +56,7 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
 
     def _make_arms(self) -> tuple[dict[str, KinematicArm], dict[str, KinematicGripper]]:
         self.model.opt.gravity[:] = 0.0
+        self._let_links_pass()
         names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
         for facts in self.scene.arms:
             palm = None if facts.gripper is None else names[facts.gripper.individual]
@@ -64,6 +66,13 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
             if facts.gripper is not None:
                 hands[facts.individual] = KinematicGripper(facts.gripper, names, things, arm, self.model, self.data)
         return arms, hands
+
+    def _let_links_pass(self) -> None:
+        """Let links and hands touch nothing: only contact of tools, bodies and pads is modelled."""
+        (kind, met), model = SOLID, self.model
+        links = (model.geom_contype & kind) > 0
+        model.geom_contype[links] &= ~kind
+        model.geom_conaffinity[links] &= ~met
 
     def _prepare(self) -> None:
         self._touch = Touch(self.scene, list(self.arms.values()), self.model, self.data)

@@ -68,6 +68,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         self._divergence.check()
 
     def _observe(self, now: float) -> None:
+        self._touches.sample(now)
         for button in self._buttons.values():
             button.sample(now)
         for arm, gripper in self._hands.items():

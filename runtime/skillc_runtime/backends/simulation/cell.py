@@ -21,6 +21,7 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.control.driver import CompliantArmDriver
@@ -74,8 +75,9 @@ class ModelledCell(ABC, Generic[A, G]):
         self.watchdog = HeartbeatWatchdog()
         self._buttons = make_buttons(scene.fixtures, variation.fixtures, names, self.data)
         self.people = make_people(scene, variation, self._drivers, self.data)
+        self._touches = TouchRecorder(scene, self.model, self.data, self._held_things)
         self.ground_truth: GroundTruth = SimulatedTruth(
-            scene, variation, self._observers, self.coverage, self._buttons, self.people, self.data
+            scene, variation, self._observers, self.coverage, self._buttons, self.people, self._touches, self.data
         )
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)
@@ -244,6 +246,10 @@ class ModelledCell(ABC, Generic[A, G]):
     def _report(self, changes: Sequence[Change], origin: str, evidence: Evidence = "reported") -> None:
         """Keep changes of the world model until they are published."""
         self._reports.append((changes, origin, evidence))
+
+    def _held_things(self) -> list[tuple[str, str]]:
+        """Return each gripper that holds something, with that."""
+        return [(name, hand.holding) for name, hand in self._grippers.items() if hand.holding is not None]
 
     def _move_bases(self) -> None:
         """Move bases, and what the arms on them hold, by one step."""

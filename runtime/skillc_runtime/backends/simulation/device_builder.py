@@ -8,6 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.simulation.contact_bits import set_solid
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
 from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation
 from skillc_runtime.backends.simulation.names import (
@@ -45,6 +46,7 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base:
     model = mujoco.MjSpec.from_file(str(arm.model))
     _check_posture(model, names[arm.individual], arm)
     model.option.timestep = spec.option.timestep
+    set_solid(model.geoms)
     for joint in model.joints:
         joint.armature = arm.sheet.number("armature")
     if arm.has_servos:
@@ -68,6 +70,7 @@ def add_tool(spec: Any, names: Mapping[str, str], tool: ToolSpec, pad_stiffness:
     if pad_stiffness is not None:
         _set_foundation(model, tool, pad_stiffness)
     root = model.worldbody.first_body()
+    set_solid(root.geoms)
     root.add_freejoint(name="free")
     face = working_face(tool.size)
     root.add_site(name="face", pos=face.position, quat=quaternion_from_rotation(face.rotation))
@@ -98,6 +101,7 @@ def _add_gripper(spec: Any, names: Mapping[str, str], arm: ArmSpec, gripper: Gri
     actuator = model.actuator("opening")
     actuator.ctrlrange = [0.0, gripper.max_opening_m]
     actuator.forcerange = [-gripper.max_force_n, gripper.max_force_n]
+    set_solid(model.geoms)
     model.body("palm").add_site(name="wrist")
     spec.attach(model, prefix=part_name(name, ""), site=spec.site(part_name(names[arm.individual], "flange")))
     if arm.force_torque:

@@ -23,6 +23,7 @@ from skillc_runtime.backends.simulation.names import (
     part_name,
     weld_name,
 )
+from skillc_runtime.backends.simulation.own_overlaps import exclude_own_overlaps
 from skillc_runtime.backends.simulation.scene_spec import BaseSpec, SceneSpec, SurfaceSpec
 from skillc_runtime.backends.simulation.variation import SurfaceVariation, Variation
 from skillc_runtime.motion.layout import Hole
@@ -77,6 +78,7 @@ def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0
         add_tool(spec, scene.names, tool, None if tool.rigid else variation.pad_stiffness(tool))
     for body in scene.movable:
         add_movable_body(spec, scene.names[body.individual], body)
+    exclude_own_overlaps(spec, scene)
     _add_welds(spec, scene)
     for tool, surface in product(scene.tools, scene.surfaces):
         if variation.of(surface.individual).present:
@@ -141,10 +143,10 @@ def _add_base(spec: Any, scene: SceneSpec, base: BaseSpec) -> tuple[Any, Pose]:
     name = base_body_name(scene.names[base.individual])
     body = spec.worldbody.add_body(name=name, mocap=True)
     body.pos, body.quat = base.pose.position, quaternion_from_rotation(base.pose.rotation)
-    geom = body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=base.size / 2, contype=0, conaffinity=0)
+    geom = body.add_geom(name=box_geom_name(scene.names[base.individual]), type=mujoco.mjtGeom.mjGEOM_BOX)
+    geom.size = base.size / 2
+    set_support(geom, FLOOR_FRICTION)
     geom.pos, geom.rgba = [0.0, 0.0, base.size[2] / 2], list(STEEL)
-    if scene.movable:
-        set_support(geom, FLOOR_FRICTION)
     return body, base.pose
 
 

@@ -13,8 +13,9 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import SimulatedPerson
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
-from skillc_runtime.devices.ground_truth import Guidance, Recording
+from skillc_runtime.devices.ground_truth import Guidance, Recording, Touching
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -29,6 +30,7 @@ class SimulatedTruth:
     covered: Mapping[str, CoverageMap]
     buttons: Mapping[str, SimulatedButton]
     people: Sequence[SimulatedPerson]
+    touches: TouchRecorder
     data: Any
 
     @property
@@ -86,6 +88,10 @@ class SimulatedTruth:
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if it had switched, else 0."""
         return self.buttons[button].pressing
+
+    def contacts(self) -> tuple[Touching, ...]:
+        """Return what links, hands, bases and the rigid parts of held objects have touched, in order of time."""
+        return self.touches.touchings
 
     def guidances(self) -> tuple[Guidance, ...]:
         """Return how people guided tools by hand; people who guided none are left out."""

@@ -76,13 +76,31 @@ class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
     turned_deg: float | None
 
 
+class TouchResult(msgspec.Struct, frozen=True, kw_only=True):
+    """What a part of a robot touched that it should not, as the simulator saw it, by short names.
+
+    Times in s, the greatest force in N, None where the simulation does not compute it.
+    """
+
+    part: str
+    other: str
+    start_s: float
+    end_s: float
+    peak_force_n: float | None = None
+
+    def __str__(self) -> str:
+        force = "" if self.peak_force_n is None else f" with up to {self.peak_force_n:.0f} N"
+        return f"{self.part} touched {self.other}{force} at {self.start_s:.1f} s"
+
+
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     """The result of a task; one that did not start is `refused`, and `failure` is why it did not succeed.
 
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
     is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
-    was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved.
+    was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved,
+    `touches` one for each contact of a link, a hand or a base.
     """
 
     task: str
@@ -104,5 +122,6 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     wiping: WipingResult | None = None
     wipings: tuple[WipingResult, ...] = ()
     placements: tuple[PlacementResult, ...] = ()
+    touches: tuple[TouchResult, ...] = ()
     replanned: tuple[str, ...] = ()
     failure: str | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from typing import Any, Literal
 
 from msgspec import structs
@@ -10,7 +11,7 @@ from msgspec import structs
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.placements import measure_placements
-from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
+from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, TouchResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.execute import Execution
@@ -57,6 +58,7 @@ def summarise_run(
         wiping=judged[0] if judged else None,
         wipings=judged,
         placements=measure_placements(simulation.cell.world, truth),
+        touches=tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=_describe_failure(execution),
     )

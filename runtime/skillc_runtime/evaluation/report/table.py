@@ -72,6 +72,7 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
         *((format_fact(fact.fact), format_evidence(fact)) for fact in result.facts),
         ("robot", f"{result.robot}, controller {result.controller}"),
         ("reality", f"{result.variation} (seed {result.seed})" if result.variation else "as the facts say"),
+        *(("unwanted contact", str(touch)) for touch in result.touches),
         *(("planned again", why) for why in result.replanned),
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
         *((each.thing, format_placement(each)) for each in result.placements),

@@ -1,0 +1,129 @@
+"""Records what links, hands and bases of a simulated cell touch, and how hard: ground truth, never seen by skills."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.simulation.contact_bits import HANDLE, LINK
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.devices.ground_truth import Touching
+from skillc_runtime.motion.pose import Array
+
+STEPS_PER_LOOK = 5
+"""Number of steps between looks for new contacts; contacts that were found are measured in each step."""
+
+SAME_TOUCH_S, LEAST_N = 0.1, 0.5
+"""A shorter interruption does not end a contact; a contact with a smaller force does not count."""
+
+FLOOR = "the floor"
+
+
+@dataclass(slots=True)
+class Touch:
+    """A contact between two parts that may go on; times in s, its greatest force in N, None if it is not known."""
+
+    start_s: float
+    end_s: float
+    peak_force_n: float | None
+
+
+class TouchRecorder:
+    """Watches the solid parts of robots in a model and what their grippers hold.
+
+    What fingers may grasp or press does not count, nor contact within one hand. `held` returns, by gripper, what it
+    holds; both are IRIs.
+    """
+
+    def __init__(self, scene: SceneSpec, model: Any, data: Any, held: Callable[[], Sequence[tuple[str, str]]]) -> None:
+        self._model, self._data, self._names, self._held = model, data, scene.names, held
+        grippers = [arm.gripper.individual for arm in scene.arms if arm.gripper is not None]
+        self._grippers = {scene.names[each] for each in grippers}
+        self._robots = {scene.names[arm.individual] for arm in scene.arms} | self._grippers
+        tools = {scene.names[tool.individual] for tool in scene.tools}
+        self._parts = [_part(model, geom) for geom in range(model.ngeom)]
+        self._watched = np.array([owner in self._robots | tools for owner, _ in self._parts])
+        self._watched &= model.geom_contype & LINK > 0
+        self._found: defaultdict[tuple[str, str], list[Touch]] = defaultdict(list)
+        self._steps, self._touched = 0, False
+
+    @property
+    def touchings(self) -> tuple[Touching, ...]:
+        """All contacts so far in order of their start."""
+        found = [
+            Touching(part, other, touch.start_s, touch.end_s, touch.peak_force_n)
+            for (part, other), touches in self._found.items()
+            for touch in touches
+        ]
+        return tuple(sorted(found, key=lambda each: (each.start_s, each.part, each.other)))
+
+    def sample(self, now: float) -> None:
+        """Look at the contacts of the step that begins at `now` s, once their forces are computed."""
+        self._steps += 1
+        if self._touched or self._steps % STEPS_PER_LOOK == 0:
+            self._touched = bool(self._watched[self._data.contact.geom].any()) and self._measure(now)
+
+    def add(self, part: str, other: str, now: float, force_n: float | None) -> None:
+        """Add a contact of two parts at `now` s with a force in N, None if it is not known."""
+        touches = self._found[part, other]
+        if not touches or now - touches[-1].end_s > SAME_TOUCH_S:
+            touches.append(Touch(now, now, force_n))
+        touches[-1].end_s = now
+        if force_n is not None:
+            touches[-1].peak_force_n = max(touches[-1].peak_force_n or 0.0, force_n)
+
+    def _measure(self, now: float) -> bool:
+        """Add the present contacts with their forces; tell whether there are any."""
+        forces: defaultdict[tuple[str, str], Array] = defaultdict(lambda: np.zeros(3))
+        for index, pair in self._contacts():
+            forces[pair] += _force(self._model, self._data, index)
+        felt = {pair: float(np.linalg.norm(force)) for pair, force in forces.items()}
+        for (part, other), force_n in felt.items():
+            if force_n >= LEAST_N:
+                self.add(part, other, now, force_n)
+        return bool(felt)
+
+    def _contacts(self) -> Iterator[tuple[int, tuple[str, str]]]:
+        """Yield each contact that counts, with the robot's part and what it touches."""
+        holders = {self._names[thing]: self._names[gripper] for gripper, thing in self._held()}
+        for index, (one, other) in enumerate(self._data.contact.geom.tolist()):
+            hands = [holders.get(self._parts[geom][0], self._parts[geom][0]) for geom in (one, other)]
+            part, thing = (one, other) if self._is_robot(one, hands[0]) else (other, one)
+            if self._is_robot(part, hands[part != one]) and hands[0] != hands[1] and not self._is_grasp(part, thing):
+                yield index, (_describe(*self._parts[part]), self._describe_other(thing))
+
+    def _is_robot(self, geom: int, hand: str) -> bool:
+        """Whether a geom is a solid part of a robot or of what it holds; `hand` is the owner, or who holds that."""
+        return hand in self._robots and bool(self._model.geom_contype[geom] & LINK)
+
+    def _is_grasp(self, part: int, thing: int) -> bool:
+        """Whether fingers touch what they may grasp or press."""
+        return self._parts[part][0] in self._grippers and bool(self._model.geom_contype[thing] & HANDLE)
+
+    def _describe_other(self, geom: int) -> str:
+        owner, part = self._parts[geom]
+        return _describe(owner, part) if owner in self._robots else owner
+
+
+def _part(model: Any, geom: int) -> tuple[str, str]:
+    """Return the owner of a geom and the name of its body there."""
+    body = model.body(model.geom_bodyid[geom]).name
+    owner, _, part = body.partition("/")
+    return (FLOOR, "") if body == "world" else (owner, part)
+
+
+def _describe(owner: str, part: str) -> str:
+    return f"{owner} {part}" if part else owner
+
+
+def _force(model: Any, data: Any, contact: int) -> Array:
+    """Return the force (3,) of a contact in N, world axes."""
+    wrench = np.zeros(6)
+    mujoco.mj_contactForce(model, data, contact, wrench)
+    force: Array = data.contact.frame[contact].reshape(3, 3).T @ wrench[:3]
+    return force
