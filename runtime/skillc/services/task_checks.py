@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from skillc.services import scene_diagnostics, value_checks
+from skillc.services.cell_checks.report import cell_diagnostics, used_individuals
 from skillc.services.device_checks import check_controllers, check_sheets
 from skillc.services.task_scenes import TaskScenes
 from skillc_compiler.program.typed import Program
@@ -58,7 +59,16 @@ def check_tasks_in_scenes(
     others = [each for scene, path in valid for each in check_controllers(scene, path)]
     others += (each for scene, path in valid for each in check_sheets(scene, path))
     others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
+    for path, scene in scenes.valid.items():
+        tasks = [library.tasks[name] for name, file in scenes.files.items() if file == path and name in library.tasks]
+        others += cell_diagnostics(scene, str(path), _used_in(tasks, scene))
     return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled)]
+
+
+def _used_in(tasks: Sequence[Task], scene: Scene) -> frozenset[str]:
+    """Return the individuals that tasks use in their scene."""
+    items = [item for task in tasks for item in (task.goal, task.body) if item is not None]
+    return frozenset[str]().union(*(used_individuals(item, scene.state) for item in items))
 
 
 def _is_reported(problem: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from skillc_dsl.diagnostics import Severity
 from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
 class SceneViolation:
-    """A violation of an individual, by name; `predicate` is that of the wrong statement, None if one is missing."""
+    """A violation of an individual, by name; `predicate` is that of the wrong statement, None if one is missing.
+
+    `others` are further individuals that take part in it.
+    """
 
     individual: str
     predicate: str | None
     name: str
     message: str
     help: str = ""
+    severity: Severity = "error"
+    others: tuple[str, ...] = ()
 
 
 def stored_values(state: WorldState, property_: str) -> list[tuple[str, object]]:

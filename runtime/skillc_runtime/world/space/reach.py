@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,24 +19,47 @@ if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Reach:
+    """How far an arm reaches from its shoulder: in m, and (3,) in m in the world."""
+
+    arm: str
+    reach_m: float
+    shoulder: Array
+
+    def distance_m(self, points: Array) -> float:
+        """Return the distance in m of the farthest of points (n, 3), in m in the world, from the shoulder."""
+        return float(np.linalg.norm(points - self.shoulder, axis=1).max())
+
+    def distance_beyond(self, points: Array) -> float:
+        """Return by how many m the farthest of points (n, 3), in m in the world, is out of reach; below 0 within it."""
+        return self.distance_m(points) - self.reach_m
+
+
+def read_reach(state: WorldState, arm: str, base: Pose) -> Reach:
+    """Return the reach of an arm with its base at a pose in the world; InsufficientFacts without its data sheet."""
+    try:
+        sheet = sheet_of(state, arm)
+        reach_m, height_m = sheet.number("reach"), sheet.number("shoulderHeight")
+    except SheetError as error:
+        raise InsufficientFacts(str(error)) from error
+    return Reach(arm, reach_m, base.apply(np.array([0.0, 0.0, height_m])))
+
+
 def reach_obstacle(state: WorldState, arm: str, base: Pose, thing: str) -> str | None:
     """Return by how much an object is out of reach for an arm with its base at a pose in the world; None within reach.
 
     Of a surface every corner must be within reach, of other objects the origin of the frame. InsufficientFacts when the
     arm's data sheet or the pose of the object is missing.
     """
-    try:
-        sheet = sheet_of(state, arm)
-        reach_m, height_m = sheet.number("reach"), sheet.number("shoulderHeight")
-    except SheetError as error:
-        raise InsufficientFacts(str(error)) from error
-    shoulder = base.apply(np.array([0.0, 0.0, height_m]))
-    distance_m = float(np.linalg.norm(_points(state, thing) - shoulder, axis=1).max())
-    if distance_m <= reach_m:
+    reach = read_reach(state, arm, base)
+    distance_m = reach.distance_m(_points(state, thing))
+    if distance_m <= reach.reach_m:
         return None
     short = state.vocabulary.short
     return (
-        f"{short(arm)} reaches {reach_m:.2f} m from its shoulder, and {short(thing)} is up to {distance_m:.2f} m away"
+        f"{short(arm)} reaches {reach.reach_m:.2f} m from its shoulder, and {short(thing)} is up to {distance_m:.2f} m "
+        "away"
     )
 
 
