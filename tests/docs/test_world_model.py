@@ -20,7 +20,7 @@ def test_every_example_prints_what_stands_below_it(page: str, tmp_path: Path, mo
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(tmp_path)
     names: dict[str, Any] = {"Path": Path}
-    printed, compared = io.StringIO(), 0
+    reader, printed, compared = Reader(monkeypatch, everything=True), io.StringIO(), 0
     for block in blocks(ROOT / "docs" / f"{page}.md"):
         if block.language == "python":
             printed = io.StringIO()
@@ -28,9 +28,11 @@ def test_every_example_prints_what_stands_below_it(page: str, tmp_path: Path, mo
                 exec(compile(block.text, page, "exec"), names)  # what the page shows is to be run
         elif block.language == "text":
             compared += 1
-            assert printed.getvalue() == block.text
+            if block.words == "lines":
+                reader.compare(block.text)
+            else:
+                assert printed.getvalue() == block.text
         elif block.language == "sh":
-            reader = Reader(monkeypatch, everything=True)
             reader.type(block)
             printed = io.StringIO(reader.printed)
         elif block.words:

@@ -35,7 +35,7 @@ def test_the_targets_are_met(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.chdir(tmp_path)
     Path("tasks.skill").write_text(TASK)
     shutil.copy(catalogue.scene_path("ur5e_whiteboard"), "cell.ttl")
-    told = CliRunner().invoke(skillc, ["world", "cell.ttl", "--edit", BY_SPEED])
+    told = CliRunner().invoke(skillc, ["scene", "edit", "cell.ttl", BY_SPEED])
     assert told.exit_code == 0, told.output
     assert '"forward_dynamics_velocity"' in Path("cell.ttl").read_text()
     checked = CliRunner().invoke(skillc, ["check", "."])

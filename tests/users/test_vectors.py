@@ -128,8 +128,8 @@ def test_python_that_gives_no_direction_is_reported_before_the_run_and_refused_i
 
 
 def test_an_edit_that_leaves_no_direction_is_refused(fans: Path) -> None:
-    refused = call("world", "scene.ttl", "--library", ".", "--edit", 'lab:F2 fans:facing "0 1 1"')
+    refused = call("scene", "edit", "scene.ttl", "--library", ".", 'lab:F2 fans:facing "0 1 1"')
     assert refused.exit_code == 1 and "of length 1.41421" in refused.stderr
     assert (fans / "scene.ttl").read_text() == SCENE
-    assert call("world", "scene.ttl", "--library", ".", "--edit", 'lab:F2 fans:wind "1 0 -2"').exit_code == 0
+    assert call("scene", "edit", "scene.ttl", "--library", ".", 'lab:F2 fans:wind "1 0 -2"').exit_code == 0
     assert "fans:wind (1, 0, -2)" in call("world", "scene.ttl", "--library", ".", "--show", "lab:F2").stdout

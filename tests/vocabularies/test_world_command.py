@@ -1,4 +1,4 @@
-"""`skillc world`: searching, showing, comparing, drawing and editing scenes."""
+"""`skillc world`: searching, showing, comparing and drawing scenes; `skillc scene edit`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,15 @@ def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def world(*arguments: str | Path) -> Result:
-    result = CliRunner().invoke(skillc, ["world", *map(str, arguments)])
+    return invoke("world", *map(str, arguments))
+
+
+def edit(scene: str | Path, *edits: str) -> Result:
+    return invoke("scene", "edit", str(scene), *edits)
+
+
+def invoke(*arguments: str) -> Result:
+    result = CliRunner().invoke(skillc, arguments)
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     return result
 
@@ -48,7 +56,7 @@ def test_an_individual_is_shown_with_what_leads_to_it_and_what_follows(scene: Pa
 
 def test_two_scenes_are_compared(scene: Path) -> None:
     assert world(scene, "--diff", "iiwa_table").stdout == "no differences\n"
-    assert world(scene, "--edit", "lab:Eraser-1 skiros:Weight 0.2").exit_code == 0
+    assert edit(scene, "lab:Eraser-1 skiros:Weight 0.2").exit_code == 0
     assert world("iiwa_table", "--diff", scene).stdout == (
         "- lab:Eraser-1 skiros:Weight 0.12\n+ lab:Eraser-1 skiros:Weight 0.2\n"
     )
@@ -72,16 +80,16 @@ def test_a_scene_is_drawn_with_each_individual_in_one_box(scene: Path) -> None:
 def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
     before = scene.read_text("utf-8")
     edits = ("lab:Cup-1 a skiros:Product", 'lab:Cup-1 rdfs:label "cup"', "lab:Cup-1 skiros:at lab:Cell")
-    result = world(scene, *(part for edit in edits for part in ("--edit", edit)))
+    result = edit(scene, *edits)
     assert (result.exit_code, result.stdout, result.stderr) == (0, "", "cell.ttl: 3 edits applied\n")
     assert scene.read_text("utf-8").startswith(before)
-    assert world(scene, "--edit", "lab:Cup-1 skiros:at lab:Cell").stderr == "cell.ttl already states this\n"
-    assert world(scene, "--edit", "not lab:Cup-1").exit_code == 0
+    assert edit(scene, "lab:Cup-1 skiros:at lab:Cell").stderr == "cell.ttl already states this\n"
+    assert edit(scene, "not lab:Cup-1").exit_code == 0
     assert world("iiwa_table", "--diff", scene).stdout == "no differences\n"
 
 
 @pytest.mark.parametrize(
-    ("edit", "reason"),
+    ("change", "reason"),
     [
         ("lab:Eraser-1 skiros:at lab:Eraser-1", "irreflexive"),
         ("lab:Eraser-1 skiros:wieght 0.2", "did you mean `skiros:Weight`"),
@@ -95,17 +103,18 @@ def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
         ("not lab:Eraser-1", "nothing has this FrameId"),
     ],
 )
-def test_an_edit_that_makes_no_sense_changes_nothing(scene: Path, edit: str, reason: str) -> None:
+def test_an_edit_that_makes_no_sense_changes_nothing(scene: Path, change: str, reason: str) -> None:
     before = scene.read_bytes()
-    result = world(scene, "--edit", "lab:Eraser-1 skiros:Weight 0.3", "--edit", edit)
+    result = edit(scene, "lab:Eraser-1 skiros:Weight 0.3", change)
     assert (result.exit_code, result.stdout) == (1, "") and reason in result.stderr
     assert scene.read_bytes() == before
 
 
 def test_questions_that_do_not_go_together_are_a_wrong_command_line(scene: Path) -> None:
     assert world(scene, "--search", "x", "--show", "lab:Cell").exit_code == 2
-    assert world(scene, "--edit", "not lab:Cell", "--store", "kept").exit_code == 2
-    shipped = world("iiwa_table", "--edit", "lab:Eraser-1 skiros:Weight 1")
+    moved = world(scene, "--edit", "not lab:Cell")
+    assert moved.exit_code == 2 and "skillc scene edit cell.ttl 'not lab:Cell'" in moved.stderr
+    shipped = edit("iiwa_table", "lab:Eraser-1 skiros:Weight 1")
     assert shipped.exit_code == 1 and "copy it" in shipped.stderr
 
 

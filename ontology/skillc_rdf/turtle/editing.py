@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import TypeAlias
 
 import pyoxigraph as ox
@@ -38,7 +38,7 @@ class Editor:
         alike = [each for each in said if self._named(each.predicate) == predicate]
         if any(self._same(each.object, object_) for each in alike):
             return
-        written = self._written(object_)
+        written = self.format_node(object_)
         if alike:
             end = self._end(alike[-1])
             self._put(end, end, f", {written}")
@@ -46,22 +46,22 @@ class Editor:
             self._put_beside(max(said, key=lambda each: each.object_at), f"{self._predicate(predicate)} {written}")
         else:
             before = "" if not self.text or self.text.endswith("\n") else "\n"
-            sentence = f"{self._written(ox.NamedNode(subject))} {self._predicate(predicate)} {written} ."
+            sentence = f"{self.format_node(ox.NamedNode(subject))} {self._predicate(predicate)} {written} ."
             self.text += f"{before}\n{sentence}\n"
 
     def set(self, subject: str, predicate: str, object_: Node) -> None:
         """Set the only object of a subject and predicate."""
-        alike = [each for each in self._said(subject) if self._named(each.predicate) == predicate]
+        alike = self._alike(subject, predicate)
         if not alike:
             self.add(subject, predicate, object_)
             return
         for each in reversed(alike[1:]):
             self._cut(each)
-        self._put(alike[0].object_at.start, self._end(alike[0]), self._written(object_))
+        self._put(alike[0].object_at.start, self._end(alike[0]), self.format_node(object_))
 
     def remove(self, subject: str, predicate: str, object_: Node) -> None:
         """Remove a statement; StatementNotFound if it is not in the text."""
-        alike = [each for each in self._said(subject) if self._named(each.predicate) == predicate]
+        alike = self._alike(subject, predicate)
         found = [each for each in alike if self._same(each.object, object_)]
         if not found:
             raise StatementNotFound
@@ -74,6 +74,35 @@ class Editor:
             raise StatementNotFound
         while found := self._about(individual):
             self._cut(found[-1])
+
+    def replace(
+        self, subject: str, former: Collection[str], pairs: Mapping[str, Node], beside: Collection[str]
+    ) -> None:
+        """Replace the statements of a subject with the `former` predicates by others, each with one object.
+
+        A predicate that stays keeps its place; new ones follow the last statement with a predicate of `beside`, on the
+        same line.
+        """
+        for predicate in pairs:
+            if self._alike(subject, predicate):
+                self.set(subject, predicate, pairs[predicate])
+        new = " ; ".join(self.format_pair(*each) for each in pairs.items() if not self._alike(subject, each[0]))
+        places = [each for each in self._said(subject) if self._named(each.predicate) in beside]
+        if new and places:
+            end = self._end(max(places, key=lambda each: each.object_at))
+            self._put(end, end, f" ; {new}")
+        elif new:
+            self._put_beside(max(self._said(subject), key=lambda each: each.object_at), new)
+        for predicate in set(former) - pairs.keys():
+            while found := self._alike(subject, predicate):
+                self._cut(found[-1])
+
+    def format_pair(self, predicate: str, object_: Node) -> str:
+        """Return a predicate and its object as Turtle, with the prefixes of the text."""
+        return f"{self._predicate(predicate)} {self.format_node(object_)}"
+
+    def _alike(self, subject: str, predicate: str) -> list[Statement]:
+        return [each for each in self._said(subject) if self._named(each.predicate) == predicate]
 
     def _about(self, individual: str) -> list[Statement]:
         node = ox.NamedNode(individual)
@@ -93,7 +122,8 @@ class Editor:
             return _number(one) is not None and _number(one) == _number(other)
         return one == other or (isinstance(one, ox.Literal) and isinstance(other, ox.Literal))
 
-    def _written(self, node: Node) -> str:
+    def format_node(self, node: Node) -> str:
+        """Return a term as Turtle, with the prefixes of the text."""
         match node:
             case ox.NamedNode(value=iri):
                 return self._shortened(iri)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from typing import Any
 
+from skillc.services.scene_show import PlacedThing
 from skillc.services.scenes import IndividualFacts, OpenScene, SceneDiff
 from skillc_runtime.scene.query import QueryResult, QueryValue
 from skillc_runtime.world.state.elements import Element
@@ -41,6 +43,21 @@ def format_diff(diff: SceneDiff, as_json: bool) -> str:
         return _json({"removed": [each._asdict() for each in diff.removed], "added": [e._asdict() for e in diff.added]})
     lines = [(each.subject, each.predicate, sign, each.value) for sign in (0, 1) for each in diff[sign]]
     return "\n".join(f"{'-+'[sign]} {s} {p} {value}" for s, p, sign, value in sorted(lines)) or "no differences"
+
+
+def format_placed(things: Sequence[PlacedThing], as_json: bool) -> str:
+    """Return things with their poses in the world: as text a table, as JSON a list of objects."""
+    if as_json:
+        return _json([asdict(each) for each in things])
+    rows = [("thing", "class", "stated", "x y z, m", "roll pitch yaw, deg", "size, m"), *map(_placed_row, things)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    lines = ["  ".join(text.ljust(w) for text, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return "\n".join([*lines, *(each.problem for each in things if each.problem is not None)])
+
+
+def _placed_row(each: PlacedThing) -> tuple[str, ...]:
+    numbers = (" ".join(f"{number:.4g}" for number in row) for row in (each.position, each.angles, each.size))
+    return each.name, ", ".join(each.classes), each.stated, *(text or "-" for text in numbers)
 
 
 def _element_text(element: Element, scene: OpenScene) -> str:

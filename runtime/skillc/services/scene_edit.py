@@ -9,16 +9,12 @@ from typing import NamedTuple
 import pyoxigraph as ox
 
 from skillc.services.errors import ServiceError
-from skillc.services.files import rewrite_file
-from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import decode
-from skillc_ontology import catalogue
+from skillc.services.scene_file import SceneFile
 from skillc_rdf.turtle.editing import Editor, StatementNotFound
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Node
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.scene.documents import BASE, WELL_KNOWN, Document
-from skillc_runtime.scene.load import read_documents, sheet_documents
+from skillc_runtime.scene.documents import BASE, WELL_KNOWN
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -36,19 +32,12 @@ class Edit(NamedTuple):
 
 def edit_file(scene: Path, state: WorldState, edits: Sequence[str]) -> str:
     """Edit a scene file and return a summary. ServiceError, and the file unchanged, if an edit cannot be applied."""
-    if catalogue.ROOT in scene.resolve().parents:
-        raise ServiceError(f"the shipped scene {scene.name} cannot be changed; copy it and edit the copy")
-    before = decode(str(scene), scene.read_bytes()).text
-    editor = Editor(before, BASE, lambda iri: state.vocabulary.aliases.get(iri, iri))
-    prefixes = {**state.vocabulary.prefixes, **parse(str(scene), before, BASE).prefixes}
+    file = SceneFile(scene, state)
+    prefixes = file.prefixes
     for text in edits:
-        _apply(editor, text, _parse(text, prefixes, state.vocabulary), state)
-    if editor.text == before:
+        _apply(file.editor, text, _parse(text, prefixes, state.vocabulary), state)
+    if not file.write():
         return f"{scene} already states this"
-    after = read_documents([Document(str(scene), editor.text), *sheet_documents()], state.vocabulary)
-    if not after.ok:
-        raise ServiceError(_errors_after(scene, after.problems))
-    rewrite_file(scene, before, editor.text)
     return f"{scene}: {len(edits)} edit{'s' * (len(edits) > 1)} applied"
 
 
@@ -100,10 +89,3 @@ def _parse(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> Edit:
         return Edit(False, iri_of(statement.subject))
     named = vocabulary.aliases.get(statement.predicate, statement.predicate)
     return Edit(wanted, iri_of(statement.subject), named, statement.object)
-
-
-def _errors_after(scene: Path, problems: Sequence[Diagnostic]) -> str:
-    """Return the message about the errors that the scene would have."""
-    errors = (each for each in problems if each.severity == "error")
-    lines = (f"  {each.message}" + (f" ({each.help})" if each.help else "") for each in errors)
-    return "\n".join((f"{scene} is unchanged, because the edit would cause errors", *lines))

@@ -1,4 +1,4 @@
-"""Lists, searches, queries, compares, draws and edits a scene, or the world in a store."""
+"""Lists, searches, queries, compares and draws a scene, or the world in a store."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from skillc.services import scene_edit, scene_picture
+from skillc.services import scene_picture
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library, find_scene
@@ -165,12 +165,6 @@ def draw_scene(scene: OpenScene, file: Path) -> None:
         file.write_text(svg.draw_document(box), encoding="utf-8")
     except OSError as error:
         raise ServiceError(f"cannot write {file}: {error.strerror}") from error
-
-
-def edit_scene(scene: OpenScene, edits: Sequence[str]) -> str:
-    """Apply all edits to the scene file, or none; return a summary. ServiceError if one cannot be applied."""
-    assert scene.path is not None
-    return scene_edit.edit_file(scene.path, scene.state, edits)
 
 
 def _library_beside(scene: Path | None) -> Path | None:

@@ -1,12 +1,13 @@
-"""Show, search, query, compare, draw or edit a scene or a stored world.
+"""Show, search, query, compare or draw a scene or a stored world.
 
 By default lists the individuals with their types, relations and properties.
 
-Exit code 1 if the scene has errors, the store cannot be used, the query is not valid SPARQL or an edit is refused.
+Exit code 1 if the scene has errors, the store cannot be used or the query is not valid SPARQL.
 """
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,9 +27,7 @@ if TYPE_CHECKING:
 @click.option("--show", "names", multiple=True, help="Show all facts about an individual, including derived ones.")
 @click.option("--diff", "other", type=PATH, help="Show the differences between this scene and another one.")
 @click.option("--graph", type=click.Path(path_type=Path, dir_okay=False), help="Draw the scene as an SVG file.")
-@click.option(
-    "--edit", "edits", multiple=True, help="Change the file: add 'SUBJECT PREDICATE VALUE', or remove 'not ..'."
-)
+@click.option("--edit", "edits", multiple=True, hidden=True)
 @click.option(
     "--library",
     type=PATH,
@@ -57,23 +56,20 @@ def command(
     subclasses, ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. (Conditions of the skill language include
     subclasses and sub-relations.)
 
-    Either all edits are applied or none, and only if the scene is valid afterwards. The value of a functional relation
-    or property is replaced. `not SUBJECT PREDICATE VALUE` removes a statement, `not INDIVIDUAL` all statements about an
-    individual. The rest of the file is not changed.
+    `skillc scene` writes scenes.
     """
     from skillc.cli.console import Terminal
     from skillc.services import scenes
     from skillc.services.stores import StoreChoice
 
     choice = StoreChoice(store, reset)
-    if sum(map(bool, (sparql is not None, words is not None, names, other, graph, edits))) > 1:
-        raise click.UsageError("--query, --search, --show, --diff, --graph and --edit cannot be combined")
-    if edits and store:
-        raise click.UsageError("--edit changes a scene file and cannot be used with --store")
+    if edits:
+        words_of_edits = " ".join(map(shlex.quote, edits))
+        raise click.UsageError(f"`world` only reads; write `skillc scene edit {scene or 'SCENE'} {words_of_edits}`")
+    if sum(map(bool, (sparql is not None, words is not None, names, other, graph))) > 1:
+        raise click.UsageError("--query, --search, --show, --diff and --graph cannot be combined")
     with scenes.open_scene(scene, library, choice, everything, Terminal()) as opened:
-        if edits:
-            click.echo(scenes.edit_scene(opened, edits), err=True)
-        elif graph:
+        if graph:
             scenes.draw_scene(opened, graph)
             click.echo(graph)
         else:

@@ -1,0 +1,202 @@
+"""Write a scene: create it, add, move and remove things, edit facts; show it with a picture.
+
+Comments, order and layout of the rest of the file stay as they are.
+
+Exit code 1 if the scene has errors or would have errors; then the file is not changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import FOLDER, PATH, add_ontology_option, json_option
+
+if TYPE_CHECKING:
+    from skillc.services.scene_things import PoseRequest
+    from skillc_runtime.world.state.world_state import WorldState
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+class NumberText(click.ParamType[str]):
+    """A finite number, as it was typed."""
+
+    name = "number"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the text of a number; fail for anything else."""
+        try:
+            finite = abs(float(value)) < float("inf")
+        except ValueError:
+            finite = False
+        if not finite:
+            self.fail(f"{value!r} is not a number", param, ctx)
+        return str(value)
+
+
+NUMBER = NumberText()
+
+
+def pose_options(function: Function) -> Function:
+    """Add the options that say where a thing is and how it is turned, as one argument `pose`."""
+    options = (
+        click.option("--on", metavar="THING", help="What the thing stands on; the height follows from the sizes."),
+        click.option("--at", nargs=2, type=NUMBER, metavar="X Y", help="Where on it, in m, along its axes."),
+        click.option("--at-z", type=NUMBER, metavar="Z", help="The same along z: on the top, a gap below the thing."),
+        click.option("--corner", "anchor", flag_value="corner", help="Count --at from the corner with the least x, y."),
+        click.option("--centre", "anchor", flag_value="centre", help="Count --at from the centre (the default)."),
+        click.option("--face", type=click.Choice(("top", "bottom", "front", "back", "left", "right"))),
+        click.option("--position", nargs=3, type=NUMBER, metavar="X Y Z", help="A position in m, in a frame."),
+        click.option("--frame", metavar="FRAME", help="The frame of --position; `map`, the world, by default."),
+        click.option("--roll", type=NUMBER, metavar="DEG", help="The turn about x, in degrees, first of the three."),
+        click.option("--pitch", type=NUMBER, metavar="DEG", help="The turn about y, in degrees, second of the three."),
+        click.option("--yaw", type=NUMBER, metavar="DEG", help="The turn about z, in degrees, last of the three."),
+    )
+    for option in reversed(options):
+        function = option(function)
+    return function
+
+
+def _pose(given: dict[str, Any]) -> PoseRequest:
+    from skillc.services.scene_things import PoseRequest
+
+    at, at_z = given["at"] or (), given["at_z"]
+    if at_z is not None:
+        at = (*(at or ("0", "0")), at_z)
+    angles = (given["roll"], given["pitch"], given["yaw"])
+    position = given["position"] or ()
+    return PoseRequest(given["on"], at, given["anchor"], given["face"], position, given["frame"], angles)
+
+
+@contextmanager
+def _opened(scene: Path, library: Path | None) -> Iterator[tuple[Path, WorldState]]:
+    """Load a scene file to be edited: yield its path and its world."""
+    from skillc.cli.console import Terminal
+    from skillc.services import scenes
+    from skillc.services.stores import StoreChoice
+
+    with scenes.open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
+        assert opened.path is not None
+        yield opened.path, opened.state
+
+
+LIBRARY = click.option(
+    "--library", type=PATH, help="The library whose terms the scene uses; by default the one beside it, else shipped."
+)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+def command() -> None:
+    """Write scenes: Turtle files that say what there is in a cell, where it is, and how large it is."""
+
+
+@command.command(cls=Command)
+@click.argument("scene", type=PATH)
+@click.option("--arm", metavar="CLASS", help="Start with an arm of this class on a pedestal, with its gripper.")
+def new(scene: Path, arm: str | None) -> None:
+    """Create the file SCENE: a workstation, and an arm if one is named."""
+    from skillc.services.new_scene import create_scene
+
+    create_scene(scene, arm)
+    click.echo(f"{scene}: created", err=True)
+
+
+@command.command(cls=Command)
+@click.argument("scene", type=PATH)
+@click.argument("name")
+@click.argument("cls", metavar="CLASS")
+@click.option("--size", nargs=3, type=NUMBER, metavar="X Y Z", help="The extent along its own axes, in m.")
+@click.option("--weight", type=NUMBER, metavar="KG", help="The mass in kg.")
+@click.option("--shape", metavar="SHAPE", help="The shape within its size, such as cylinder; else that of its class.")
+@click.option("--label", metavar="TEXT", help="A text for people.")
+@click.option("--in", "inside", metavar="PLACE", help="The place that contains the thing.")
+@pose_options
+@LIBRARY
+def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) -> None:
+    """Add a thing NAME of a CLASS at the end of SCENE.
+
+    Without a prefix, NAME is in the namespace of the scene's other things, and CLASS any class of that name.
+    """
+    from skillc.services.scene_things import ThingRequest, add_thing
+
+    thing = ThingRequest(
+        name, cls, given["label"], given["size"] or (), given["weight"], given["shape"], given["inside"]
+    )
+    with _opened(scene, library) as (path, state):
+        click.echo(f"{scene}: {add_thing(path, state, thing, _pose(given))} added", err=True)
+
+
+@command.command(cls=Command)
+@click.argument("scene", type=PATH)
+@click.argument("name")
+@pose_options
+@LIBRARY
+def move(scene: Path, name: str, library: Path | None, **given: Any) -> None:
+    """Move the thing NAME of SCENE. What is not stated stays as it is written."""
+    from skillc.services.scene_things import move_thing
+
+    with _opened(scene, library) as (path, state):
+        click.echo(f"{scene}: {move_thing(path, state, name, _pose(given))} moved", err=True)
+
+
+@command.command(cls=Command)
+@click.argument("scene", type=PATH)
+@click.argument("names", nargs=-1, required=True)
+@LIBRARY
+def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
+    """Remove things, and all statements about them, from SCENE."""
+    from skillc.services.scene_things import remove_things
+
+    with _opened(scene, library) as (path, state):
+        click.echo(f"{scene}: {', '.join(remove_things(path, state, names))} removed", err=True)
+
+
+@command.command(cls=Command)
+@click.argument("scene", type=PATH)
+@click.argument("edits", nargs=-1, required=True, metavar="EDIT...")
+@LIBRARY
+def edit(scene: Path, edits: tuple[str, ...], library: Path | None) -> None:
+    """Change facts of SCENE: add 'SUBJECT PREDICATE VALUE', or remove 'not ..'.
+
+    Either all edits are applied or none, and only if the scene is valid afterwards. The value of a functional relation
+    or property is replaced. 'not SUBJECT PREDICATE VALUE' removes a statement, 'not INDIVIDUAL' all statements about
+    an individual.
+    """
+    from skillc.services.scene_edit import edit_file
+
+    with _opened(scene, library) as (path, state):
+        click.echo(edit_file(path, state, edits), err=True)
+
+
+@command.command(cls=Command)
+@click.argument("scene", type=PATH)
+@click.option("--out", type=FOLDER, default="out/scene", show_default=True, help="The folder for the pictures.")
+@LIBRARY
+@json_option
+def show(scene: Path, out: Path, library: Path | None, as_json: bool) -> None:
+    """List the things of SCENE with their poses in the world, and draw them.
+
+    The view from above is an SVG file. A PNG picture is rendered as well if there is a GL library.
+    """
+    from skillc.cli.console import Terminal
+    from skillc.cli.scene_output import format_placed
+    from skillc.services import scene_show, scenes
+    from skillc.services.stores import StoreChoice
+
+    with scenes.open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
+        click.echo(format_placed(scene_show.list_placed(opened), as_json))
+        drawn = scene_show.draw_pictures(opened, out)
+    for each in drawn.files:
+        click.echo(each, err=True)
+    if drawn.not_rendered is not None:
+        click.echo(f"no PNG: {drawn.not_rendered}", err=True)
+
+
+for _command in (add, move, remove, edit, show):
+    add_ontology_option(_command)

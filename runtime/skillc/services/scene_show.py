@@ -1,0 +1,171 @@
+"""Lists the things of a scene with their poses in the world, and draws them: from above, and rendered."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+from math import degrees
+from pathlib import Path
+
+import numpy as np
+
+from skillc.services.files import writing_to
+from skillc.services.scenes import OpenScene
+from skillc.services.top_view import Outline, convex_hull, draw_top_view
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.variation import exact_variation
+from skillc_runtime.film.picture_files import write_picture
+from skillc_runtime.film.props import make_props
+from skillc_runtime.film.rendering import CameraView, Renderer, RenderingError
+from skillc_runtime.motion.pose import Array, angles_from_rotation
+from skillc_runtime.world.space.bodies import read_body
+from skillc_runtime.world.space.bounding_boxes import bounding_box
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose, size, states_own_pose
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import (
+    BASE_FRAME_ID,
+    ON,
+    SHAPE,
+    SIZE,
+    SURFACE,
+    TRANSFORMATION_POSE,
+    WORKSPACE,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+WIDTH, HEIGHT = 1200, 900
+AZIMUTH_DEG, ELEVATION_DEG = 130.0, -30.0
+"""The camera looks at the scene from its front left."""
+
+AWAY = 1.4
+"""The distance of the camera from the middle of the scene, as a multiple of the scene's diagonal."""
+
+ROUND = {"cylinder", "sphere", "capsule"}
+CIRCLE = np.array([(np.cos(turn), np.sin(turn)) for turn in np.linspace(0.0, 2 * np.pi, 24, endpoint=False)])
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedThing:
+    """A thing: name, classes, what its pose is stated relative to, pose in the world in m and degrees, size in m.
+
+    `problem` says why its pose is not known; then position and angles are empty.
+    """
+
+    name: str
+    classes: tuple[str, ...]
+    stated: str
+    position: tuple[float, ...]
+    angles: tuple[float, ...]
+    size: tuple[float, ...]
+    problem: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnScene:
+    """The files that were written, and why there is no rendered picture among them, None if there is."""
+
+    files: tuple[Path, ...]
+    not_rendered: str | None
+
+
+def list_placed(scene: OpenScene) -> tuple[PlacedThing, ...]:
+    """Return the things of a scene that have a pose of their own or a size, sorted by name."""
+    state = scene.state
+    found = (each for each in sorted(scene.individuals) if states_own_pose(state, each) or _size(state, each))
+    return tuple(_placed(state, each) for each in found)
+
+
+def draw_pictures(scene: OpenScene, folder: Path) -> DrawnScene:
+    """Draw a scene into a folder: from above as SVG, and as PNG if there is a GL library and a cell can be simulated.
+
+    ServiceError if the folder cannot be written to.
+    """
+    title = scene.path.name if scene.path else scene.document.path
+    stem = Path(title).stem
+    svg, png = folder / f"{stem}.svg", folder / f"{stem}.png"
+    with writing_to(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        svg.write_text(draw_top_view(_outlines(scene), title), encoding="utf-8")
+        try:
+            _render(scene, png)
+        except (RenderingError, SheetError, FrameError) as error:
+            png.unlink(missing_ok=True)
+            return DrawnScene((svg,), str(error))
+    return DrawnScene((svg, png), None)
+
+
+def _placed(state: WorldState, thing: str) -> PlacedThing:
+    short = state.vocabulary.short
+    support, base = min(state.objects(thing, ON), default=None), state.value(thing, BASE_FRAME_ID)
+    stated = f"in {base}" if base is not None else f"on {short(support)}" if support else "with its carrier"
+    classes = tuple(map(short, sorted(state.types(thing))))
+    try:
+        at = pose(state, thing)
+    except FrameError as error:
+        return PlacedThing(short(thing), classes, stated, (), (), _size(state, thing), str(error))
+    angles = tuple(round(degrees(each), 3) + 0.0 for each in angles_from_rotation(at.rotation))
+    position = tuple(round(each, 6) + 0.0 for each in at.position.tolist())
+    return PlacedThing(short(thing), classes, stated, position, angles, _size(state, thing))
+
+
+def _size(state: WorldState, thing: str) -> tuple[float, ...]:
+    numbers = [value for name in SIZE if isinstance(value := state.value(thing, name), int | float)]
+    return tuple(map(float, numbers)) if len(numbers) == len(SIZE) else ()
+
+
+def _outlines(scene: OpenScene) -> list[Outline]:
+    """Return what is drawn from above: all things with a known pose, but no poses on things and no workspaces."""
+    state, found = scene.state, list[Outline]()
+    for each in sorted(scene.individuals):
+        if any(state.is_a(each, cls) for cls in (TRANSFORMATION_POSE, WORKSPACE)):
+            continue
+        if not states_own_pose(state, each) and not _size(state, each):
+            continue
+        with suppress(FrameError):
+            box = bounding_box(state, each)
+            polygon = convex_hull(_points(state, each)[:, :2])
+            found.append(Outline(state.vocabulary.short(each), polygon, _colour(state, each), box.corners[:, 2].max()))
+    return found
+
+
+def _points(state: WorldState, thing: str) -> Array:
+    """Return points (n, 3) in m of the world whose hull is the thing's."""
+    box = bounding_box(state, thing)
+    if state.value(thing, SHAPE) not in ROUND:
+        return box.corners
+    rings = [np.column_stack([CIRCLE, np.full(len(CIRCLE), end)]) for end in (-1.0, 1.0)]
+    return np.asarray(np.vstack(rings) * box.half @ box.middle.rotation.T + box.middle.position)
+
+
+def _colour(state: WorldState, thing: str) -> str:
+    with suppress(SheetError, FrameError):
+        body = read_body(state, thing)
+        if body is not None:
+            return "#" + "".join(f"{round(255 * part):02x}" for part in body.colour[:3])
+    return "#9fb4c7"
+
+
+def _render(scene: OpenScene, png: Path) -> None:
+    """Render the scene as it is believed to be, from a corner above it."""
+    state = scene.state
+    cell = SimulatedCell(WorldModel(state), reality=lambda spec, _: exact_variation(spec))
+    surfaces = (each for each in sorted(state.instances(SURFACE)) if _size(state, each))
+    props = tuple(prop for each in surfaces for prop in make_props(pose(state, each), size(state, each)))
+    renderer = Renderer(cell.model, WIDTH, HEIGHT, props, "still")
+    try:
+        write_picture(png, renderer.picture(cell.data, (_camera(scene),)))
+    finally:
+        renderer.close()
+        cell.close()
+
+
+def _camera(scene: OpenScene) -> CameraView:
+    points = [np.zeros((1, 3))]
+    for each in sorted(scene.individuals):
+        with suppress(FrameError):
+            points.append(_points(scene.state, each))
+    every = np.vstack(points[1:] or points)
+    low, high = every.min(axis=0), every.max(axis=0)
+    return CameraView((low + high) / 2, float(AWAY * np.linalg.norm(high - low) + 0.5), AZIMUTH_DEG, ELEVATION_DEG)

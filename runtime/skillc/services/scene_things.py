@@ -1,0 +1,167 @@
+"""Adds, moves and removes things in a scene file, written as a person would write them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+import pyoxigraph as ox
+
+from skillc.services.errors import RequestError, ServiceError
+from skillc.services.scene_file import SceneFile
+from skillc_rdf.turtle.editing import StatementNotFound
+from skillc_rdf.turtle.statements import Node
+from skillc_rdf.turtle.terms import RDF_TYPE, XSD
+from skillc_runtime.world.state.terms import (
+    ANCHOR,
+    ANGLES,
+    BASE_FRAME_ID,
+    CONTAIN,
+    FACE,
+    OFFSET,
+    ON,
+    ORIENTATION,
+    POSITION,
+    SHAPE,
+    SIZE,
+    WEIGHT,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+LABEL = "http://www.w3.org/2000/01/rdf-schema#label"
+Number: TypeAlias = str
+"""A number as it was typed, so that 0.20 is written as 0.20."""
+
+Pairs: TypeAlias = list[tuple[str, Node]]
+_ON = (ON, *OFFSET, ANCHOR, FACE)
+_IN_FRAME = (BASE_FRAME_ID, *POSITION)
+_POSE = (*_ON, *_IN_FRAME, *ORIENTATION, *ANGLES)
+_NUMBER = re.compile(r"[+-]?(?:\d+|\d*\.\d+)")
+
+
+@dataclass(frozen=True, slots=True)
+class PoseRequest:
+    """Where a thing shall be: on another at offsets in m, or at a position in m in a frame; angles in degrees.
+
+    None and empty tuples are not stated. `at` has two or three numbers.
+    """
+
+    on: str | None = None
+    at: tuple[Number, ...] = ()
+    anchor: str | None = None
+    face: str | None = None
+    position: tuple[Number, ...] = ()
+    frame: str | None = None
+    angles: tuple[Number | None, Number | None, Number | None] = (None, None, None)
+
+    @property
+    def is_stated(self) -> bool:
+        """Whether anything is stated."""
+        return self != PoseRequest()
+
+
+@dataclass(frozen=True, slots=True)
+class ThingRequest:
+    """A new thing: its name and class, its label, its size in m, its mass in kg, its shape, and what contains it."""
+
+    name: str
+    cls: str
+    label: str | None = None
+    size: tuple[Number, ...] = ()
+    weight: Number | None = None
+    shape: str | None = None
+    inside: str | None = None
+
+
+def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseRequest) -> str:
+    """Add a thing to a scene file and return its short name. ServiceError, and the file unchanged, if it has errors."""
+    file = SceneFile(scene, state)
+    iri = file.name_new_thing(thing.name)
+    kind: Pairs = [(RDF_TYPE, ox.NamedNode(file.find_class(thing.cls)))]
+    if thing.label is not None:
+        kind.append((LABEL, ox.Literal(thing.label)))
+    body: Pairs = [(name, _number(each)) for name, each in zip(SIZE, thing.size, strict=False)]
+    if thing.weight is not None:
+        body.append((WEIGHT, _number(thing.weight)))
+    if thing.shape is not None:
+        body.append((SHAPE, ox.Literal(thing.shape)))
+    if thing.inside is not None:
+        file.editor.add(file.find_thing(thing.inside), CONTAIN, ox.NamedNode(iri))
+    file.append(iri, (kind, body, [*_place(file, pose), *_turn(pose, in_frame=bool(pose.position))]))
+    file.write()
+    return state.vocabulary.short(iri)
+
+
+def move_thing(scene: Path, state: WorldState, name: str, pose: PoseRequest) -> str:
+    """Move a thing of a scene file and return its short name; what is not stated stays as it is written.
+
+    ServiceError, and the file unchanged, if the scene would have errors.
+    """
+    if not pose.is_stated:
+        raise RequestError("say where to: --on THING, --at X Y, --position X Y Z or an angle such as --yaw 90")
+    file = SceneFile(scene, state)
+    thing = file.find_thing(name)
+    short, pairs = state.vocabulary.short(thing), dict(_place(file, pose))
+    if pairs and not pose.on and not pose.position and not state.objects(thing, ON):
+        raise ServiceError(f"{short} is on nothing; write --on THING with --at, or --position X Y Z in its frame")
+    replaced = [*_ON, *_IN_FRAME] if pose.on or pose.position else []
+    if pose.position and pose.frame is None and (frame := state.value(thing, BASE_FRAME_ID)) is not None:
+        pairs[BASE_FRAME_ID] = ox.Literal(str(frame))
+    turned = any(state.value(thing, each) is not None for each in (*ORIENTATION, *ANGLES))
+    turn = dict(_turn(pose, in_frame=bool(pose.position) and not turned))
+    file.declare([*pairs, *turn])
+    file.editor.replace(thing, [*replaced, *(ORIENTATION if turn else ())], pairs | turn, _POSE)
+    file.write()
+    return short
+
+
+def remove_things(scene: Path, state: WorldState, names: Sequence[str]) -> list[str]:
+    """Remove things and all statements about them, and return their short names.
+
+    ServiceError, and the file unchanged, if other statements need them.
+    """
+    file = SceneFile(scene, state)
+    things = list(dict.fromkeys(map(file.find_thing, names)))
+    short = state.vocabulary.short
+    for each in things:
+        left = sorted(state.subjects(ON, each) - set(things))
+        if left:
+            raise ServiceError(f"{short(left[0])} is on {short(each)}: move it or remove it, too")
+        try:
+            file.editor.forget(each)
+        except StatementNotFound:
+            raise ServiceError(f"{scene} says nothing about {short(each)}") from None
+    file.write()
+    return list(map(short, things))
+
+
+def _place(file: SceneFile, pose: PoseRequest) -> Pairs:
+    """Return the facts of a place: what it is on with offsets, or a position in a frame."""
+    offset: Pairs = [(name, _number(each)) for name, each in zip(OFFSET, pose.at, strict=False)]
+    if pose.position or pose.frame is not None:
+        if pose.on or offset or pose.anchor or pose.face:
+            raise RequestError("a place is --on THING with --at, or --position in a --frame, not both")
+        if not pose.position:
+            raise RequestError("--frame needs --position X Y Z")
+        frame = ox.Literal(pose.frame or "map")
+        return [(BASE_FRAME_ID, frame), *zip(POSITION, map(_number, pose.position), strict=True)]
+    on: Pairs = [(ON, ox.NamedNode(file.find_thing(pose.on)))] if pose.on else []
+    face: Pairs = [(FACE, ox.Literal(pose.face))] if pose.face else []
+    anchor: Pairs = [(ANCHOR, ox.Literal(pose.anchor))] if pose.anchor else []
+    return [*on, *face, *anchor, *offset]
+
+
+def _turn(pose: PoseRequest, in_frame: bool) -> Pairs:
+    """Return the angles; a pose in a frame needs at least one."""
+    angles: Pairs = [(name, _number(each)) for name, each in zip(ANGLES, pose.angles, strict=True) if each is not None]
+    return angles or ([(ANGLES[2], _number("0.0"))] if in_frame else [])
+
+
+def _number(text: Number) -> ox.Literal:
+    if not _NUMBER.fullmatch(text):
+        text = repr(float(text))
+    kind = "double" if "e" in text else "decimal" if "." in text else "integer"
+    return ox.Literal(text, datatype=ox.NamedNode(XSD + kind))
