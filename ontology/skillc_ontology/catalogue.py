@@ -1,7 +1,7 @@
 """Finds the packaged files (vocabularies, data sheets, scenes, models), and those in the user's ontology folders.
 
-A user's folder has the layout of this package: data sheets in `robots`, `grippers`, `tools` and `fixtures`, models
-beside them. All other ontology files in it are vocabularies.
+A user's folder has the layout of this package: data sheets in `robots`, `grippers`, `tools`, `fixtures` and `cameras`,
+models beside them. All other ontology files in it are vocabularies.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parent
-SHEET_FOLDERS = ("robots", "grippers", "tools", "fixtures")
+SHEET_FOLDERS = ("robots", "grippers", "tools", "fixtures", "cameras")
 VOCABULARY_FOLDERS = ("vocabulary", *SHEET_FOLDERS)
 ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld")
 """The suffixes of files that may be vocabularies."""

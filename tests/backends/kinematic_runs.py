@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.model import WorldModel
 
 
@@ -33,9 +35,9 @@ def shipped_tasks() -> dict[str, str]:
     return {task: name for name in ("contact", "wiping") for task in library(name).tasks}
 
 
-def prepare(compiled: SkillLibrary, name: str, scene: Path) -> PreparedTask:
-    """Plan a task of a library."""
-    task, state = compiled.tasks[name], load_scene(scene, compiled.vocabulary)
+def prepare(compiled: SkillLibrary, name: str, scene: Path, changes: Sequence[Change] = ()) -> PreparedTask:
+    """Plan a task of a library in a scene, whose facts are changed before."""
+    task, state = compiled.tasks[name], load_scene(scene, compiled.vocabulary).with_changes(changes)
     if task.goal is not None:
         objective: AchieveGoal | ExecuteBody = AchieveGoal(task.goal)
     else:

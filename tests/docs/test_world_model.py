@@ -1,4 +1,4 @@
-"""The pages on the world model, space, scenes, obstacles and backends are true: their examples print what they say."""
+"""The pages on the world model, space, scenes, obstacles, backends and sensing print what they say they print."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 
 from docs.pages import ROOT, Reader, blocks
 
-PAGES = {"world-model": 8, "space": 6, "scenes": 3, "obstacles": 1, "backends": 1}
+PAGES = {"world-model": 8, "space": 6, "scenes": 3, "obstacles": 1, "backends": 1, "sensing": 1}
 """Pages of `docs`, and how many outputs each shows at least."""
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.sensors import Button, Camera
 
@@ -57,6 +58,10 @@ class Cell(Protocol):
 
     def base(self, individual: str) -> MobileBase:
         """Return the mobile base of a robot; KeyError if it has none."""
+        ...
+
+    def pose_camera(self, individual: str) -> PoseCamera:
+        """Return a camera that estimates poses; KeyError if the cell has no such camera."""
         ...
 
     def camera(self) -> Camera:

@@ -11,6 +11,7 @@ from skillc_runtime.backends.kinematic.gripper import KinematicGripper
 from skillc_runtime.backends.kinematic.touch import Touch
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.contact_bits import SOLID
+from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
@@ -73,6 +74,10 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         links = (model.geom_contype & kind) > 0
         model.geom_contype[links] &= ~kind
         model.geom_conaffinity[links] &= ~met
+
+    def _make_cameras(self) -> dict[str, SimulatedPoseCamera]:
+        names = self.scene.names
+        return {c.individual: SimulatedPoseCamera(c, names, self.model, self.data, None) for c in self.scene.cameras}
 
     def _prepare(self) -> None:
         self._touch = Touch(self.scene, list(self.arms.values()), self.model, self.data)

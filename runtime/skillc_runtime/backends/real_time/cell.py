@@ -18,6 +18,7 @@ from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.ground_truth import GroundTruth
@@ -124,6 +125,10 @@ class RealTimeCell:
     def base(self, individual: str) -> MobileBase:
         """Return the mobile base of a robot; KeyError if it has none."""
         return locked(self._simulated.base(individual), self._turn)
+
+    def pose_camera(self, individual: str) -> PoseCamera:
+        """Return a camera that estimates poses; KeyError if the cell has no such camera."""
+        return locked(self._simulated.pose_camera(individual), self._turn)
 
     def camera(self) -> Camera:
         """Return the camera that inspects surfaces."""

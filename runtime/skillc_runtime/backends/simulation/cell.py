@@ -20,6 +20,7 @@ from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
+from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
@@ -72,6 +73,7 @@ class ModelledCell(ABC, Generic[A, G]):
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
         }
         self._camera = SimulatedCamera(self.coverage)
+        self._cameras = self._make_cameras()
         self.watchdog = HeartbeatWatchdog()
         self._buttons = make_buttons(scene.fixtures, variation.fixtures, names, self.data)
         self.people = make_people(scene, variation, self._drivers, self.data)
@@ -132,6 +134,10 @@ class ModelledCell(ABC, Generic[A, G]):
     def base(self, individual: str) -> SimulatedBase:
         """Return the mobile base of a robot; KeyError if it has none."""
         return self._bases[individual]
+
+    def pose_camera(self, individual: str) -> SimulatedPoseCamera:
+        """Return a camera that estimates poses; KeyError if the cell has no such camera."""
+        return self._cameras[individual]
 
     def camera(self) -> SimulatedCamera:
         """Return the camera that inspects surfaces."""
@@ -242,6 +248,14 @@ class ModelledCell(ABC, Generic[A, G]):
             person.step(now)
         self._move(now)
         self._step += 1
+
+    def _make_cameras(self) -> dict[str, SimulatedPoseCamera]:
+        """Return the cameras that estimate poses, by IRI; their errors follow from the seed."""
+        names, seed = self.scene.names, self.variation.seed
+        return {
+            each.individual: SimulatedPoseCamera(each, names, self.model, self.data, seed)
+            for each in self.scene.cameras
+        }
 
     def _report(self, changes: Sequence[Change], origin: str, evidence: Evidence = "reported") -> None:
         """Keep changes of the world model until they are published."""

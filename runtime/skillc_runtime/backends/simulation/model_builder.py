@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -75,9 +76,11 @@ def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0
         mount, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
         add_arm(spec, scene.names, arm, mount, frame.inverse() @ arm.base)
     for tool in scene.tools:
-        add_tool(spec, scene.names, tool, None if tool.rigid else variation.pad_stiffness(tool))
+        there = replace(tool, pose=variation.true_pose(tool.individual, tool.pose))
+        add_tool(spec, scene.names, there, None if tool.rigid else variation.pad_stiffness(tool))
     for body in scene.movable:
-        add_movable_body(spec, scene.names[body.individual], body)
+        lying = replace(body, pose=variation.true_pose(body.individual, body.pose))
+        add_movable_body(spec, scene.names[body.individual], lying)
     exclude_own_overlaps(spec, scene)
     _add_welds(spec, scene)
     for tool, surface in product(scene.tools, scene.surfaces):

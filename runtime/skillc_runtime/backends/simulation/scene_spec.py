@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from skillc_runtime.backends.simulation.camera_spec import CameraSpec, read_cameras
+from skillc_runtime.backends.simulation.displacement import DisplacementRange, read_displacement_ranges
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec, read_fixtures
 from skillc_runtime.backends.simulation.friction import read_friction_range
 from skillc_runtime.backends.simulation.people import PersonSpec, read_people
@@ -169,6 +171,8 @@ class SceneSpec:
     mounted: Mapping[str, str]
     fixtures: tuple[FixtureSpec, ...] = ()
     people: tuple[PersonSpec, ...] = ()
+    cameras: tuple[CameraSpec, ...] = ()
+    displaced: tuple[DisplacementRange, ...] = ()
 
     @property
     def movable(self) -> tuple[Body, ...]:
@@ -194,6 +198,8 @@ def read_scene_spec(state: WorldState) -> SceneSpec:
         mounted=_mounted(state, bodies),
         fixtures=read_fixtures(state),
         people=read_people(state),
+        cameras=read_cameras(state),
+        displaced=read_displacement_ranges(state),
     )
 
 

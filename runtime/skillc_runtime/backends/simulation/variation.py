@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from skillc_runtime.backends.simulation.displacement import Displacement, draw_displacement
 from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation, draw_fixture, exact_fixture
 from skillc_runtime.backends.simulation.people import PersonVariation, draw_person
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
@@ -70,6 +71,12 @@ class Variation:
     pad_share: Mapping[str, float]
     fixtures: tuple[FixtureVariation, ...] = ()
     people: tuple[PersonVariation, ...] = ()
+    displacements: tuple[Displacement, ...] = ()
+
+    def true_pose(self, thing: str, believed: Pose) -> Pose:
+        """Return where a thing really is at the start, in the world."""
+        found = (each for each in self.displacements if each.individual == thing)
+        return next((each.true_pose(believed) for each in found), believed)
 
     def of(self, surface: str) -> SurfaceVariation:
         """Return the difference of one surface; KeyError when it has none."""
@@ -91,7 +98,8 @@ class Variation:
         surfaces = (f"{names[each.surface]} {each.description}" for each in self.surfaces)
         fixtures = (f"{names[each.fixture]} {each.description}" for each in self.fixtures)
         people = (f"{names[each.person]} {each.description}" for each in self.people)
-        return "; ".join((*surfaces, *fixtures, *people))
+        things = (f"{names[each.individual]} {each.description}" for each in self.displacements)
+        return "; ".join((*surfaces, *fixtures, *people, *things))
 
 
 def draw_variation(scene: SceneSpec, seed: int) -> Variation:
@@ -103,6 +111,7 @@ def draw_variation(scene: SceneSpec, seed: int) -> Variation:
         {tool.individual: _pad(tool, seed) for tool in scene.tools},
         tuple(draw_fixture(fixture, seed) for fixture in scene.fixtures),
         tuple(draw_person(person, seed) for person in scene.people),
+        tuple(draw_displacement(each, seed) for each in scene.displaced),
     )
 
 

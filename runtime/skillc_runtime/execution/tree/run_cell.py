@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.sensors import Button, Camera
@@ -62,6 +63,10 @@ class RunCell:
     def base(self, individual: str) -> MobileBase:
         """Return the mobile base of a robot; KeyError if it has none."""
         return self.bases.setdefault(individual, self._cell.base(individual))
+
+    def pose_camera(self, individual: str) -> PoseCamera:
+        """Return a camera that estimates poses; KeyError if the cell has no such camera."""
+        return self._cell.pose_camera(individual)
 
     def camera(self) -> Camera:
         """Return the camera that inspects surfaces."""

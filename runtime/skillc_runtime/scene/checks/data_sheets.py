@@ -10,6 +10,8 @@ from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     ARM_SHEET,
     BASE_SHEET,
+    CAMERA,
+    CAMERA_SHEET,
     END_EFFECTOR,
     FIXTURE,
     FIXTURE_SHEET,
@@ -32,6 +34,7 @@ KINDS = (
     (MOBILE_ROBOT, (BASE_SHEET,)),
     (TOOL, (TOOL_SHEET, RIGID_TOOL_SHEET)),
     (FIXTURE, (FIXTURE_SHEET,)),
+    (CAMERA, (CAMERA_SHEET,)),
 )
 """Kinds of devices with the kinds of sheets that describe them; other kinds are not checked."""
 

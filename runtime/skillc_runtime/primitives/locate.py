@@ -1,0 +1,116 @@
+"""Locates objects with a camera, and confirms that they are where they were put."""
+
+from __future__ import annotations
+
+from skillc_runtime.devices.camera import PoseEstimate
+from skillc_runtime.devices.cell import Cell
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.pose_consensus import agreeing_estimates, mean_pose
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import move_changes
+from skillc_runtime.world.space.lying import lying_problem
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
+from skillc_runtime.world.state.terms import CONTAIN, LOCATED, WORKSTATION
+
+IMAGES = 5
+"""How many estimates are averaged."""
+
+AGREEING = 3
+"""How many estimates must agree for an object to count as located."""
+
+
+class Locate(Primitive):
+    """Writes the pose of an object on which several images of a camera agree."""
+
+    moves = NOTHING
+
+    def __init__(self, cell: Cell, *, camera: str, object: str, patience: float) -> None:
+        super().__init__(cell)
+        self._camera, self._object, self._patience_s = camera, object, patience
+        self._device = cell.pose_camera(camera)
+        self._estimates: list[PoseEstimate] = []
+        self._ends = self._since_s = 0.0
+
+    def start(self) -> None:
+        """Use images from now on."""
+        self._ends, self._since_s, self._estimates = self.cell.now + self._patience_s, self._device.clock_s, []
+
+    def resume(self) -> None:
+        """Start again: meanwhile the object may have been moved."""
+        self.start()
+
+    def tick(self) -> Status:
+        """Return SUCCESS once the pose is written; SkillFailure if too few images agree on one in time."""
+        estimate = self._device.locate(self._object, self._since_s)
+        if estimate is not None and all(estimate.taken_s > each.taken_s for each in self._estimates):
+            self._estimates.append(estimate)
+        late = self.cell.now > self._ends
+        if len(self._estimates) < IMAGES and not late:
+            return Status.RUNNING
+        agreeing = agreeing_estimates(self._estimates)
+        if len(agreeing) >= AGREEING and 2 * len(agreeing) > len(self._estimates):
+            self._conclude(mean_pose(agreeing))
+            return Status.SUCCESS
+        if late:
+            raise self._unseen(len(agreeing))
+        return Status.RUNNING
+
+    def _conclude(self, in_camera: Pose) -> None:
+        self.cell.world.commit(self._placement(in_camera), "Locate", "sensed")
+
+    def _placement(self, in_camera: Pose) -> list[Change]:
+        """Return the changes that place the object; SkillFailure if the world model cannot say where that is."""
+        try:
+            moved = move_changes(self.cell.world.snapshot(), self._object, in_camera, self._camera)
+        except FrameError as error:
+            raise SkillFailure(str(error)) from error
+        return [*moved, SetProperty(self._object, LOCATED, True)]
+
+    def _unseen(self, agreeing: int) -> SkillFailure:
+        return SkillFailure(
+            "{camera} does not find {object} within {patience:.1f}: of {images} estimates {agreeing} agree, "
+            "and {needed} must; it is hidden, out of view or elsewhere",
+            camera=self._label(self._camera),
+            object=self._label(self._object),
+            patience=Quantity(self._patience_s, "s"),
+            images=len(self._estimates),
+            agreeing=agreeing,
+            needed=AGREEING,
+        )
+
+    def _label(self, individual: str) -> LabelledIri:
+        return label(individual, self.cell.world.snapshot().vocabulary)
+
+
+class ConfirmPlaced(Locate):
+    """Locates an object, and writes that a place contains it if it lies there; else it fails and says where it lies."""
+
+    def __init__(self, cell: Cell, *, camera: str, object: str, place: str, patience: float) -> None:
+        super().__init__(cell, camera=camera, object=object, patience=patience)
+        self._place = place
+
+    def _conclude(self, in_camera: Pose) -> None:
+        super()._conclude(in_camera)
+        world = self.cell.world
+        try:
+            problem = lying_problem(world.snapshot(), self._object, self._place)
+        except FrameError as error:
+            raise SkillFailure(str(error)) from error
+        if problem is not None:
+            world.commit([RemoveRelation(self._place, CONTAIN, self._object)], "ConfirmPlaced", "sensed")
+            world.commit(self._surroundings(), "ConfirmPlaced", "assumed")
+            raise SkillFailure(
+                "{camera} sees that {object} is not where it was put: {problem}",
+                camera=self._label(self._camera),
+                object=self._label(self._object),
+                problem=problem,
+            )
+        world.commit([AddRelation(self._place, CONTAIN, self._object)], "ConfirmPlaced", "sensed")
+
+    def _surroundings(self) -> list[Change]:
+        """Return that the object is in the workstation around the place, so that it can be picked up again."""
+        state = self.cell.world.snapshot()
+        around = sorted(state.subjects(CONTAIN, self._place) & state.instances(WORKSTATION))
+        return [AddRelation(each, CONTAIN, self._object) for each in around[:1]]
