@@ -12,7 +12,7 @@ from skillc_runtime.backends.simulation.contact_bits import CARRIES, MOVABLE, WO
 from skillc_runtime.backends.simulation.names import part_name, solid_geom_name
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import Body
-from skillc_runtime.world.space.shapes import Solid, centre_of
+from skillc_runtime.world.space.solids import Solid, centre_of
 
 TORSION_M, ROLLING_M = 0.005, 0.0002
 """Friction against spinning and against rolling: a ball on a table comes to rest."""
@@ -24,10 +24,10 @@ OWN_CONTACT = 1
 """Priority of movable bodies: in their contacts, their friction counts, whatever they touch."""
 
 
-def add_fixed_body(parent: Any, name: str, body: Body, place: Pose) -> None:
+def add_fixed_body(spec: Any, parent: Any, name: str, body: Body, place: Pose) -> None:
     """Add a fixed body to a parent, in whose frame it has a pose."""
     added = parent.add_body(name=name, pos=place.position, quat=quaternion_from_rotation(place.rotation))
-    for geom in _add_solids(added, name, body):
+    for geom in _add_solids(spec, added, name, body):
         set_support(geom, body.friction)
 
 
@@ -38,7 +38,7 @@ def add_movable_body(spec: Any, name: str, body: Body) -> None:
         name=part_name(name, "block"), pos=place.position, quat=quaternion_from_rotation(place.rotation)
     )
     added.add_freejoint(name=part_name(name, "free"))
-    for geom in _add_solids(added, name, body):
+    for geom in _add_solids(spec, added, name, body):
         geom.contype, geom.conaffinity = MOVABLE
         geom.condim, geom.priority = 6, OWN_CONTACT
         geom.friction, geom.solref, geom.solimp = [body.friction, TORSION_M, ROLLING_M], SOLREF, SOLIMP
@@ -56,34 +56,38 @@ def set_support(geom: Any, friction: float) -> None:
 def _set_centre(added: Any, body: Body) -> None:
     """Set a centre of mass other than that of the solids; the moments of inertia about it are those of the solids."""
     alone = mujoco.MjSpec()
-    list(_add_solids(alone.worldbody.add_body(name="alone"), "alone", body))
+    list(_add_solids(alone, alone.worldbody.add_body(name="alone"), "alone", body))
     model = alone.compile()
     added.explicitinertial, added.mass, added.ipos = True, body.mass_kg, body.centre
     added.inertia, added.iquat = model.body_inertia[1], model.body_iquat[1]
 
 
-def _add_solids(parent: Any, name: str, body: Body) -> Iterator[Any]:
+def _add_solids(spec: Any, parent: Any, name: str, body: Body) -> Iterator[Any]:
     """Add the solids of a body with their shares of its mass, and yield their geoms."""
     volume = sum(each.volume for each in body.solids)
     for number, solid in enumerate(body.solids):
-        kind, size = _geom_size(solid)
-        geom = parent.add_geom(name=solid_geom_name(name, number), type=kind, size=size)
+        geom = parent.add_geom(name=solid_geom_name(name, number))
+        set_form(spec, geom, solid)
         geom.pos, geom.quat = solid.place.position, quaternion_from_rotation(solid.place.rotation)
         geom.rgba, geom.mass = list(body.colour), body.mass_kg * solid.volume / volume
         yield geom
 
 
-def _geom_size(solid: Solid) -> tuple[Any, list[float]]:
-    """Return MuJoCo's kind of a solid and its size, three numbers of which a kind uses the first."""
+def set_form(spec: Any, geom: Any, solid: Solid) -> None:
+    """Set the kind and the size of a named geom to those of a solid."""
     x, y, z = solid.half
     match solid.kind:
         case "box":
-            return mujoco.mjtGeom.mjGEOM_BOX, [x, y, z]
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_BOX, [x, y, z]
         case "cylinder":
-            return mujoco.mjtGeom.mjGEOM_CYLINDER, [x, z, 0.0]
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [x, z, 0.0]
         case "sphere":
-            return mujoco.mjtGeom.mjGEOM_SPHERE, [x, 0.0, 0.0]
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [x, 0.0, 0.0]
         case "capsule":
-            return mujoco.mjtGeom.mjGEOM_CAPSULE, [x, z - x, 0.0]
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CAPSULE, [x, z - x, 0.0]
+        case "hull":
+            points = solid.of_hull.points
+            spec.add_mesh(name=geom.name, uservert=points.ravel(), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
+            geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, geom.name
         case _:
             assert_never(solid.kind)

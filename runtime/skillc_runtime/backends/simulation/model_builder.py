@@ -63,7 +63,7 @@ def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0
     spec = _empty(timestep_s)
     for body in scene.bodies:
         if not body.movable and body.individual not in scene.mounted:
-            add_fixed_body(spec.worldbody, scene.names[body.individual], body, body.pose)
+            add_fixed_body(spec, spec.worldbody, scene.names[body.individual], body, body.pose)
     for surface in scene.surfaces:
         true = variation.of(surface.individual)
         if true.present:
@@ -71,7 +71,7 @@ def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0
     for fixture, how in zip(scene.fixtures, variation.fixtures, strict=True):
         add_fixture(spec, scene.names[fixture.individual], fixture, how)
     mounts = {base.individual: _add_base(spec, scene, base) for base in scene.bases}
-    _add_mounted_bodies(scene, mounts)
+    _add_mounted_bodies(spec, scene, mounts)
     for arm in scene.arms:
         mount, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
         add_arm(spec, scene.names, arm, mount, frame.inverse() @ arm.base)
@@ -153,12 +153,12 @@ def _add_base(spec: Any, scene: SceneSpec, base: BaseSpec) -> tuple[Any, Pose]:
     return body, base.pose
 
 
-def _add_mounted_bodies(scene: SceneSpec, mounts: Mapping[str, tuple[Any, Pose]]) -> None:
+def _add_mounted_bodies(spec: Any, scene: SceneSpec, mounts: Mapping[str, tuple[Any, Pose]]) -> None:
     """Add the fixed bodies that mobile bases carry to their bodies, which `mounts` has with their poses."""
     for body in scene.bodies:
         if body.individual in scene.mounted:
             mount, frame = mounts[scene.mounted[body.individual]]
-            add_fixed_body(mount, scene.names[body.individual], body, frame.inverse() @ body.pose)
+            add_fixed_body(spec, mount, scene.names[body.individual], body, frame.inverse() @ body.pose)
 
 
 def _add_welds(spec: Any, scene: SceneSpec) -> None:

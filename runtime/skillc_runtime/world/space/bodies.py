@@ -10,24 +10,27 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.extents import FRAME_HEIGHT
 from skillc_runtime.world.space.frame_tree import Unplaced
-from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.space.frames import pose, relative_pose, size
+from skillc_runtime.world.space.mesh_file import read_mesh
 from skillc_runtime.world.space.shapes import (
     Bin,
     Box,
     Capsule,
     Cylinder,
+    Panel,
     Shape,
     ShapeError,
-    Size,
-    Solid,
+    Shelf,
     Sphere,
-    centre_of,
+    Table,
     solids_of,
 )
-from skillc_runtime.world.state.data_sheet import SheetError, number_of
+from skillc_runtime.world.space.solids import Size, Solid, centre_of
+from skillc_runtime.world.state.data_sheet import SheetError, number_of, text_of
 from skillc_runtime.world.state.terms import (
     AREA,
     ARM_DEVICE,
+    BOARDS,
     CENTRE_OF_MASS,
     COLOUR,
     CONTAINER,
@@ -36,7 +39,9 @@ from skillc_runtime.world.state.terms import (
     FIXTURE,
     FRICTION,
     FURNITURE,
+    HAS_OPENING,
     MANIPULATABLE,
+    MESH,
     PERSON,
     ROBOT,
     SENSOR,
@@ -66,8 +71,11 @@ FRICTION_UNLESS_STATED = 0.6
 DENSITY_UNLESS_STATED = 1000.0
 """Water, kg/m^3."""
 
-BIN_WALL_M = 0.004
-"""The thickness of the walls of a bin that states none."""
+BIN_WALL_M, SHELF_WALL_M, TABLE_WALL_M = 0.004, 0.018, 0.03
+"""The thickness of walls and boards that is not stated."""
+
+SHELF_BOARDS = 3
+"""The number of boards of a shelf that states none."""
 
 WOOD: Final[Colour] = (0.62, 0.52, 0.4, 1.0)
 PLASTIC: Final[Colour] = (0.35, 0.5, 0.65, 1.0)
@@ -141,20 +149,46 @@ def has_body(state: WorldState, individual: str) -> bool:
 def read_shape(state: WorldState, individual: str) -> Shape:
     """Return the shape that a thing states, else that of its class; MissingFact or SheetError if it has no such."""
     x, y, z = size(state, individual).tolist()
+    try:
+        return _shape(state, individual, (x, y, z))
+    except ShapeError as error:
+        raise SheetError(f"{state.vocabulary.short(individual)} {error}") from error
+
+
+def _shape(state: WorldState, individual: str, size: Size) -> Shape:
     match state.value(individual, SHAPE) or ("bin" if state.is_a(individual, CONTAINER) else "box"):
         case "box":
-            return Box((x, y, z))
+            return Box(size)
         case "cylinder":
-            return Cylinder((x, y, z))
+            return Cylinder(size)
         case "sphere":
-            return Sphere((x, y, z))
+            return Sphere(size)
         case "capsule":
-            return Capsule((x, y, z))
+            return Capsule(size)
         case "bin":
-            return Bin((x, y, z), number_of(state, individual, WALL_THICKNESS, default=BIN_WALL_M))
+            return Bin(size, number_of(state, individual, WALL_THICKNESS, default=BIN_WALL_M))
+        case "shelf":
+            boards = number_of(state, individual, BOARDS, default=SHELF_BOARDS)
+            return Shelf(size, number_of(state, individual, WALL_THICKNESS, default=SHELF_WALL_M), int(boards))
+        case "table":
+            return Table(size, number_of(state, individual, WALL_THICKNESS, default=TABLE_WALL_M))
+        case "panel":
+            return Panel(size, tuple(_opening(state, individual, each) for each in _openings(state, individual)))
+        case "mesh" | "hull" as kind:
+            return read_mesh(text_of(state, individual, MESH), size, kind == "hull")
         case other:
-            short = state.vocabulary.short
-            raise SheetError(f"{short(individual)} has the {short(SHAPE)} {other!r}, which has no body yet")
+            raise ShapeError(f"has the shape {other!r}, which does not exist")
+
+
+def _openings(state: WorldState, panel: str) -> list[str]:
+    return sorted(state.objects(panel, HAS_OPENING))
+
+
+def _opening(state: WorldState, panel: str, opening: str) -> tuple[float, float, float, float]:
+    """Return the smallest rectangle along the axes of a panel that contains an opening: middle and size in m."""
+    place, extent = relative_pose(state, panel, opening), [number_of(state, opening, name) for name in SIZE[:2]]
+    width, depth = (np.abs(place.rotation[:2, :2]) @ extent).tolist()
+    return float(place.position[0]), float(place.position[1]), width, depth
 
 
 def _in_own_frame(state: WorldState, individual: str, shape: Shape) -> tuple[Solid, ...]:

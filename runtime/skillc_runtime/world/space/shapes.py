@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
-from typing import Literal, TypeAlias, assert_never
+from itertools import pairwise, product
+from typing import TypeAlias, assert_never
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array, Pose
-
-Size: TypeAlias = tuple[float, float, float]
-Kind: TypeAlias = Literal["box", "cylinder", "sphere", "capsule"]
+from skillc_runtime.world.space.solids import Hull, Kind, Size, Solid, block
 
 ROUND_M = 1e-6
 """The diameters of what is round may differ by this much."""
+
+LEG_SHARE = 2.0
+"""How much thicker the legs of a table are than its board."""
 
 
 class ShapeError(ValueError):
@@ -63,79 +63,88 @@ class Bin:
         return x - 2 * self.wall_m, y - 2 * self.wall_m, z - self.wall_m
 
 
-Shape: TypeAlias = Box | Cylinder | Sphere | Capsule | Bin
+@dataclass(frozen=True, slots=True)
+class Shelf:
+    """Boards of thickness `wall_m` between two sides and a back, open towards -y, in a box of size (3,) m."""
+
+    size: Size
+    wall_m: float
+    boards: int
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A board of thickness `wall_m` on four legs, in a box of size (3,) m."""
+
+    size: Size
+    wall_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """A box of size (3,) m with rectangles (x, y, width, depth) in m, of their middles, cut through it along z."""
+
+    size: Size
+    openings: tuple[tuple[float, float, float, float], ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Solid:
-    """A convex piece: half the size (3,) m of its own bounding box, and its pose in the frame of what it belongs to.
+class Mesh:
+    """Convex pieces of a mesh in a box of size (3,) m; `whole` if they are the hull of all of it."""
 
-    Cylinders and capsules are along z; half of a capsule's length includes its end.
-    """
+    size: Size
+    pieces: tuple[Hull, ...]
+    whole: bool
 
-    kind: Kind
-    half: Size
-    place: Pose
 
-    @property
-    def volume(self) -> float:
-        """The volume in m^3."""
-        x, y, z = self.half
-        match self.kind:
-            case "box":
-                return 8 * x * y * z
-            case "cylinder":
-                return 2 * pi * x * x * z
-            case "sphere":
-                return 4 / 3 * pi * x**3
-            case "capsule":
-                return 2 * pi * x * x * (z - x) + 4 / 3 * pi * x**3
-            case _:
-                assert_never(self.kind)
+Shape: TypeAlias = Box | Cylinder | Sphere | Capsule | Bin | Shelf | Table | Panel | Mesh
 
 
 def solids_of(shape: Shape) -> tuple[Solid, ...]:
     """Return the solids of a shape in the frame at the middle of its box; ShapeError if its size is impossible."""
     match shape:
         case Box():
-            return (_solid("box", shape.size),)
+            return (block(shape.size),)
         case Cylinder():
-            _check_round("cylinder", shape.size[:2])
-            return (_solid("cylinder", shape.size),)
+            return (_round("cylinder", shape.size, 2),)
         case Sphere():
-            _check_round("sphere", shape.size)
-            return (_solid("sphere", shape.size),)
+            return (_round("sphere", shape.size, 3),)
         case Capsule():
             return (_capsule(shape.size),)
         case Bin():
             return _bin(shape)
+        case Shelf():
+            return _shelf(shape)
+        case Table():
+            return _table(shape)
+        case Panel():
+            return _panel(shape)
+        case Mesh():
+            middle = block(shape.size)
+            return tuple(Solid("hull", _half(each), middle.place, each) for each in shape.pieces)
         case _:
             assert_never(shape)
 
 
-def centre_of(solids: tuple[Solid, ...]) -> Array:
-    """Return the centre of mass (3,) in m of solids of one material, in their frame."""
-    volumes = np.array([each.volume for each in solids])
-    return np.asarray(volumes @ np.array([each.place.position for each in solids]) / volumes.sum())
+def _half(hull: Hull) -> Size:
+    x, y, z = np.abs(hull.points).max(axis=0).tolist()
+    return x, y, z
 
 
-def _solid(kind: Kind, size: tuple[float, ...], middle: tuple[float, ...] = (0.0, 0.0, 0.0)) -> Solid:
-    x, y, z = size
-    return Solid(kind, (x / 2, y / 2, z / 2), Pose(np.array(middle), np.eye(3)))
-
-
-def _check_round(kind: str, sizes: tuple[float, ...]) -> None:
+def _round(kind: Kind, size: Size, equal: int) -> Solid:
+    sizes = size[:equal]
     if max(sizes) - min(sizes) > ROUND_M:
-        names = " and ".join(("SizeX", "SizeY", "SizeZ")[: len(sizes)])
+        names = ("SizeX and SizeY", "SizeX, SizeY and SizeZ")[equal - 2]
         found = " x ".join(f"{each:g}" for each in sizes)
         raise ShapeError(f"is {found} m, but {names} of a {kind} are its diameter, so they must be equal")
+    return block(size, kind=kind)
 
 
 def _capsule(size: Size) -> Solid:
-    _check_round("capsule", size[:2])
+    solid = _round("capsule", size, 2)
     if size[2] < size[0] - ROUND_M:
         raise ShapeError(f"is {size[2]:g} m long, but a capsule is at least as long as its diameter of {size[0]:g} m")
-    return _solid("capsule", size)
+    return block(size, kind="sphere") if size[2] < size[0] + ROUND_M else solid
 
 
 def _bin(shape: Bin) -> tuple[Solid, ...]:
@@ -143,7 +152,63 @@ def _bin(shape: Bin) -> tuple[Solid, ...]:
     (x, y, z), wall, (inside_x, inside_y, inside_z) = shape.size, shape.wall_m, shape.inside
     if min(inside_x, inside_y, inside_z) <= 0:
         raise ShapeError(f"is {x:g} x {y:g} x {z:g} m with walls of {wall:g} m, so there is no room inside")
-    floor = _solid("box", (x, y, wall), (0.0, 0.0, (wall - z) / 2))
-    long = [_solid("box", (wall, y, inside_z), (side * (x - wall) / 2, 0.0, wall / 2)) for side in (-1, 1)]
-    short = [_solid("box", (inside_x, wall, inside_z), (0.0, side * (y - wall) / 2, wall / 2)) for side in (-1, 1)]
+    floor = block((x, y, wall), (0.0, 0.0, (wall - z) / 2))
+    long = [block((wall, y, inside_z), (side * (x - wall) / 2, 0.0, wall / 2)) for side in (-1, 1)]
+    short = [block((inside_x, wall, inside_z), (0.0, side * (y - wall) / 2, wall / 2)) for side in (-1, 1)]
     return (floor, *long, *short)
+
+
+def _shelf(shape: Shelf) -> tuple[Solid, ...]:
+    """Return the boards from the bottom to the top, then the sides at both ends of x, then the back at +y."""
+    (x, y, z), wall = shape.size, shape.wall_m
+    if shape.boards < 2 or shape.boards * wall >= z or 2 * wall >= x or wall >= y:
+        raise ShapeError(
+            f"is {x:g} x {y:g} x {z:g} m with {shape.boards} boards of {wall:g} m; a shelf has room between two"
+        )
+    heights = np.linspace((wall - z) / 2, (z - wall) / 2, shape.boards).tolist()
+    boards = [block((x - 2 * wall, y - wall, wall), (0.0, -wall / 2, height)) for height in heights]
+    sides = [block((wall, y - wall, z), (side * (x - wall) / 2, -wall / 2, 0.0)) for side in (-1, 1)]
+    return (*boards, *sides, block((x, wall, z), (0.0, (y - wall) / 2, 0.0)))
+
+
+def _table(shape: Table) -> tuple[Solid, ...]:
+    """Return the board, then the four legs in its corners."""
+    (x, y, z), wall = shape.size, shape.wall_m
+    leg = LEG_SHARE * wall
+    if wall >= z or 2 * leg >= min(x, y):
+        raise ShapeError(f"is {x:g} x {y:g} x {z:g} m with a board of {wall:g} m; a table has room between its legs")
+    board = block((x, y, wall), (0.0, 0.0, (z - wall) / 2))
+    corners = product((-1, 1), (-1, 1))
+    legs = [block((leg, leg, z - wall), (a * (x - leg) / 2, b * (y - leg) / 2, -wall / 2)) for a, b in corners]
+    return (board, *legs)
+
+
+def _panel(shape: Panel) -> tuple[Solid, ...]:
+    """Return the boxes that remain: one for each piece of each strip along x between edges of openings along y."""
+    x, y, z = shape.size
+    found = []
+    for low, high in pairwise(_edges(y, [(v, d) for _, v, _, d in shape.openings])):
+        middle = (low + high) / 2
+        cut = [(u, w) for u, v, w, d in shape.openings if abs(middle - v) < d / 2]
+        for left, right in _between(x, cut):
+            found.append(block((right - left, high - low, z), ((left + right) / 2, middle, 0.0)))
+    if not found:
+        raise ShapeError("has openings that leave nothing of it")
+    return tuple(found)
+
+
+def _edges(length: float, spans: list[tuple[float, float]]) -> list[float]:
+    """Return the ends of spans (middle, length) within a length, and its own, ascending."""
+    half = length / 2
+    ends = {min(max(end, -half), half) for middle, span in spans for end in (middle - span / 2, middle + span / 2)}
+    return sorted({-half, half, *ends})
+
+
+def _between(length: float, spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return what spans (middle, length) leave of a length, as pairs of ends."""
+    half, at, left = length / 2, -length / 2, []
+    for middle, span in sorted(spans, key=lambda each: each[0] - each[1] / 2):
+        if middle - span / 2 > at:
+            left.append((at, min(middle - span / 2, half)))
+        at = max(at, middle + span / 2)
+    return [*left, (at, half)] if at < half else left
