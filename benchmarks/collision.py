@@ -15,7 +15,7 @@ from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import build_collision_model
 from skillc_runtime.collision.path_planning import JointSpace, NoPath, plan_joint_path
-from skillc_runtime.collision.scenery import BoxObstacle, PoseKey, read_scenery
+from skillc_runtime.collision.scenery import PoseKey, SolidObstacle, read_scenery
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose
@@ -33,7 +33,7 @@ def situation(scene: str) -> tuple[CollisionChecker, Array, JointSpace]:
     vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
     state = load_scene(catalogue.scene_path(scene), vocabulary)
     arm = min(state.instances(ARM_DEVICE))
-    pillar = BoxObstacle("pillar", PoseKey((*PILLARS[scene], 0.0), (1.0, 0.0, 0.0, 0.0)), (0.06, 0.06, 0.55))
+    pillar = SolidObstacle("pillar", PoseKey((*PILLARS[scene], 0.0), (1.0, 0.0, 0.0, 0.0)), (0.06, 0.06, 0.55))
     around = read_scenery(state, pose(state, arm))
     around = replace(around, blocks=(*around.blocks, pillar))
     shape = build_collision_model(

@@ -67,8 +67,9 @@ def test_an_arm_that_touches_something_wherever_it_is_drawn_starts_at_home(monke
 
 def test_what_an_arm_touches_at_home_says_nothing_of_its_starts() -> None:
     arm = arm_in(
-        '"cell" ; skiros:BaseFrameId',
-        '"cell" ; skiros:SizeX 6.0 ; skiros:SizeY 6.0 ; skiros:SizeZ 6.0 ; skiros:BaseFrameId',
+        "lab:Scene-1 a",
+        "lab:Fog a skiros:Location ; skiros:at lab:Cell ; "
+        "skiros:SizeX 6.0 ; skiros:SizeY 6.0 ; skiros:SizeZ 6.0 .\n\nlab:Scene-1 a",
     )
     contacts = looking(arm)
     assert contacts.overlapping_pairs(arm.home)

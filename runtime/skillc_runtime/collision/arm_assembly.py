@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skillc_runtime.collision.scenery import BoxObstacle, pose_key
+from skillc_runtime.collision.scenery import SolidObstacle, make_obstacles, pose_key
+from skillc_runtime.world.space.bodies import has_body, read_solids
 from skillc_runtime.world.space.frame_tree import MissingFact, frame_tree_of
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
@@ -14,12 +15,12 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class Hand:
-    """A gripper: its short name, its MJCF, the distance of its fingers in m, held boxes in the frame of its `tcp`."""
+    """A gripper: its short name, its MJCF, the distance of its fingers in m, held solids in the frame of its `tcp`."""
 
     name: str
     model: str
     opening_m: float
-    held: tuple[BoxObstacle, ...]
+    held: tuple[SolidObstacle, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,14 +54,18 @@ def _hand(state: WorldState, gripper: str, opening_m: float) -> Hand:
     model = str(sheet_of(state, gripper).model)
     frame = state.value(gripper, FRAME_ID)
     inside = sorted(state.objects(gripper, CONTAIN))
-    held = (_held(state, thing) for thing in inside if state.value(thing, BASE_FRAME_ID) == frame)
-    return Hand(state.vocabulary.short(gripper), model, round(opening_m, 3), tuple(one for one in held if one))
+    things = (thing for thing in inside if state.value(thing, BASE_FRAME_ID) == frame)
+    held = tuple(each for thing in things for each in _held(state, thing))
+    return Hand(state.vocabulary.short(gripper), model, round(opening_m, 3), held)
 
 
-def _held(state: WorldState, thing: str) -> BoxObstacle | None:
-    """Return the box of a held object, None if its size or its pose in the hand is not known."""
+def _held(state: WorldState, thing: str) -> tuple[SolidObstacle, ...]:
+    """Return the solids of a held body, or the box of another object; none if size or pose in the hand is not known."""
+    name = state.vocabulary.short(thing)
     try:
-        at, half = frame_tree_of(state).own_pose(thing), size(state, thing) / 2
+        at = frame_tree_of(state).own_pose(thing)
+        if has_body(state, thing):
+            return tuple(make_obstacles(name, read_solids(state, thing), at))
+        return (SolidObstacle(name, pose_key(at), tuple((size(state, thing) / 2).tolist())),)
     except MissingFact:
-        return None
-    return BoxObstacle(state.vocabulary.short(thing), pose_key(at), tuple(half.tolist()))
+        return ()

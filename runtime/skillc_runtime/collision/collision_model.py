@@ -12,7 +12,8 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.collision.arm_assembly import ArmAssembly, Hand
-from skillc_runtime.collision.scenery import BoxObstacle, Scenery, pose_key
+from skillc_runtime.collision.scenery import Scenery
+from skillc_runtime.collision.solid_geoms import add_solid
 from skillc_runtime.motion.pose import Array, Pose
 
 MOVES, STANDS = 1, 2
@@ -20,6 +21,9 @@ MOVES, STANDS = 1, 2
 
 ARM, HAND, HELD = "arm/", "hand/", "held/"
 """Prefixes of the names of an arm's links, of its gripper's parts and of held objects."""
+
+
+ORIGIN = Pose.of((0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +81,8 @@ def _add_hand(spec: Any, hand: Hand) -> None:
     spec.attach(_moving_model(hand.model), prefix=HAND, site=spec.site(ARM + "flange"))
     centre = spec.site(HAND + "tcp")
     for index, block in enumerate(hand.held):
-        at = Pose.of(centre.pos, centre.quat) @ Pose.of(block.place.position, block.place.quaternion)
-        geom = _box(centre.parent, f"{HELD}{index}", BoxObstacle(block.name, pose_key(at), block.half))
+        solid = block.solid_at(Pose.of(centre.pos, centre.quat))
+        geom = add_solid(spec, centre.parent, f"{HELD}{index}", solid)
         geom.contype, geom.conaffinity = MOVES, MOVES | STANDS
 
 
@@ -97,7 +101,7 @@ def _add_scenery(spec: Any, scenery: Scenery) -> None:
     floor.pos, floor.quat = scenery.floor.position, scenery.floor.quaternion
     _set_static(floor)
     for index, block in enumerate(scenery.blocks):
-        _set_static(_box(spec.worldbody, f"block/{index}", block))
+        _set_static(add_solid(spec, spec.worldbody, f"block/{index}", block.solid_at(ORIGIN)))
     for index, thing in enumerate(scenery.modelled):
         model = _passive_model(thing.model)
         for joint in model.joints:
@@ -106,12 +110,6 @@ def _add_scenery(spec: Any, scenery: Scenery) -> None:
             _set_static(geom)
         frame = spec.worldbody.add_frame(pos=thing.place.position, quat=thing.place.quaternion)
         spec.attach(model, prefix=f"thing/{index}/", frame=frame)
-
-
-def _box(parent: Any, name: str, block: BoxObstacle) -> Any:
-    geom = parent.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=block.half)
-    geom.pos, geom.quat = block.place.position, block.place.quaternion
-    return geom
 
 
 def _set_static(geom: Any) -> None:

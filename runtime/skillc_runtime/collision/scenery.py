@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -10,11 +10,14 @@ from typing import TypeAlias
 import numpy as np
 
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.world.space.bodies import read_body
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.oriented_box import OrientedBox
+from skillc_runtime.world.space.solids import Hull, Kind, Solid
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.terms import FIXTURE, SIZE, WORKSPACE
+from skillc_runtime.world.state.terms import FIXTURE, SIZE, WORKSPACE, WORKSTATION
 from skillc_runtime.world.state.world_state import WorldState
 
 FAR_M = 3.0
@@ -32,12 +35,23 @@ class PoseKey:
 
 
 @dataclass(frozen=True, slots=True)
-class BoxObstacle:
-    """A box: its short name, the pose of its centre, half its size in m."""
+class SolidObstacle:
+    """A convex solid: the short name of what it belongs to, its pose, half its size in m, and the points of a hull.
+
+    `points` are the bytes of an array (n, 3) in m, along the axes of the solid; empty for all other kinds.
+    """
 
     name: str
     place: PoseKey
     half: Numbers
+    kind: Kind = "box"
+    points: bytes = b""
+
+    def solid_at(self, frame: Pose) -> Solid:
+        """Return the solid as seen from the parent of a frame in which its pose is."""
+        x, y, z = self.half
+        hull = Hull(np.frombuffer(self.points).reshape(-1, 3), 0.0, np.zeros(3)) if self.points else None
+        return Solid(self.kind, (x, y, z), frame @ Pose.of(self.place.position, self.place.quaternion), hull)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +68,7 @@ class Scenery:
     """The obstacles in order of IRI, and the floor, in the plane of the map frame."""
 
     floor: PoseKey
-    blocks: tuple[BoxObstacle, ...]
+    blocks: tuple[SolidObstacle, ...]
     modelled: tuple[ModelObstacle, ...]
 
 
@@ -73,16 +87,32 @@ def read_scenery(state: WorldState, base: Pose) -> Scenery:
     return Scenery(pose_key(inward), tuple(_blocks(state, inward)), tuple(_modelled(state, inward)))
 
 
-def _blocks(state: WorldState, inward: Pose) -> Iterator[BoxObstacle]:
+def make_obstacles(name: str, solids: Iterable[Solid], frame: Pose) -> Iterator[SolidObstacle]:
+    """Yield the obstacles that solids of a thing are whose frame is at a pose."""
+    for each in solids:
+        points = b"" if each.hull is None else each.hull.points.tobytes()
+        yield SolidObstacle(name, pose_key(frame @ each.place), each.half, each.kind, points)
+
+
+def _blocks(state: WorldState, inward: Pose) -> Iterator[SolidObstacle]:
+    """Yield the solids of bodies, and boxes for other things with a size."""
     sized = state.stored.get(SIZE[0])
     for individual in sorted(each for each, _ in sized.items()) if sized else ():
-        if state.is_a(individual, WORKSPACE) or state.is_a(individual, FIXTURE):
+        if any(state.is_a(individual, cls) for cls in (WORKSPACE, WORKSTATION, FIXTURE)):
             continue
-        with suppress(FrameError):
+        with suppress(FrameError, SheetError):
             box = solid_box(state, individual)
             middle = inward @ box.middle
             if np.linalg.norm(middle.position) - np.linalg.norm(box.half) < FAR_M:
-                yield BoxObstacle(state.vocabulary.short(individual), pose_key(middle), tuple(box.half.tolist()))
+                yield from _obstacles(state, individual, box, inward)
+
+
+def _obstacles(state: WorldState, individual: str, box: OrientedBox, inward: Pose) -> Iterator[SolidObstacle]:
+    name, body = state.vocabulary.short(individual), read_body(state, individual)
+    if body is None:
+        yield SolidObstacle(name, pose_key(inward @ box.middle), tuple(box.half.tolist()))
+    else:
+        yield from make_obstacles(name, body.solids, inward @ body.pose)
 
 
 def _modelled(state: WorldState, inward: Pose) -> Iterator[ModelObstacle]:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, assert_never
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from skillc_runtime.backends.simulation.contact_bits import CARRIES, MOVABLE, WORKS
 from skillc_runtime.backends.simulation.names import part_name, solid_geom_name
+from skillc_runtime.collision.solid_geoms import add_solid
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import Body
-from skillc_runtime.world.space.solids import Solid, centre_of
+from skillc_runtime.world.space.solids import centre_of
 
 TORSION_M, ROLLING_M = 0.005, 0.0002
 """Friction against spinning and against rolling: a ball on a table comes to rest."""
@@ -66,28 +67,6 @@ def _add_solids(spec: Any, parent: Any, name: str, body: Body) -> Iterator[Any]:
     """Add the solids of a body with their shares of its mass, and yield their geoms."""
     volume = sum(each.volume for each in body.solids)
     for number, solid in enumerate(body.solids):
-        geom = parent.add_geom(name=solid_geom_name(name, number))
-        set_form(spec, geom, solid)
-        geom.pos, geom.quat = solid.place.position, quaternion_from_rotation(solid.place.rotation)
+        geom = add_solid(spec, parent, solid_geom_name(name, number), solid)
         geom.rgba, geom.mass = list(body.colour), body.mass_kg * solid.volume / volume
         yield geom
-
-
-def set_form(spec: Any, geom: Any, solid: Solid) -> None:
-    """Set the kind and the size of a named geom to those of a solid."""
-    x, y, z = solid.half
-    match solid.kind:
-        case "box":
-            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_BOX, [x, y, z]
-        case "cylinder":
-            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [x, z, 0.0]
-        case "sphere":
-            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [x, 0.0, 0.0]
-        case "capsule":
-            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CAPSULE, [x, z - x, 0.0]
-        case "hull":
-            points = solid.of_hull.points
-            spec.add_mesh(name=geom.name, uservert=points.ravel(), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
-            geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, geom.name
-        case _:
-            assert_never(solid.kind)

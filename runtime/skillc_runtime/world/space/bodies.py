@@ -146,6 +146,11 @@ def has_body(state: WorldState, individual: str) -> bool:
     return sized and not any(state.is_a(individual, cls) for cls in (*REGIONS, *MODELLED))
 
 
+def read_solids(state: WorldState, individual: str) -> tuple[Solid, ...]:
+    """Return the solids of a thing in its own frame, wherever it is; MissingFact or SheetError if it has no shape."""
+    return _in_own_frame(state, individual, read_shape(state, individual))
+
+
 def read_shape(state: WorldState, individual: str) -> Shape:
     """Return the shape that a thing states, else that of its class; MissingFact or SheetError if it has no such."""
     x, y, z = size(state, individual).tolist()
