@@ -9,6 +9,7 @@ from time import perf_counter
 
 from skillc.services.backends import BackendName, make_backend
 from skillc.services.breakpoints import parse_breakpoints
+from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
@@ -73,6 +74,9 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
     process can be started.
     """
     gate = Gate(parse_breakpoints(options.pause_at, task.library))
+    problem = find_start_problem(task, reporter)
+    if problem is not None:
+        return end_unstarted(task, options.out, options.seed, "refused", problem, reporter)
     if options.step:
         gate.step("into", ())
     with _start_planning(task, task.assignment, FailedSteps(task.library), options) as planning:

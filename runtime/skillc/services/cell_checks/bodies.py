@@ -9,21 +9,24 @@ from skillc_runtime.world.space.bodies import has_body, read_body
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.terms import CONTAINER, HAS_A, HAS_SHEET, MANIPULATABLE, SHAPE, SIZE
+from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAINER, HAS_A, HAS_SHEET, MANIPULATABLE, SHAPE, SIZE
 from skillc_runtime.world.state.world_state import WorldState
 
 
 def check_bodies(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator[SceneViolation]:
-    """Yield things to handle and containers without a size, and things whose size or shape is impossible."""
-    if not set(SIZE) <= state.vocabulary.properties.keys():
-        return
-    handled = {*state.instances(MANIPULATABLE), *state.instances(CONTAINER)}
+    """Yield things to handle and containers without a size if there is an arm, and impossible sizes and shapes."""
+    handled = {*state.instances(MANIPULATABLE), *state.instances(CONTAINER)} if _has_devices(state) else set()
     sized = {each for name in SIZE if name in state.stored for each, _ in state.stored[name].items()}
     for individual in sorted(handled - sized):
         if not _has_model(state, individual):
             yield _without_size(state, individual)
     for individual in sorted(sized):
         yield from _impossible(state, individual)
+
+
+def _has_devices(state: WorldState) -> bool:
+    """Whether there is an arm that can be simulated; else things may be there to plan with only."""
+    return HAS_SHEET in state.facts and any(state.objects(arm, HAS_SHEET) for arm in state.instances(ARM_DEVICE))
 
 
 def _has_model(state: WorldState, individual: str) -> bool:

@@ -56,7 +56,7 @@ def _too_wide(state: WorldState, thing: str, grip: Grip) -> Iterator[SceneViolat
     message = f"{short(thing)} is {what.format(1e3 * width_m)}, and {short(grip.gripper)} opens to "
     message += f"{1e3 * grip.opening_m:.0f} mm"
     cure = "use a wider gripper, or write where it is narrower, `skillc:graspWidth NUMBER-IN-m`"
-    yield SceneViolation(thing, GRASP_WIDTH if stated else SIZE[0], "too-wide", message, cure)
+    yield SceneViolation(thing, GRASP_WIDTH if stated else SIZE[0], "too-wide", message, cure, "warning")
 
 
 def _narrowest(state: WorldState, thing: str) -> float | None:
@@ -85,4 +85,4 @@ def _too_heavy(state: WorldState, thing: str, grip: Grip) -> Iterator[SceneViola
         f"at most {held_kg:.2g} kg: it presses with at most {grip.force_n:g} N"
     )
     cure = "use a stronger gripper" if stated else f"write its `{short(WEIGHT)}`, which follows from its size else"
-    yield SceneViolation(thing, WEIGHT if stated else None, "too-heavy", message, cure)
+    yield SceneViolation(thing, WEIGHT if stated else None, "too-heavy", message, cure, "warning")

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from skillc.services.cell_checks.facts import severity_of
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.occupants import Occupant
@@ -90,19 +89,19 @@ def _differences(state: WorldState, thing: str, sizes: ModelSizes) -> Iterator[S
             yield from _length(state, thing, GRASP_WIDTH, min(widths, key=lambda each: abs(each - stated)))
     weight = state.value(thing, WEIGHT)
     if isinstance(weight, int | float) and abs(weight - sizes.mass_kg) > SHARE_OF_WEIGHT * sizes.mass_kg > 0:
-        yield _differs(state, thing, WEIGHT, f"{sizes.mass_kg:g}", "kg", 0.0)
+        yield _differs(state, thing, WEIGHT, f"{sizes.mass_kg:g}", "kg")
 
 
 def _length(state: WorldState, thing: str, name: str, actual_m: float) -> Iterator[SceneViolation]:
     stated = state.value(thing, name)
     if isinstance(stated, int | float) and abs(stated - actual_m) > TOLERANCE_M:
-        yield _differs(state, thing, name, f"{actual_m:.4g}", "m", abs(stated - actual_m))
+        yield _differs(state, thing, name, f"{actual_m:.4g}", "m")
 
 
-def _differs(state: WorldState, thing: str, name: str, actual: str, unit: str, distance_m: float) -> SceneViolation:
+def _differs(state: WorldState, thing: str, name: str, actual: str, unit: str) -> SceneViolation:
     short = state.vocabulary.short
     sheet = short(sheet_of(state, thing).individual)
     stated = f"{short(thing)}.{short(name)} is {state.value(thing, name):g} {unit}"
     message = f"{stated}, and its model in {sheet} has {actual} {unit}"
     cure = f"write `{short(name)} {actual}`, or name the sheet of this thing"
-    return SceneViolation(thing, name, "size-differs", message, cure, severity_of(distance_m))
+    return SceneViolation(thing, name, "size-differs", message, cure, "warning")

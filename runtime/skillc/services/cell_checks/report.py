@@ -1,16 +1,16 @@
-"""Says what is wrong in a cell: as diagnostics at its statements, or as the reason why a task does not start."""
+"""Reports what is wrong in a cell at the statements of its scene."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
-from typing import TypeAlias
+from dataclasses import dataclass, replace
 
 import msgspec
 
 from skillc.services.cell_checks.checks import check_cell
 from skillc.services.scene_diagnostics import with_shown_path
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
 from skillc_model.conditions import Exists, Forall, Individual
 from skillc_model.traversal import walk
 from skillc_rdf.turtle.statements import Statement
@@ -20,23 +20,53 @@ from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.world_state import WorldState
 
-Places: TypeAlias = dict[tuple[str, str], Statement]
-"""The first statement of each subject and predicate."""
+
+@dataclass(frozen=True, slots=True)
+class ScenePlaces:
+    """Where a scene file states something: the first statement of each subject and predicate."""
+
+    statements: dict[tuple[str, str], Statement]
+
+    @staticmethod
+    def of(said: Iterable[Statement], path: str) -> ScenePlaces:
+        """Return those of the statements in the file at `path`."""
+        found: dict[tuple[str, str], Statement] = {}
+        for each in said:
+            if each.lines.path == path:
+                found.setdefault((iri_of(each.subject), each.predicate), each)
+        return ScenePlaces(found)
+
+    def name_of(self, individual: str) -> Span | None:
+        """Return where the class of an individual is stated, None if not in this file."""
+        typed = self.statements.get((individual, RDF_TYPE))
+        return None if typed is None else with_shown_path(typed.subject_place)
+
+    def find(self, violation: SceneViolation) -> Span | None:
+        """Return where the wrong fact is stated, else where the class of the individual is."""
+        statement = self.statements.get((violation.individual, violation.predicate or ""))
+        return self.name_of(violation.individual) if statement is None else with_shown_path(statement.object_place)
 
 
 def cell_diagnostics(scene: Scene, path: str, used: frozenset[str]) -> Iterator[Diagnostic]:
     """Yield what is wrong in the cell of a scene file at `path`; `used` are the individuals that tasks name."""
-    places = _places(scene.said, path)
-    for violation in graded(check_cell(scene.state), used):
-        if (violation.individual, RDF_TYPE) in places:
-            yield _diagnostic(violation, places)
+    yield from locate(grade(check_cell(scene.state), used), ScenePlaces.of(scene.said, path))
 
 
-def graded(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[SceneViolation]:
+def grade(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[SceneViolation]:
     """Yield violations as they concern tasks that use some individuals: those of other individuals are warnings."""
     for each in found:
         concerns = not used.isdisjoint((each.individual, *each.others))
         yield each if concerns else replace(each, severity="warning")
+
+
+def locate(found: Iterable[SceneViolation], places: ScenePlaces) -> Iterator[Diagnostic]:
+    """Yield the violations of individuals in a scene file as diagnostics, with labels at the others."""
+    for each in found:
+        span = places.find(each)
+        if span is not None:
+            names = filter(None, map(places.name_of, each.others))
+            labels = tuple(Label(name, "this one") for name in names)
+            yield Diagnostic(each.name, span, each.message, each.help, each.severity, labels)
 
 
 def used_individuals(item: msgspec.Struct, state: WorldState) -> frozenset[str]:
@@ -51,22 +81,3 @@ def used_individuals(item: msgspec.Struct, state: WorldState) -> frozenset[str]:
             case _:
                 pass
     return frozenset(found)
-
-
-def _places(said: Iterable[Statement], path: str) -> Places:
-    places: Places = {}
-    for each in said:
-        if each.lines.path == path:
-            places.setdefault((iri_of(each.subject), each.predicate), each)
-    return places
-
-
-def _diagnostic(violation: SceneViolation, places: Places) -> Diagnostic:
-    typed = places[violation.individual, RDF_TYPE]
-    statement = places.get((violation.individual, violation.predicate or RDF_TYPE), typed)
-    span = typed.subject_place if statement is typed else statement.object_place
-    others = [place.subject_place for each in violation.others if (place := places.get((each, RDF_TYPE)))]
-    labels = tuple(Label(with_shown_path(place), "this one") for place in others)
-    return Diagnostic(
-        violation.name, with_shown_path(span), violation.message, violation.help, violation.severity, labels
-    )

@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from cells.random_cells import SPOILED, random_cell
+from cell_checks.random_cells import SPOILED, random_cell
 from skillc.services import libraries
 from skillc.services.cell_checks.report import cell_diagnostics
 from skillc_dsl.diagnostics import Diagnostic

@@ -1,0 +1,71 @@
+"""`skillc run` refuses a task whose things cannot be handled before anything moves, and warns of other things."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from random import Random
+
+import pytest
+from click.testing import CliRunner, Result
+
+from cell_checks.random_cells import SPOILED, random_cell
+from skillc.cli.main import skillc
+
+SKILLS = """
+prefix lab: <http://example.org/lab#>
+import "handling.skill"
+import "motion.skill"
+
+task handle {
+    scene "cell.ttl"
+    do Pick(arm: lab:Iiwa-1, object: lab:PART)
+}
+
+task stand {
+    scene "cell.ttl"
+    do TakePosture(arm: lab:Iiwa-1)
+}
+"""
+
+
+def run(folder: Path, way: str, *arguments: str) -> tuple[Result, str]:
+    """Run the command line in a folder with a spoilt cell; return the result, and the name of the spoilt part."""
+    random = Random(1)
+    cell, part = random_cell(random).spoilt(SPOILED[way], random)
+    (folder / "cell.ttl").write_text(str(cell), "utf-8")
+    (folder / "cell.skill").write_text(SKILLS.replace("PART", part), "utf-8")
+    result = CliRunner().invoke(skillc, [each.replace("DIR", str(folder)) for each in arguments])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result, part
+
+
+@pytest.mark.parametrize(
+    ("way", "says"),
+    [
+        ("no-body", "has no size, so it has no body"),
+        ("impossible-body", "are its diameter, so they must be equal"),
+        ("out-of-reach", "is out of reach of lab:Iiwa-1 by"),
+    ],
+)
+def test_a_task_with_a_thing_that_cannot_be_handled_is_refused_with_its_line(
+    way: str, says: str, tmp_path: Path
+) -> None:
+    result, part = run(tmp_path, way, "run", "DIR:handle", "--backend", "kinematic", "--json")
+    answer = json.loads(result.stdout)
+    assert (result.exit_code, answer["status"]) == (3, "refused")
+    assert answer["failure"].startswith(f"{tmp_path / 'cell.ttl'}:")
+    assert f"lab:{part}" in answer["failure"] and says in answer["failure"]
+
+
+def test_a_task_that_does_not_use_it_runs_with_a_warning(tmp_path: Path) -> None:
+    result, part = run(tmp_path, "no-body", "run", "DIR:stand", "--backend", "kinematic", "--json")
+    assert json.loads(result.stdout)["status"] == "succeeded", result.stderr
+    assert f"lab:{part}, a skiros:Product, has no size" in result.stderr
+
+
+def test_check_reports_an_error_if_a_task_uses_it(tmp_path: Path) -> None:
+    result, _ = run(tmp_path, "no-body", "check", "DIR", "--format", "json")
+    found = [(each["name"], each["severity"]) for each in json.loads(result.stdout)]
+    assert ("no-body", "error") in found
+    assert result.exit_code == 1
