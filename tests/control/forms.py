@@ -114,7 +114,7 @@ def watched(count: int) -> list[list[float]]:
         felt.step(state, 0.002)
         middle, size = chance.uniform(-1, 1, (2, 3))
         outside = distance_outside(state.tool.position, middle, box, np.abs(size))
-        found.append([*felt.wrench(state), tool_speed(state.jacobian, state.dq), outside])
+        found.append([*felt.wrench(state), *felt.unexplained(state), tool_speed(state.jacobian, state.dq), outside])
     return found
 
 
@@ -123,14 +123,14 @@ def measurements(count: int) -> list[list[float]]:
     chance, hand, found = np.random.default_rng(6), LastLink(), []
     for _ in range(count):
         hand.on_link[:] = chance.uniform(-1, 1, (8, 3))
-        J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((4, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
+        J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((6, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
         link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
         low_pass(readings, *chance.uniform(-20, 20, (2, 9)), 0.3)
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
         sensing = ArmSensing(
             joints, hand.in_base, J, wrench, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
-            Pose(origin, base), weight, chance.uniform(-1, 1, (6, 9)), readings,
+            Pose(origin, base), weight, *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings,
         )  # fmt: skip
         measure(sensing, noise)
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))

@@ -12,7 +12,7 @@ from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.gains import read_gains
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.control.virtual_arm import load_virtual_model
-from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, Torque
+from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, JointPosition, Torque
 from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation, skew
 
 ROBOTS = Path(skillc_ontology.__file__).parent / "robots"
@@ -77,6 +77,10 @@ class Bench:
         self.driver = CompliantArmDriver(ArmSetup(self, virtual, GAINS[robot], self.limits, lambda: self.base, period))
         self.log: dict[str, list] = {"time": [], "force": [], "tool": [], "torque": []}
 
+    @property
+    def capabilities(self) -> Capabilities:
+        return Capabilities((self.interface,), self.interface == "position", False, self.limits)
+
     def state(self) -> ArmState:
         m, d = self.model, self.data
         R = self.base.rotation
@@ -95,6 +99,7 @@ class Bench:
             M,
             d.qfrc_bias.copy(),
             (wrench.reshape(2, 3) @ R).ravel(),
+            np.zeros(m.nv),
         )
 
     def state_at_rest(self) -> ArmState:

@@ -20,7 +20,7 @@ def limits(joints: int) -> ArmLimits:
 
 
 def at(like: ArmState, q: np.ndarray, dq: np.ndarray) -> ArmState:
-    return ArmState(q, dq, like.tool, like.jacobian, like.mass_matrix, like.bias, like.wrench)
+    return ArmState(q, dq, like.tool, like.jacobian, like.mass_matrix, like.bias, like.wrench, like.effort)
 
 
 class Follower:

@@ -13,7 +13,7 @@ import numpy as np
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import Matrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
-from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times
+from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
 from skillc_runtime.motion.pose import Array
 
 WINDOW_S = 0.01
@@ -54,6 +54,11 @@ class MomentumObserver:
         estimate_wrench(self._wrench, self._torque, state.jacobian)
         return self._wrench
 
+    def unexplained(self, state: ArmState) -> tuple[int, float]:
+        """Return the joint with the greatest torque that no force on the tool explains, and that torque in N m."""
+        joint, torque = find_unexplained_torque(self._torque, state.jacobian)
+        return int(joint), float(torque)
+
 
 @compiled
 def add_impulse(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
@@ -92,3 +97,25 @@ def estimate_wrench(wrench: OutVector, torque: Vector, J: Matrix) -> None:
     cholesky(gram)
     times(J, torque, force)
     cholesky_solve(gram, force, wrench)
+
+
+@compiled
+def find_unexplained_torque(torque: Vector, J: Matrix) -> tuple[int, float]:
+    """Return the joint with the greatest |torque - J_v^T f| and that, N m, for the force f that explains most of it.
+
+    f = (J_v J_v^T + lam^2 I)^-1 J_v torque. torque (nv,): N m; J (6, nv): [linear m; angular rad] per rad.
+    """
+    gram, pulled, force, explained = np.empty((3, 3)), np.empty(3), np.empty(3), np.empty(torque.size)
+    product(J[:3], J[:3].T, gram)
+    for i in range(3):
+        gram[i, i] += DAMPING
+    cholesky(gram)
+    times(J[:3], torque, pulled)
+    cholesky_solve(gram, pulled, force)
+    transposed_times(J[:3], force, explained)
+    joint, greatest = 0, 0.0
+    for j in range(torque.size):
+        left = abs(torque[j] - explained[j])
+        if left > greatest:
+            joint, greatest = j, left
+    return joint, greatest

@@ -8,7 +8,7 @@ from math import inf, sqrt
 import numpy as np
 
 from skillc_runtime.control.momentum_observer import MomentumObserver
-from skillc_runtime.devices.arm import ArmState, Command, Torque
+from skillc_runtime.devices.arm import ArmState, Command, Mode, Torque
 from skillc_runtime.motion.arrays import Matrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import times, transposed_times
@@ -34,21 +34,28 @@ class Workspace:
 class SafetyLimits:
     """Limits beyond which an arm is stopped.
 
-    contact_force_n: of the tool on its surroundings; tool_speed_m_s: of the tool centre point; workspace: which the
+    contact_force_n: of the tool on its surroundings; collision_torque_n_m: at a joint, explained neither by its motion
+    nor by a force on the tool; tool_speed_m_s: of the tool centre point; workspace: which the
     tool centre point must not leave, in the base frame, None for no limit.
     """
 
     contact_force_n: float = inf
+    collision_torque_n_m: float = inf
     tool_speed_m_s: float = inf
     workspace: Workspace | None = None
 
 
 class SafetyMonitor:
-    """Monitors the limits of one arm; a violation is reported once, until the arm is within its limits again."""
+    """Monitors the limits of one arm; a violation is reported once, until the arm is within its limits again.
 
-    def __init__(self, limits: SafetyLimits, state: ArmState, torque: bool) -> None:
+    The force on the tool is the sensor's, or estimated for an arm that takes torques. Contacts of links are felt by the
+    torques of the motors: those that are commanded, or measured ones.
+    """
+
+    def __init__(self, limits: SafetyLimits, state: ArmState, mode: Mode, measures_effort: bool) -> None:
         self.limits = limits
-        self.momentum_observer = MomentumObserver(state) if torque else None
+        self._takes_torques, self._measures_effort = mode == "torque", measures_effort and mode != "torque"
+        self.momentum_observer = MomentumObserver(state) if self._takes_torques or measures_effort else None
         self._age, self._violated = 0.0, False
 
     def add_command(self, command: Command, bias: Array, period: float) -> None:
@@ -59,6 +66,8 @@ class SafetyMonitor:
     def violation(self, state: ArmState, period: float) -> str | None:
         """Return which limit is violated, once per violation; to be called every control period, of `period` s."""
         if self.momentum_observer is not None:
+            if self._measures_effort:
+                self.momentum_observer.add_command(state.effort, state.bias, period)
             self.momentum_observer.step(state, period)
         self._age += period
         if self._age < CHECK_PERIOD_S:
@@ -70,10 +79,17 @@ class SafetyMonitor:
 
     def _violated_limit(self, state: ArmState) -> str | None:
         limits = self.limits
-        felt = state.wrench if self.momentum_observer is None else self.momentum_observer.wrench(state)
+        observer = self.momentum_observer
+        felt = observer.wrench(state) if observer is not None and self._takes_torques else state.wrench
         force = sqrt(felt[0] * felt[0] + felt[1] * felt[1] + felt[2] * felt[2])
         if force > limits.contact_force_n:
             return f"a force of {force:.0f} N on the tool is beyond the {limits.contact_force_n:g} N that the arm bears"
+        joint, torque = (0, 0.0) if observer is None else observer.unexplained(state)
+        if torque > limits.collision_torque_n_m:
+            return (
+                f"something is in the way of a link: joint {joint + 1} feels {torque:.0f} N m that no force on the "
+                f"tool explains, beyond its {limits.collision_torque_n_m:g} N m"
+            )
         speed = tool_speed(state.jacobian, state.dq)
         if speed > limits.tool_speed_m_s:
             return f"the tool moves with {speed:.2f} m/s, beyond the {limits.tool_speed_m_s:g} m/s that the arm may"

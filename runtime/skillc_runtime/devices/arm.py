@@ -16,6 +16,7 @@ class ArmState:
     q, dq (nv,): rad, rad/s. tool: tool centre point in base. jacobian (6, nv): [linear m; angular rad] per rad.
     mass_matrix (nv, nv): kg m^2. bias (nv,): N m, gravity and Coriolis of arm, gripper and payload. wrench (6,): of
     the environment on the tool, N and N m, base axes, without tool weight; zeros if the arm has no sensor for it.
+    effort (nv,): N m, exerted by the motors since the last measurement; zeros if the arm does not measure it.
     """
 
     q: Vector
@@ -25,6 +26,7 @@ class ArmState:
     mass_matrix: Matrix
     bias: Vector
     wrench: Vector
+    effort: Vector
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +87,11 @@ class ArmLimits:
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """The modes of an arm, whether it measures the wrench at its tool, and its limits."""
+    """The modes of an arm, whether it measures the wrench at its tool and the effort of its motors, and its limits."""
 
     modes: tuple[Mode, ...]
     feels_force: bool
+    measures_effort: bool
     limits: ArmLimits
 
 

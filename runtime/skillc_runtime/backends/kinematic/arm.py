@@ -25,6 +25,8 @@ WRIST = 3
 class KinematicArm(ModelledArm):
     """One arm of a kinematic cell; what touches its tool, or is applied to its hand in `data`, pushes it."""
 
+    measures_effort = False
+
     def __init__(
         self, facts: ArmSpec, name: str, gripper: str | None, model: Any, data: Any, start: Array, steps: int
     ) -> None:

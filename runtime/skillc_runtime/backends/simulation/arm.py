@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from skillc_runtime.backends.simulation.arm_sensing import (
     BIAS,
     CARRYING,
+    EFFORT,
     SPEED,
     ArmSensing,
     LastLink,
@@ -48,6 +49,9 @@ class ModelledArm:
     one state, a read-only view of this object's buffers, updated by every call of `state`.
     """
 
+    measures_effort: ClassVar[bool] = True
+    """Whether `ArmState.effort` is what the motors exert."""
+
     def __init__(
         self,
         facts: ArmSpec,
@@ -73,7 +77,7 @@ class ModelledArm:
         self.limits = _limits(model, joints, actuator, facts)
         self.fixed_tool = _fixed_tool(model, name, gripper)
         self._hand = LastLink()
-        self._joints = np.zeros((4, count))
+        self._joints = np.zeros((6, count))
         self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
@@ -81,6 +85,7 @@ class ModelledArm:
         self._flange = _in_body(model.site(part_name(name, "flange")))
         self._feels_force = facts.force_torque and gripper is not None
         self._gain, self._readings = np.zeros((6, 9)), np.zeros(9)
+        self._damping = np.zeros(count)
         self._sensing = self._make_sensing()
         self._measure = bind(measure, self._sensing)
         self._speed_noise = noise
@@ -91,7 +96,7 @@ class ModelledArm:
     @property
     def capabilities(self) -> Capabilities:
         """The capabilities of the arm."""
-        return Capabilities(self._motors.modes, self._feels_force, self.limits)
+        return Capabilities(self._motors.modes, self._feels_force, self.measures_effort, self.limits)
 
     @property
     def interface(self) -> Mode:
@@ -149,6 +154,10 @@ class ModelledArm:
             link=_live_body(data, self._link),
             base=_live_body(data, self._base),
             weight=self._weight,
+            actuators=data.qfrc_actuator[self._dofs],
+            applied=data.qfrc_applied[self._dofs],
+            passive=data.qfrc_passive[self._dofs],
+            damping=self._damping,
             gain=self._gain,
             readings=self._readings,
         )
@@ -163,6 +172,7 @@ class ModelledArm:
             return TorqueMotors(joints, timestep)
         model = self._model
         gains = ServoGains(model.actuator_gainprm[actuators, 0], -model.actuator_biasprm[actuators, 2])
+        self._damping[:] = gains.damping / steps_per_command
         return Servos(joints, facts.modes, timestep, gains, steps_per_command)
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
@@ -187,16 +197,16 @@ def _blank(joints: Array, tool: Pose) -> ArmState:
     """Return a state whose q, dq and bias are rows of `joints`."""
     count = joints.shape[1]
     jacobian, mass = np.zeros((6, count)), np.zeros((count, count))
-    return ArmState(joints[Q], joints[SPEED], tool, jacobian, mass, joints[BIAS], np.zeros(6))
+    return ArmState(joints[Q], joints[SPEED], tool, jacobian, mass, joints[BIAS], np.zeros(6), joints[EFFORT])
 
 
 def _read_only(state: ArmState) -> ArmState:
     """Return read-only views of the same arrays."""
     tool = Pose(*(_view(part) for part in (state.tool.position, state.tool.rotation)))
-    q, dq, jacobian, mass, bias, wrench = map(
-        _view, (state.q, state.dq, state.jacobian, state.mass_matrix, state.bias, state.wrench)
+    q, dq, jacobian, mass, bias, wrench, effort = map(
+        _view, (state.q, state.dq, state.jacobian, state.mass_matrix, state.bias, state.wrench, state.effort)
     )
-    return ArmState(q, dq, tool, jacobian, mass, bias, wrench)
+    return ArmState(q, dq, tool, jacobian, mass, bias, wrench, effort)
 
 
 def _view(array: Array) -> Array:

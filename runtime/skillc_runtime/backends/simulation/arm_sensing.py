@@ -17,8 +17,8 @@ TOOL = 6
 LEVER = 7
 """The row of the vector from there to the payload's centre of mass."""
 
-Q, SPEED, BIAS, CARRYING = range(4)
-"""Rows of the joint measurements; the last are the torques that carry a payload."""
+Q, SPEED, BIAS, CARRYING, EFFORT, BEFORE = range(6)
+"""Rows of the joint measurements; CARRYING: the torques that carry a payload; BEFORE: the speeds before, exact."""
 
 
 class LastLink:
@@ -65,13 +65,15 @@ def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matr
 class ArmSensing:
     """The inputs and outputs of `measure` for one arm; all arrays are reused or change with the simulation.
 
-    Written, in the arm's base frame. joints (4, nv): Q rad, SPEED rad/s, BIAS and CARRYING N m; in_base (8, 3): see
+    Written, in the arm's base frame. joints (6, nv): Q rad, SPEED and BEFORE rad/s, others N m; in_base (8, 3): see
     `Hand`; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
     tool, zeros without sensor.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): see `Hand`. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
-    last link and base; weight (3,) N of the payload. gain (6, 9) and readings (9,): of the sensor, see `Wrist`.
+    last link and base; weight (3,) N of the payload. actuators, applied, passive (nv,): N m, in the last step, in which
+    the servos' damping (nv,), N m s/rad, also acts on the change of the speeds. gain (6, 9) and readings (9,): of the
+    sensor, see `Wrist`.
     """
 
     joints: OutMatrix
@@ -87,6 +89,10 @@ class ArmSensing:
     link: Pose
     base: Pose
     weight: Vector
+    actuators: Vector
+    applied: Vector
+    passive: Vector
+    damping: Vector
     gain: Matrix
     readings: Vector
 
@@ -119,6 +125,9 @@ def measure(arm: ArmSensing, noise: Vector) -> None:
     update_hand(arm)
     for j in range(arm.q.size):
         joints[Q, j], joints[SPEED, j], joints[BIAS, j] = arm.q[j], arm.dq[j] + noise[j], arm.bias[j]
+        exerted = arm.actuators[j] + arm.applied[j] + arm.passive[j]
+        joints[EFFORT, j] = exerted - arm.damping[j] * (arm.dq[j] - joints[BEFORE, j])
+        joints[BEFORE, j] = arm.dq[j]
     add_payload_bias(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
     compute_wrench(arm.wrench, arm.gain, arm.readings, arm.in_base[3:6])
 

@@ -16,6 +16,7 @@ from skillc_runtime.devices.arm import ModeRefused
 from skillc_runtime.world.space.frames import relative_pose, size
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import (
+    COLLISION_TORQUE,
     CONTACT_FORCE_LIMIT,
     HAS_SENSOR,
     HAS_WORKSPACE,
@@ -63,7 +64,9 @@ def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
 def read_safety_limits(facts: ArmSpec) -> SafetyLimits:
     """Return the safety limits of an arm: those of its sheet, and its workspace, which moves with its base."""
     state, sheet = facts.sheet.state, facts.sheet.individual
-    force, speed = (number_of(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, TOOL_SPEED_LIMIT))
+    force, torque, speed = (
+        number_of(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, COLLISION_TORQUE, TOOL_SPEED_LIMIT)
+    )
     spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
     space = Workspace(relative_pose(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
-    return SafetyLimits(force, speed, space)
+    return SafetyLimits(force, torque, speed, space)

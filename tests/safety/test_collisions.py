@@ -1,0 +1,56 @@
+"""An arm notices by its own joints that a link met something that the world model does not know, stops and says so."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from safety.test_faults import is_safe
+from simulation.cells import ARM, cell, run
+from simulation.test_link_contacts import BESIDE_THE_ELBOW, hidden_shelf
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.move import MoveJoints, MoveLinear
+from skillc_runtime.primitives.primitive import SkillFailure
+
+BOARDS = {
+    "iiwa_table": (BESIDE_THE_ELBOW, (0.4, 0.04, 0.4)),
+    "ur5e_whiteboard": ((-0.05, 0.1, 1.4), (0.04, 0.4, 0.4)),
+}
+
+
+def swung(there: SimulatedCell, scene: str) -> Pose:
+    """Return where the tool is after the first joint has turned by 1 rad."""
+    base, tool = there.arms[ARM[scene]].base, there.arm(ARM[scene]).measured.pose
+    turn = Pose.of((0.0, 0.0, 0.0), (np.cos(0.5), 0.0, 0.0, np.sin(0.5)))
+    return base @ turn @ base.inverse() @ tool
+
+
+@pytest.mark.parametrize("scene", BOARDS)
+def test_a_link_that_meets_an_unknown_board_stops_the_arm(scene: str) -> None:
+    place, size = BOARDS[scene]
+    there = hidden_shelf(scene, place, size=size)
+    with pytest.raises(SkillFailure, match=r"in the way of a link: joint \d feels \d+ N m that no force on the tool"):
+        run(there, MoveJoints(there, arm=ARM[scene], target=swung(there, scene), pace=0.2))
+    there.advance(0.5)
+    is_safe(there, scene)
+    touched = there.ground_truth.contacts()
+    assert touched
+    assert {each.other for each in touched} == {"lab:Shelf-1"}
+    assert there.world.snapshot().vocabulary.short(ARM[scene]) in touched[0].part
+    assert max(each.peak_force_n or 0.0 for each in touched) < 500.0
+
+
+@pytest.mark.parametrize("scene", BOARDS)
+def test_the_same_motion_without_a_board_arrives(scene: str) -> None:
+    there = cell(scene)
+    run(there, MoveJoints(there, arm=ARM[scene], target=swung(there, scene), pace=0.2))
+    assert there.ground_truth.contacts() == ()
+
+
+def test_a_line_of_the_tool_stops_as_well_where_the_elbow_meets_an_unknown_board() -> None:
+    there = hidden_shelf("iiwa_table", BESIDE_THE_ELBOW)
+    tool = there.arm(ARM["iiwa_table"]).measured.pose
+    target = Pose(tool.position + np.array([-0.05, 0.4, 0.1]), tool.rotation)
+    with pytest.raises(SkillFailure, match="in the way of a link"):
+        run(there, MoveLinear(there, arm=ARM["iiwa_table"], target=target, speed=0.2))
