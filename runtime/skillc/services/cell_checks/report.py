@@ -47,6 +47,10 @@ class ScenePlaces:
         return self.name_of(violation.individual) if statement is None else with_shown_path(statement.object_place)
 
 
+WHOLE_CELL = "impossible-body"
+"""The problem because of which no task can be simulated in the cell, whatever it uses."""
+
+
 def cell_diagnostics(scene: Scene, path: str, used: frozenset[str]) -> Iterator[Diagnostic]:
     """Yield what is wrong in the cell of a scene file at `path`; `used` are the individuals that tasks name."""
     yield from locate(grade(check_cell(scene.state), used), ScenePlaces.of(scene.said, path))
@@ -55,7 +59,7 @@ def cell_diagnostics(scene: Scene, path: str, used: frozenset[str]) -> Iterator[
 def grade(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[SceneViolation]:
     """Yield violations as they concern tasks that use some individuals: those of other individuals are warnings."""
     for each in found:
-        concerns = not used.isdisjoint((each.individual, *each.others))
+        concerns = each.name == WHOLE_CELL or not used.isdisjoint((each.individual, *each.others))
         yield each if concerns else replace(each, severity="warning")
 
 
