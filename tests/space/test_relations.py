@@ -12,9 +12,18 @@ from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M, bounding_box
 from skillc_runtime.world.space.frames import placement_changes, pose
-from skillc_runtime.world.state.changes import ClearProperty, RemoveIndividual, RemoveRelation
+from skillc_runtime.world.state.changes import ClearProperty, RemoveIndividual, RemoveRelation, SetProperty
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, CONTAIN, FURNITURE, HAS_SHEET, SIZE, WORKSTATION
+from skillc_runtime.world.state.terms import (
+    AT,
+    BASE_FRAME_ID,
+    CONTAIN,
+    CONTAINER,
+    FURNITURE,
+    HAS_SHEET,
+    SIZE,
+    WORKSTATION,
+)
 from skillc_runtime.world.state.world_state import WorldState
 from space.rooms import EMPTY, LAB, at, lab, linked, poses, skillc, thing, vectors, world
 
@@ -206,3 +215,51 @@ def test_an_arm_without_a_data_sheet_reaches_nothing_and_says_so() -> None:
     assert not holds(bare, CAN_REACH, "Iiwa-1", "Table-1")
     assert "Iiwa-1 has no data sheet" in why(bare, CAN_REACH, "Iiwa-1", "Table-1")
     assert "takes (rparts:ArmDevice, skillc:Surface)" in why(bare, CAN_REACH, "Table-1", "Iiwa-1")
+
+
+BIN = thing("Bin", at(0, 0, 0.05), size=(0.3, 0.2, 0.1), cls=CONTAINER)
+
+
+@pytest.mark.parametrize(
+    ("place", "true"),
+    [
+        ((0, 0, 0.004 + 0.06), {INSIDE, ABOVE, RESTS_ON}),
+        ((0.1, -0.04, 0.004 + 0.06), {INSIDE, ABOVE, RESTS_ON}),
+        ((0.125, 0, 0.004 + 0.06), {ABOVE, RESTS_ON}),
+        ((0, 0, 0.09), {INSIDE, ABOVE}),
+        ((0, 0, 0.11), {ABOVE}),
+        ((0, 0, 0.05), set()),
+        ((0.149, 0, 0.16), {ABOVE, RESTS_ON}),
+        ((0.2, 0, 0.16), set()),
+    ],
+)
+def test_a_tall_part_at_a_bin(place: tuple[float, float, float], true: set[str]) -> None:
+    state = world(BIN, thing("Part", at(*place), size=(0.06, 0.06, 0.12)))
+    assert {each for each in (INSIDE, ABOVE, RESTS_ON) if holds(state, each, "Part", "Bin")} == true
+
+
+def test_why_a_part_is_not_in_a_bin() -> None:
+    state = world(BIN, thing("Part", at(0, 0, 0.11), size=(0.06, 0.06, 0.12)))
+    assert why(state, INSIDE, "Part", "Bin").endswith("Part is 0.010 m above the rim")
+    beside = world(BIN, thing("Part", at(0.15, 0, 0.064), size=(0.06, 0.06, 0.12)))
+    assert why(beside, INSIDE, "Part", "Bin").endswith("Part sticks out by 0.034 m")
+
+
+@settings(max_examples=40)
+@given(poses)
+def test_a_ball_rests_on_a_table_however_it_is_turned(turned: Pose) -> None:
+    state = world(
+        thing("Table", at(0, 0, 0.7), size=(1.0, 0.6, 0.7), cls=FURNITURE),
+        thing("Ball", Pose(np.array([0.0, 0.0, 0.75]), turned.rotation), size=(0.1, 0.1, 0.1)),
+        [SetProperty(lab("Ball"), skillc("shape"), "sphere")],
+    )
+    assert holds(state, RESTS_ON, "Ball", "Table")
+
+
+def test_a_part_rests_on_the_board_of_a_shelf_that_is_under_it() -> None:
+    shelf = thing("Shelf", at(0, 0, 0.5), size=(0.6, 0.3, 1.0), cls=CONTAINER)
+    shape = [SetProperty(lab("Shelf"), skillc("shape"), "shelf")]
+    middle = world(shelf, shape, thing("Part", at(0, 0, 0.5 + 0.009 + 0.03), size=(0.06, 0.06, 0.06)))
+    assert holds(middle, RESTS_ON, "Part", "Shelf") and holds(middle, INSIDE, "Part", "Shelf")
+    between = world(shelf, shape, thing("Part", at(0, 0, 0.7), size=(0.06, 0.06, 0.06)))
+    assert not holds(between, RESTS_ON, "Part", "Shelf")

@@ -1,4 +1,4 @@
-"""Bounding boxes of objects in the world, and the vertical gap between two objects."""
+"""Bounding boxes of objects in the world."""
 
 from __future__ import annotations
 
@@ -37,13 +37,3 @@ def solid_box(state: WorldState, individual: str) -> OrientedBox:
 
 def _half(space: FrameTree, individual: str) -> Array:
     return np.array([space.number(individual, name) for name in SIZE]) / 2
-
-
-def gap_below(state: WorldState, upper: str, lower: str) -> float | None:
-    """Return the height in m of the lowest point of an object over the top of another, vertically below its middle.
-
-    None when the other is not below its middle. FrameError when a pose is not known, MissingFact without a size.
-    """
-    over = bounding_box(state, upper)
-    top = solid_box(state, lower).height_at(float(over.middle.position[0]), float(over.middle.position[1]))
-    return None if top is None else over.lowest - top

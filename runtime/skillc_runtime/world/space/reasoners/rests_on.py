@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from skillc_runtime.world.space.bounding_boxes import TOUCH_M, gap_below
+from skillc_runtime.world.space.bounding_boxes import TOUCH_M
+from skillc_runtime.world.space.hollow import gap_below
 from skillc_runtime.world.space.reasoners.above import Above
 
 if TYPE_CHECKING:
