@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from cells import vocabulary, world
+
 from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation import start_postures as starts
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
