@@ -49,8 +49,10 @@ def _problem(state: WorldState, thing: Occupant, others: Sequence[Occupant]) -> 
     holds = np.array([bottom_m - height <= ROUNDED_M for height, _ in found])
     beyond_m = _distance_beyond(points[holds], thing.centre[:2])
     if beyond_m > pitch_m + ROUNDED_M:
-        message = f"{short(thing.individual)} tips over: its centre of mass is {1e3 * beyond_m:.0f} mm beyond {support}"
-        yield _violation(state, thing, message, f"move it by more than {1e3 * beyond_m:.0f} mm", beyond_m)
+        least_m = beyond_m - pitch_m
+        message = f"{short(thing.individual)} tips over: its centre of mass is at least {1e3 * least_m:.0f} mm beyond "
+        message += support
+        yield _violation(state, thing, message, f"move it until its middle is over {support}", least_m)
 
 
 def _footprint(thing: Occupant) -> tuple[Array, float]:
@@ -66,7 +68,7 @@ def _footprint(thing: Occupant) -> tuple[Array, float]:
 def _standing_points(solid: Solid, box: OrientedBox) -> tuple[Array, float]:
     """Return points (n, 2) in m of the lowest face of a solid, in the world, and their greatest distance in m.
 
-    A sphere stands on a point, a cylinder on a disc or a line.
+    A sphere stands on a point, a cylinder on a disc or a line; a hull is taken as its box.
     """
     upright = int(np.argmax(np.abs(box.middle.rotation[2])))
     one, other = (axis for axis in range(3) if axis != upright)
@@ -74,7 +76,7 @@ def _standing_points(solid: Solid, box: OrientedBox) -> tuple[Array, float]:
     if solid.kind == "cylinder" and upright == 2:
         inside = np.hypot(u, v) <= 1.0 + 1e-9
         u, v = u[inside], v[inside]
-    elif solid.kind != "box":
+    elif solid.kind in ("cylinder", "capsule", "sphere"):
         along = GRID if solid.kind != "sphere" and upright != 2 else np.zeros(1)
         u, v = (along, np.zeros_like(along)) if one == 2 else (np.zeros_like(along), along)
     first, second = (box.middle.rotation[:2, axis] * box.half[axis] for axis in (one, other))

@@ -12,7 +12,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import REGIONS, has_body, read_body
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.oriented_box import CORNERS, OrientedBox
+from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.space.solids import Solid
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, MANIPULATABLE, PERSON, SENSOR, SIZE
@@ -20,6 +20,8 @@ from skillc_runtime.world.state.world_state import WorldState
 
 WITHOUT_ROOM = (*REGIONS, ARM_DEVICE, END_EFFECTOR, SENSOR, PERSON)
 """Classes of what takes up no room, or whose room depends on a posture."""
+
+HERE = Pose.of((0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,10 +90,6 @@ def _of_box(state: WorldState, individual: str) -> Occupant:
 
 
 def _occupant(individual: str, solids: tuple[Solid, ...], centre: Array, movable: bool) -> Occupant:
-    corners = np.concatenate([_corners(each) for each in solids])
-    return Occupant(individual, solids, centre, movable, corners.min(axis=0), corners.max(axis=0))
-
-
-def _corners(solid: Solid) -> Array:
-    """Return the corners (8, 3) in m of the box around a solid, in the frame of its place."""
-    return np.asarray(CORNERS * np.array(solid.half) @ solid.place.rotation.T + solid.place.position)
+    high = np.array([max(each.reach(axis, HERE) for each in solids) for axis in np.eye(3)])
+    low = np.array([-max(each.reach(-axis, HERE) for each in solids) for axis in np.eye(3)])
+    return Occupant(individual, solids, centre, movable, low, high)
