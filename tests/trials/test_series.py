@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import re
+from typing import get_args
 
 import pytest
 from msgspec.structs import replace
@@ -174,3 +176,24 @@ def test_drawings_stay_inside_their_frame(count: int) -> None:
     lines = [place for strip in strips for place in (strip.median, strip.target) if place is not None]
     assert len(lines) > len(strips)
     assert all(0 <= place <= page.WIDTH for place in lines)
+
+
+@pytest.mark.parametrize("disturbance", get_args(Disturbance))
+def test_a_success_with_a_false_claim_fails_and_is_named(disturbance: Disturbance) -> None:
+    claim = "lab:Part-A is claimed in lab:Bin-1 but lies on the floor, 0.43 m away"
+    trials = [replace(good(0), false_claims=(claim,)), good(1)]
+    series = judge_series("sort", disturbance, 2, trials)
+    assert series.false_successes == 1
+    assert f"false success: {claim}" in series.failed[0].reasons
+    shown = io.StringIO()
+    Console(file=shown, width=200).print(table.render_table(series))
+    for text in (shown.getvalue(), page.render_page(series)):
+        assert "1 of 2 succeeded with a false claim" in text
+        assert claim in text
+
+
+def test_a_failure_with_a_false_claim_is_no_false_success() -> None:
+    failed = replace(good(0), status="failed", reason="dropped", false_claims=("lab:Part-A is elsewhere",))
+    series = judge_series("sort", "none", 1, [failed])
+    assert series.false_successes == 0
+    assert series.failed[0].reasons == ("failed: dropped",)

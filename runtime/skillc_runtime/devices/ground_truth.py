@@ -162,6 +162,10 @@ class GroundTruth(Protocol):
         """Return the true pose of a tool or a body in the world; KeyError if the cell has no such thing."""
         ...
 
+    def carried_by(self, gripper: str) -> str | None:
+        """Return what is really in a gripper, None if nothing is; KeyError if the cell has no such gripper."""
+        ...
+
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if switched, else 0.
 

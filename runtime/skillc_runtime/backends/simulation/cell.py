@@ -79,7 +79,15 @@ class ModelledCell(ABC, Generic[A, G]):
         self.people = make_people(scene, variation, self._drivers, self.data)
         self._touches = TouchRecorder(scene, self.model, self.data, self._held_things)
         self.ground_truth: GroundTruth = SimulatedTruth(
-            scene, variation, self._observers, self.coverage, self._buttons, self.people, self._touches, self.data
+            scene,
+            variation,
+            self._observers,
+            self.coverage,
+            self._buttons,
+            self.people,
+            self._touches,
+            self._grippers,
+            self.data,
         )
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.simulation.button import SimulatedButton
+from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import SimulatedPerson
@@ -22,7 +23,7 @@ from skillc_runtime.motion.pose import Array, Pose
 
 @dataclass(frozen=True, slots=True)
 class SimulatedTruth:
-    """Implements `GroundTruth` from the parts of a simulated cell; observers, coverage and buttons are by IRI."""
+    """Implements `GroundTruth` from the parts of a simulated cell; mappings are by IRI."""
 
     scene: SceneSpec
     reality: Variation
@@ -31,6 +32,7 @@ class SimulatedTruth:
     buttons: Mapping[str, SimulatedButton]
     people: Sequence[SimulatedPerson]
     touches: TouchRecorder
+    grippers: Mapping[str, ModelledGripper]
     data: Any
 
     @property
@@ -84,6 +86,10 @@ class SimulatedTruth:
         name = self.scene.names[individual]
         found = self.data.body(name if individual in fixed else part_name(name, "block"))
         return Pose(found.xpos.copy(), found.xmat.reshape(3, 3).copy())
+
+    def carried_by(self, gripper: str) -> str | None:
+        """Return what is really in a gripper, None if nothing is; KeyError if the cell has no such gripper."""
+        return self.grippers[gripper].carries
 
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if it had switched, else 0."""

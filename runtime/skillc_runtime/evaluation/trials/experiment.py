@@ -7,10 +7,13 @@ from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 
+from msgspec import structs
+
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.measures import buttons, poses, sockets, surfaces
+from skillc_runtime.evaluation.measures.claims import find_false_claims
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
@@ -31,6 +34,7 @@ from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known_facts import unverified_facts
 from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.space.bodies import read_bodies
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.labelled_text import format_fact
@@ -40,6 +44,10 @@ from skillc_runtime.world.state.world_state import WorldState
 
 MEASURES = (surfaces.measure, buttons.measure, sockets.measure, poses.measure)
 """The measures of all kinds of work, in the order in which trials list them."""
+
+
+SETTLING_S = 0.5
+"""How long things may fall, roll and tip after a run before they are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +78,8 @@ class TrialRunner:
             cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
-        return self._run(self._prepared, cell)
+        trial = self._run(self._prepared, cell)
+        return structs.replace(trial, false_claims=judge_claims(self._state, cell))
 
     def _run(self, prepared: PreparedTask, cell: PushableCell) -> Trial:
         choices, push = ChoiceListener(), PushDisturbance(cell)
@@ -97,6 +106,14 @@ class TrialRunner:
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,
         )
+
+
+def judge_claims(before: WorldState, cell: PushableCell) -> tuple[str, ...]:
+    """Return what a world model claims falsely after a run, once all lies still; `before` is the world at its start."""
+    bodies = read_bodies(before)
+    if cell.broken is None and any(each.movable for each in bodies):
+        cell.advance(SETTLING_S)
+    return find_false_claims(bodies, cell.cell.world.snapshot(), cell.ground_truth)
 
 
 def _make_assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:

@@ -14,7 +14,7 @@ import msgspec
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 
 FILE = "trials.jsonl"
-FORMAT = 4
+FORMAT = 5
 
 
 class Heading(msgspec.Struct, frozen=True, kw_only=True):

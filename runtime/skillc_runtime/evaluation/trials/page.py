@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.evaluation.trials.series import Series, Spread
-from skillc_runtime.evaluation.trials.table import format_unverified
+from skillc_runtime.evaluation.trials.table import format_false_successes, format_unverified
 
 WIDTH, HEIGHT, MARGIN = 420, 34, 8
 """The size of a drawing in px."""
@@ -40,7 +40,12 @@ def render_page(series: Series) -> str:
     )
     strips = [draw_strip(spread) for spread in series.spreads]
     return environment.get_template("page.html.j2").render(
-        series=series, unverified=format_unverified(series), strips=strips, width=WIDTH, height=HEIGHT
+        series=series,
+        false_successes=format_false_successes(series),
+        unverified=format_unverified(series),
+        strips=strips,
+        width=WIDTH,
+        height=HEIGHT,
     )
 
 

@@ -43,7 +43,8 @@ class FailedSeed(msgspec.Struct, frozen=True, kw_only=True):
 class Series(msgspec.Struct, frozen=True, kw_only=True):
     """All trials of one task: `wanted` were requested, `done` were run, and `passed` of these met all criteria.
 
-    In `unverified` trials the task finished, but the facts `assumed` were not sensed.
+    In `unverified` trials the task finished, but the facts `assumed` were not sensed. `false_successes` are trials that
+    succeeded although the world model claims something false about things.
     """
 
     task: str
@@ -56,6 +57,7 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     trials: tuple[Trial, ...]
     unverified: int = 0
     assumed: tuple[str, ...] = ()
+    false_successes: int = 0
 
     @property
     def is_good(self) -> bool:
@@ -79,6 +81,7 @@ def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Seque
         trials=ordered,
         unverified=sum(trial.verified is False for trial in ordered),
         assumed=tuple(dict.fromkeys(fact for trial in ordered for fact in trial.assumed)),
+        false_successes=sum(trial.is_false_success for trial in ordered),
     )
 
 

@@ -14,6 +14,7 @@ def render_table(series: Series) -> RenderableType:
     """Return the spread of each metric, each failed seed with its reasons, and the number of trials that passed."""
     return Group(
         _render_headline(series),
+        *_render_false_successes(series),
         *_render_unverified(series),
         *_render_spreads(series.spreads),
         *_render_failed(series),
@@ -27,6 +28,18 @@ def _render_headline(series: Series) -> Text:
     done = "" if series.done == series.wanted else f", {series.wanted - series.done} not done"
     passed = f"{series.passed} of {series.wanted} trials passed{done}"
     return Text.assemble((series.task, "bold"), disturbed, "  ", (passed, style))
+
+
+def _render_false_successes(series: Series) -> list[RenderableType]:
+    words = format_false_successes(series)
+    return [Text(words, style="bold red")] if words else []
+
+
+def format_false_successes(series: Series) -> str:
+    """Return how many trials succeeded with a false claim; empty if none did."""
+    if not series.false_successes:
+        return ""
+    return f"{series.false_successes} of {series.done} succeeded with a false claim"
 
 
 def _render_unverified(series: Series) -> list[RenderableType]:

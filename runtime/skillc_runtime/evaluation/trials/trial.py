@@ -23,7 +23,8 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     `works` has an entry for each object that was worked on; `coverage` is the lowest of all surfaces, wiped or not,
     over the whole run. `greatest_force_n` is the greatest contact force on any tool, `force_limit_n` the lowest limit
     of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `at_rest` whether at the end
-    nothing moved and no force was applied.
+    nothing moved and no force was applied. `false_claims` are sentences about what the world model claims at the end of
+    things and where they are, and what really is so.
     """
 
     seed: int
@@ -32,6 +33,7 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     verified: bool | None = None
     assumed: tuple[str, ...] = ()
     variation: str = ""
+    false_claims: tuple[str, ...] = ()
     works: tuple[Work, ...] = ()
     coverage: float = 0.0
     greatest_force_n: float = 0.0
@@ -40,3 +42,8 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     at_rest: bool = False
     sim_time_s: float = 0.0
     wall_time_s: float = 0.0
+
+    @property
+    def is_false_success(self) -> bool:
+        """Whether the task succeeded, by what the world model claims, and a claim is false."""
+        return self.status == "succeeded" and bool(self.false_claims)
