@@ -2,12 +2,16 @@
 
 import numpy as np
 import pytest
-from cells import SURFACE, cell
+from cells import LAB, SURFACE, cell, world
 
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.primitives.inspect import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN, Inspect
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.state.changes import ClearProperty, SetProperty
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, ClearProperty, SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import HAS_SHEET, INSPECTION_CAMERA, INSPECTION_SHEET, SKILLC
 
+SHEET = SKILLC + "inspection-camera-sheet"
 TABLE = SURFACE["iiwa_table"]
 
 
@@ -24,6 +28,38 @@ def test_clean_is_what_reaches_the_threshold(unwiped_cells: int, clean: bool) ->
     state = there.world.snapshot()
     assert state.value(TABLE, IS_CLEAN) is clean
     assert state.value(TABLE, COVERAGE) == pytest.approx(1 - unwiped_cells / 4800)
+
+
+def seen_clean(rate: float, name: str, dose: float, seed: int = 0) -> float:
+    """Return the seen share of a table, all of which was wiped for `dose` s, with a rate on the camera's sheet."""
+    changed = world("iiwa_table").with_changes([SetProperty(SHEET, SKILLC + name, rate)])
+    there = SimulatedCell(WorldModel(changed), seed)
+    there.coverage[TABLE].dose[:] = dose
+    return there.camera().inspect(TABLE)
+
+
+def test_false_alarms_and_misses_are_seen_if_they_are_many_and_outvoted_if_they_are_few() -> None:
+    assert seen_clean(0.01, "falseAlarmRate", 1.0) == 1.0
+    assert 0.85 < seen_clean(0.3, "falseAlarmRate", 1.0) < 0.95, "5 of 9 images or more are wrong in 10 % of the spots"
+    assert seen_clean(0.01, "missRate", 0.0) == 0.0
+    assert 0.05 < seen_clean(0.3, "missRate", 0.0) < 0.15
+    assert (
+        seen_clean(0.3, "missRate", 0.0, 1) == seen_clean(0.3, "missRate", 0.0, 1) != seen_clean(0.3, "missRate", 0.0)
+    )
+
+
+def test_a_camera_of_the_scene_replaces_the_usual_one() -> None:
+    eye, sheet = LAB + "Eye", LAB + "eye-sheet"
+    changes = [
+        AddIndividual(eye, (INSPECTION_CAMERA,)),
+        AddIndividual(sheet, (INSPECTION_SHEET,)),
+        AddRelation(eye, HAS_SHEET, sheet),
+        SetProperty(sheet, SKILLC + "imagesPerInspection", 1),
+        SetProperty(sheet, SKILLC + "falseAlarmRate", 0.5),
+    ]
+    there = SimulatedCell(WorldModel(world("iiwa_table").with_changes(changes)))
+    there.coverage[TABLE].dose[:] = 1.0
+    assert 0.45 < there.camera().inspect(TABLE) < 0.55
 
 
 def test_a_surface_without_threshold_is_not_judged() -> None:

@@ -42,8 +42,13 @@ class CoverageMap:
 
     def rubbed_share(self, seconds: float) -> float:
         """Return the share of the counted cells that were wiped for at least `seconds`; 1 if no cell counts."""
+        worked = self.find_worked(seconds)
+        return float(worked.mean()) if worked.size else 1.0
+
+    def find_worked(self, seconds: float) -> NDArray[np.bool_]:
+        """Return which of the counted cells (n,) were wiped for at least `seconds`."""
         dose = self.dose[self.mask]
-        return float(((dose > 0) & (dose >= seconds)).mean()) if dose.size else 1.0
+        return np.asarray((dose > 0) & (dose >= seconds))
 
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
         """Add `seconds` to the cells that a tool's working face reaches.

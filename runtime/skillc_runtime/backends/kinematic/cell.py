@@ -9,6 +9,7 @@ import mujoco
 from skillc_runtime.backends.kinematic.arm import KinematicArm
 from skillc_runtime.backends.kinematic.gripper import KinematicGripper
 from skillc_runtime.backends.kinematic.touch import Touch
+from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, SimulatedCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.contact_bits import SOLID
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
@@ -74,6 +75,9 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         links = (model.geom_contype & kind) > 0
         model.geom_contype[links] &= ~kind
         model.geom_conaffinity[links] &= ~met
+
+    def _make_inspection_camera(self) -> SimulatedCamera:
+        return SimulatedCamera(self.coverage, EXACT_INSPECTION, 0)
 
     def _make_cameras(self) -> dict[str, SimulatedPoseCamera]:
         names = self.scene.names

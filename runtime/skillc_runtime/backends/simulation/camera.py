@@ -1,22 +1,80 @@
-"""A simulated camera, which sees the true coverage of surfaces."""
+"""A simulated camera that inspects surfaces: it takes some spots for clean or unclean that are not."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
+from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.world.state.data_sheet import DataSheet, number_of, sheet_of
+from skillc_runtime.world.state.terms import INSPECTION_CAMERA, INSPECTION_SHEET, SKILLC
+from skillc_runtime.world.state.world_state import WorldState
+
+USUAL_SHEET = SKILLC + "inspection-camera-sheet"
+"""The data sheet of the camera in a scene that has no inspection camera."""
+
+
+@dataclass(frozen=True, slots=True)
+class InspectionSpec:
+    """A camera that inspects surfaces: how it errs in each spot of an image, and how many images vote on a spot.
+
+    miss: share of the unclean spots that it takes for clean; false_alarm: share of the clean ones it takes for unclean.
+    """
+
+    individual: str = ""
+    miss: float = 0.0
+    false_alarm: float = 0.0
+    images: int = 1
+
+
+EXACT_INSPECTION = InspectionSpec()
+"""A camera without errors."""
 
 
 class SimulatedCamera:
-    """Implements `Camera` with the coverage of each surface by IRI, which the cell updates."""
+    """Implements `Camera` with the true coverage of each surface by IRI, which the cell updates."""
 
-    def __init__(self, coverage: Mapping[str, CoverageMap]) -> None:
-        self._coverage = coverage
+    def __init__(self, coverage: Mapping[str, CoverageMap], spec: InspectionSpec, seed: int) -> None:
+        self._coverage, self._spec = coverage, spec
+        self._rng = rng_for(spec.individual, seed)
 
     def inspect(self, surface: str) -> float:
-        """Return the share of the surface that is wiped; KeyError if there is no such surface."""
-        return self._coverage[surface].wiped_share
+        """Return the share of the surface that is seen to be wiped; KeyError if there is no such surface."""
+        return self.rubbed_share(surface, 0.0)
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
-        """Return the share under a pressed tool for at least `seconds`; KeyError if there is no such surface."""
-        return self._coverage[surface].rubbed_share(seconds)
+        """Return the share that is seen to have been under a pressed tool for at least `seconds`.
+
+        KeyError if there is no such surface.
+        """
+        spots = self._coverage[surface].find_worked(seconds)
+        return float(self._look(spots).mean()) if spots.size else 1.0
+
+    def _look(self, done: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Return which spots (n,) most of the images show as done, of which `done` (n,) really are."""
+        spec = self._spec
+        if spec.miss == spec.false_alarm == 0.0:
+            return done
+        wrong = self._rng.random((spec.images, done.size)) < np.where(done, spec.false_alarm, spec.miss)
+        return np.asarray(2 * (wrong != done).sum(axis=0) > spec.images)
+
+
+def read_inspection_camera(state: WorldState) -> InspectionSpec:
+    """Read the first inspection camera in order of IRI, or the usual one; SheetError if a fact is missing."""
+    found = sorted(state.instances(INSPECTION_CAMERA)) if INSPECTION_CAMERA in state.vocabulary.classes else []
+    if found:
+        return _read(found[0], sheet_of(state, found[0]))
+    if INSPECTION_SHEET in state.vocabulary.classes and USUAL_SHEET in state.instances(INSPECTION_SHEET):
+        return _read(USUAL_SHEET, DataSheet(state, USUAL_SHEET))
+    return EXACT_INSPECTION
+
+
+def _read(camera: str, sheet: DataSheet) -> InspectionSpec:
+    miss, false_alarm = (
+        number_of(sheet.state, sheet.individual, SKILLC + name, default=0.0) for name in ("missRate", "falseAlarmRate")
+    )
+    return InspectionSpec(camera, miss, false_alarm, round(sheet.number("imagesPerInspection")))

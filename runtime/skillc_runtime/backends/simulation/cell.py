@@ -72,7 +72,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._observers = {
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
         }
-        self._camera = SimulatedCamera(self.coverage)
+        self._camera = self._make_inspection_camera()
         self._cameras = self._make_cameras()
         self.watchdog = HeartbeatWatchdog()
         self._buttons = make_buttons(scene.fixtures, variation.fixtures, names, self.data)
@@ -256,6 +256,10 @@ class ModelledCell(ABC, Generic[A, G]):
             person.step(now)
         self._move(now)
         self._step += 1
+
+    def _make_inspection_camera(self) -> SimulatedCamera:
+        """Return the camera that inspects surfaces; its errors follow from the seed."""
+        return SimulatedCamera(self.coverage, self.scene.inspection, self.variation.seed)
 
     def _make_cameras(self) -> dict[str, SimulatedPoseCamera]:
         """Return the cameras that estimate poses, by IRI; their errors follow from the seed."""

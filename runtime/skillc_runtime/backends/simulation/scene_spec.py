@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, InspectionSpec, read_inspection_camera
 from skillc_runtime.backends.simulation.camera_spec import CameraSpec, read_cameras
 from skillc_runtime.backends.simulation.displacement import DisplacementRange, read_displacement_ranges
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec, read_fixtures
@@ -172,6 +173,7 @@ class SceneSpec:
     fixtures: tuple[FixtureSpec, ...] = ()
     people: tuple[PersonSpec, ...] = ()
     cameras: tuple[CameraSpec, ...] = ()
+    inspection: InspectionSpec = EXACT_INSPECTION
     displaced: tuple[DisplacementRange, ...] = ()
 
     @property
@@ -199,6 +201,7 @@ def read_scene_spec(state: WorldState) -> SceneSpec:
         fixtures=read_fixtures(state),
         people=read_people(state),
         cameras=read_cameras(state),
+        inspection=read_inspection_camera(state),
         displaced=read_displacement_ranges(state),
     )
 

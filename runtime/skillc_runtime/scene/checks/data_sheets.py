@@ -18,6 +18,8 @@ from skillc_runtime.world.state.terms import (
     GRIPPER_SHEET,
     HAS_POSTURE,
     HAS_SHEET,
+    INSPECTION_CAMERA,
+    INSPECTION_SHEET,
     JOINT_ACCELERATIONS,
     JOINT_SPEEDS,
     JOINT_VALUES,
@@ -35,6 +37,7 @@ KINDS = (
     (TOOL, (TOOL_SHEET, RIGID_TOOL_SHEET)),
     (FIXTURE, (FIXTURE_SHEET,)),
     (CAMERA, (CAMERA_SHEET,)),
+    (INSPECTION_CAMERA, (INSPECTION_SHEET,)),
 )
 """Kinds of devices with the kinds of sheets that describe them; other kinds are not checked."""
 
