@@ -11,7 +11,7 @@ import pytest
 
 from docs.pages import ROOT, Reader, blocks
 
-PAGES = {"world-model": 8, "bodies": 3, "space": 6, "scenes": 3, "obstacles": 1, "backends": 1, "sensing": 1}
+PAGES = {"world-model": 8, "bodies": 3, "space": 6, "scenes": 5, "obstacles": 1, "backends": 1, "sensing": 1}
 """Pages of `docs`, and how many outputs each shows at least."""
 
 

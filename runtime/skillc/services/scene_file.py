@@ -69,6 +69,10 @@ class SceneFile:
             )
         return iri
 
+    def has_thing(self, name: str) -> bool:
+        """Whether the file's own namespace has an individual of this name."""
+        return self.state.exists(self._own_namespace() + name)
+
     def find_class(self, name: str) -> str:
         """Return the IRI of a class; without a prefix its last part is enough. ServiceError if unknown or ambiguous."""
         vocabulary = self.state.vocabulary

@@ -1,4 +1,4 @@
-"""Write a scene: create it, add, move and remove things, edit facts; show it with a picture.
+"""Write a scene: create it, add, move, remove and import things, edit facts; show it with a picture.
 
 Comments, order and layout of the rest of the file stay as they are.
 
@@ -174,6 +174,27 @@ def edit(scene: Path, edits: tuple[str, ...], library: Path | None) -> None:
         click.echo(edit_file(path, state, edits), err=True)
 
 
+@command.command("import", cls=Command)
+@click.argument("scene", type=PATH)
+@click.argument("source", metavar="FILE", type=PATH)
+@pose_options
+@LIBRARY
+def import_(scene: Path, source: Path, library: Path | None, **given: Any) -> None:
+    """Add the solids of an MJCF, URDF or SDF FILE to SCENE, as fixed things.
+
+    The origin of the file is at --position in --frame, turned by --roll, --pitch and --yaw. What is not understood is
+    listed.
+    """
+    from skillc.services.scenery.writing import import_scenery
+
+    with _opened(scene, library) as (path, state):
+        found = import_scenery(path, state, source, _pose(given))
+    solids = f"{len(found.solids)} solid{'s' * (len(found.solids) != 1)}"
+    click.echo(f"{scene}: {solids} added from {source} ({found.format})", err=True)
+    for note in found.notes:
+        click.echo(f"  {note}", err=True)
+
+
 @command.command(cls=Command)
 @click.argument("scene", type=PATH)
 @click.option("--out", type=FOLDER, default="out/scene", show_default=True, help="The folder for the pictures.")
@@ -198,5 +219,5 @@ def show(scene: Path, out: Path, library: Path | None, as_json: bool) -> None:
         click.echo(f"no PNG: {drawn.not_rendered}", err=True)
 
 
-for _command in (add, move, remove, edit, show):
+for _command in (add, move, remove, edit, import_, show):
     add_ontology_option(_command)
