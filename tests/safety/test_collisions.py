@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from safety.test_faults import is_safe
-from simulation.cells import ARM, cell, run
-from simulation.test_link_contacts import BESIDE_THE_ELBOW, hidden_shelf
+from simulation.cells import ARM, cell, run, world
+from simulation.test_link_contacts import BESIDE_THE_ELBOW, hidden_shelf, shelf
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
+from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.world.state.model import WorldModel
 
 BOARDS = {
     "iiwa_table": (BESIDE_THE_ELBOW, (0.4, 0.04, 0.4)),
@@ -50,7 +52,43 @@ def test_the_same_motion_without_a_board_arrives(scene: str) -> None:
 
 def test_a_line_of_the_tool_stops_as_well_where_the_elbow_meets_an_unknown_board() -> None:
     there = hidden_shelf("iiwa_table", BESIDE_THE_ELBOW)
-    tool = there.arm(ARM["iiwa_table"]).measured.pose
-    target = Pose(tool.position + np.array([-0.05, 0.4, 0.1]), tool.rotation)
     with pytest.raises(SkillFailure, match="in the way of a link"):
-        run(there, MoveLinear(there, arm=ARM["iiwa_table"], target=target, speed=0.2))
+        run(there, MoveLinear(there, arm=ARM["iiwa_table"], target=beside(there), speed=0.2))
+
+
+def beside(there: SimulatedCell) -> Pose:
+    """Return a pose of the tool beside its start, to which the elbow passes the board."""
+    tool = there.arm(ARM["iiwa_table"]).measured.pose
+    return Pose(tool.position + np.array([-0.05, 0.4, 0.1]), tool.rotation)
+
+
+def known_shelf() -> SimulatedCell:
+    return SimulatedCell(WorldModel(world("iiwa_table").with_changes(shelf(BESIDE_THE_ELBOW))))
+
+
+@pytest.mark.parametrize("motion", [MoveLinear, FollowPath])
+def test_a_line_with_a_link_through_a_known_board_is_refused_before_it_moves(motion: type) -> None:
+    there = known_shelf()
+    target, start = beside(there), there.arm(ARM["iiwa_table"]).measured.q
+    how = {"target": target} if motion is MoveLinear else {"path": [target], "blend": 0.0}
+    line = motion(there, arm=ARM["iiwa_table"], speed=0.2, **how)
+    with pytest.raises(
+        SkillFailure, match=r"way of the tool lab:Iiwa-1 link\d would touch lab:Shelf-1 and overlap it by"
+    ):
+        line.start()
+    there.advance(0.3)
+    assert np.abs(there.arm(ARM["iiwa_table"]).measured.q - start).max() < 0.01
+    assert there.ground_truth.contacts() == ()
+
+
+def test_the_same_line_without_a_board_arrives() -> None:
+    there = cell("iiwa_table")
+    run(there, MoveLinear(there, arm=ARM["iiwa_table"], target=beside(there), speed=0.2))
+
+
+def test_fingers_may_go_where_they_touch_something() -> None:
+    there = cell("iiwa_table")
+    tool = there.arm(ARM["iiwa_table"]).measured.pose
+    target = Pose(np.array([tool.position[0], tool.position[1], 0.74]), tool.rotation)
+    MoveLinear(there, arm=ARM["iiwa_table"], target=target, speed=0.1).start()
+    assert not there.arm(ARM["iiwa_table"]).motion.done

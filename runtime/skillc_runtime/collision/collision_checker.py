@@ -105,6 +105,27 @@ class CollisionChecker:
         touches = (touch for q in way if (touch := self.find_collision(q)) is not None)
         return min(touches, key=lambda touch: touch.distance_m, default=None)
 
+    def find_overlap(self, start: Array, way: Iterable[Array], spared: frozenset[str]) -> Collision | None:
+        """Return the first overlap of links or the palm along postures (nv,), None if there is none.
+
+        Fingers and what they hold may touch anything, the palm the things with the names `spared`; what overlaps at the
+        posture `start` (nv,) may do so on the way.
+        """
+        allowed = self.overlapping_pairs(start) | self._touching_at_home
+        for q in way:
+            for pair, far in self.near_pairs(q).items():
+                if far < -SLACK_M and pair not in allowed and self._is_unwanted(pair, spared):
+                    one, other = pair if self._moves[pair[0]] else pair[::-1]
+                    return Collision(self.model.names[one], self.model.names[other], far)
+        return None
+
+    def _is_unwanted(self, pair: Pair, spared: frozenset[str]) -> bool:
+        """Whether no skill wants two parts to touch."""
+        one, other = pair if self._moves[pair[0]] else pair[::-1]
+        if other in self.model.links or one in self.model.links:
+            return True
+        return one in self.model.palm and self.model.names[other] not in spared
+
     def _within(self, pair: Pair) -> bool:
         """Whether both geoms belong to the arm, its hand or held objects."""
         return self._moves[pair[0]] and self._moves[pair[1]]

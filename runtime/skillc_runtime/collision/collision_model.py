@@ -30,12 +30,15 @@ ORIGIN = Pose.of((0.0, 0.0, 0.0))
 class CollisionModel:
     """A compiled model in the arm's base frame; the first `joints` positions are the arm's, `fingers` the others.
 
-    names: of each geom, for messages; levers (nv,): m, the greatest distance of any part of the arm from each joint;
+    names: of each geom, for messages; links, palm: geoms of the arm, and of the gripper without its fingers and what
+    it holds; levers (nv,): m, the greatest distance of any part of the arm from each joint;
     margin: m, the distance below which contacts are computed.
     """
 
     compiled: Any
     names: tuple[str, ...]
+    links: frozenset[int]
+    palm: frozenset[int]
     joints: int
     fingers: Array
     levers: Array
@@ -58,7 +61,8 @@ def build_collision_model(assembly: ArmAssembly, scenery: Scenery) -> CollisionM
     model.opt.o_margin = assembly.clearance_m
     names = tuple(_name(model, geom, assembly, scenery) for geom in range(model.ngeom))
     fingers, levers = _fingers(model, joints, assembly.hand), _levers(model, joints)
-    return CollisionModel(model, names, joints, fingers, levers, assembly.clearance_m)
+    links, palm = _geoms(model, ARM), _geoms(model, HAND)
+    return CollisionModel(model, names, links, palm, joints, fingers, levers, assembly.clearance_m)
 
 
 def _moving_model(path: str) -> Any:
@@ -125,6 +129,17 @@ def _fingers(model: Any, joints: int, hand: Hand | None) -> Array:
         shares = model.wrap_prm[span]
         fingers[model.jnt_qposadr[model.wrap_objid[span]]] = hand.opening_m / shares.sum()
     return fingers[joints:]
+
+
+def _geoms(model: Any, prefix: str) -> frozenset[int]:
+    """Return the geoms of an arm, or those of a gripper that its joints do not move, without what it holds."""
+    return frozenset(
+        geom
+        for geom in range(model.ngeom)
+        if model.body(model.geom_bodyid[geom]).name.startswith(prefix)
+        and not (prefix == HAND and model.body_jntnum[model.geom_bodyid[geom]])
+        and not model.geom(geom).name.startswith(HELD)
+    )
 
 
 def _levers(model: Any, joints: int) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,14 +38,25 @@ def slow_to_feasible(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: 
 
     q (nv,): rad, the joints at its start. Raises Infeasible if a joint would leave its range or the tool cannot follow.
     """
+    before, fastest = q, 1.0
+    for step, after in joints_along(arm, trajectory, q, limits):
+        fastest = max(fastest, float((np.abs(after - before) / (limits.velocity * step)).max()))
+        before = after
+    return slow_down(trajectory, fastest)
+
+
+def joints_along(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits) -> Iterator[tuple[float, Array]]:
+    """Yield the joints (nv,) in rad at samples of a motion of the tool in base, and the time in s since the one before.
+
+    q (nv,): rad, at its start. Raises Infeasible if a joint would leave its range or the tool cannot follow.
+    """
     count = int(np.clip(np.ceil(trajectory.duration / SAMPLE_S), 1, MAX_SAMPLES))
-    times, first, fastest = np.linspace(0.0, trajectory.duration, count + 1), q, 1.0
-    for time, step in zip(times[1:], np.diff(times), strict=True):
-        target, before = trajectory.at(float(time)).pose, q
+    times, first = np.linspace(0.0, trajectory.duration, count + 1), q
+    for time, step in zip(times[1:].tolist(), np.diff(times).tolist(), strict=True):
+        target = trajectory.at(time).pose
         q = _track(arm, target, q, first)
         _check(arm, target, q, limits)
-        fastest = max(fastest, float((np.abs(q - before) / (limits.velocity * step)).max()))
-    return slow_down(trajectory, fastest)
+        yield step, q
 
 
 def sample_offsets(overlay: Overlay) -> list[Array]:

@@ -8,7 +8,7 @@ from itertools import pairwise
 import mujoco
 import numpy as np
 
-from skillc_runtime.control.feasibility import check_overlay_feasible, slow_to_feasible
+from skillc_runtime.control.feasibility import check_overlay_feasible, joints_along, slow_to_feasible
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
 from skillc_runtime.control.measured import NEAR_JOINT_RAD
 from skillc_runtime.control.virtual_arm import VirtualArm
@@ -52,6 +52,14 @@ class Kinematics:
         """
         self._arm.mount_tool(state.q, state.tool)
         return slow_to_feasible(self._arm, trajectory, q, limits)
+
+    def joints_along(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> list[Array]:
+        """Return the joints (nv,) in rad at samples of a motion in base that starts at joints q (nv,).
+
+        Raises Infeasible if the arm cannot follow it.
+        """
+        self._arm.mount_tool(state.q, state.tool)
+        return [posture for _, posture in joints_along(self._arm, trajectory, q, limits)]
 
     def check_overlay_feasible(self, overlay: Overlay, axes: Array, limits: ArmLimits, state: ArmState) -> None:
         """Raise Infeasible if a joint would be too fast for an overlay along `axes` (3, 3) in the present posture."""

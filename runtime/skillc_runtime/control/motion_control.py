@@ -88,6 +88,16 @@ class MotionControl:
             check_motion_inside(task.workspace, (local.at(float(time)).pose.position for time in times))
         tool.reference_generator.follow(task.kinematics.slow_to_feasible(local, q, task.limits, state), task.now)
 
+    def joints_along(self, trajectory: Trajectory) -> tuple[Array, list[Array]]:
+        """Return the joints (nv,) in rad where a motion of the tool in the world starts, and at samples of it.
+
+        Raises Infeasible if the arm cannot follow it.
+        """
+        task = self._task
+        state = task.measured.state
+        q, local = task.controllers.joints_now(state), trajectory.transform(task.base().inverse())
+        return q, task.kinematics.joints_along(local, q, task.limits, state)
+
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
         """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
 

@@ -167,6 +167,13 @@ class MotionInterface(Protocol):
         """
         ...
 
+    def joints_along(self, trajectory: Trajectory) -> tuple[Array, list[Array]]:
+        """Return the joints (nv,) in rad where a motion of the tool in the world starts, and at samples of it.
+
+        Raises Infeasible if the arm cannot follow it.
+        """
+        ...
+
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
         """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
 

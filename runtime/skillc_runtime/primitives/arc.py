@@ -8,6 +8,7 @@ from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.path import join_segments
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
+from skillc_runtime.primitives.collision_free_motion import move_tool_along
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import SkillFailure
 
@@ -22,6 +23,7 @@ class MoveArc(ArmMotion):
 
     def __init__(self, cell: Cell, *, arm: str, via: Pose, target: Pose, speed: float) -> None:
         super().__init__(cell, arm)
+        self._individual = arm
         self._via, self._target, self._speed = via, target, speed
 
     def start_motion(self) -> None:
@@ -33,4 +35,4 @@ class MoveArc(ArmMotion):
             state = self.cell.world.snapshot()
             places = (describe_place(state, pose.position) for pose in (start, self._via, self._target))
             raise SkillFailure("{}: start at {}; via at {}; target at {}".format(why, *places)) from why
-        self.arm.motion.move_along(join_segments([start, self._target], [piece], limits))
+        move_tool_along(self.cell, self._individual, join_segments([start, self._target], [piece], limits))

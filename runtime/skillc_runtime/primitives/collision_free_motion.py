@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
@@ -12,11 +13,12 @@ from skillc_runtime.collision.path_planning import JointSpace, NoPath, find_moti
 from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.reference import Trajectory
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.terms import HAS_GRIPPER
+from skillc_runtime.world.state.terms import HAS_GRIPPER, MANIPULATABLE
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver
@@ -43,6 +45,22 @@ def move_collision_free(cell: Cell, arm: str, goals: Iterable[Array], pace: floa
         driver.motion.follow_joints(_plan_motion(driver, contacts, known, goals, pace))
     except NoPath as why:
         raise SkillFailure(str(why)) from why
+
+
+def move_tool_along(cell: Cell, arm: str, trajectory: Trajectory) -> None:
+    """Move the tool along a trajectory in the world, on which it may touch things, but no link and no palm.
+
+    SkillFailure, before anything moves, says which part would be in the way of what; Infeasible if the arm cannot
+    follow. The palm may touch movable things.
+    """
+    driver, state = cell.arm(arm), cell.world.snapshot()
+    with suppress(SheetError, FrameError):
+        contacts, _ = _make_collision_model(cell, state, arm)
+        movable = frozenset(map(state.vocabulary.short, state.instances(MANIPULATABLE)))
+        touch = contacts.find_overlap(*driver.motion.joints_along(trajectory), movable)
+        if touch is not None:
+            raise SkillFailure(f"on the way of the tool {touch} and overlap it by {-1e3 * touch.distance_m:.0f} mm")
+    driver.motion.move_along(trajectory)
 
 
 def _make_collision_model(cell: Cell, state: WorldState, arm: str) -> tuple[CollisionChecker, JointSpace]:

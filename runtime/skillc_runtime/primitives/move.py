@@ -12,7 +12,7 @@ import numpy as np
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
-from skillc_runtime.primitives.collision_free_motion import move_collision_free
+from skillc_runtime.primitives.collision_free_motion import move_collision_free, move_tool_along
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.labelled import LabelledVector, Quantity
@@ -86,12 +86,15 @@ class MoveLinear(ArmMotion):
 
     def __init__(self, cell: Cell, *, arm: str, target: Pose, speed: float) -> None:
         super().__init__(cell, arm)
+        self._individual = arm
         self._target, self._speed = target, speed
 
     def start_motion(self) -> None:
         """Start the line from the stopping pose."""
         limits = self.limits(self._speed)
-        self.arm.motion.move_along(path_through([self.arm.motion.stopping_pose(), self._target], limits))
+        move_tool_along(
+            self.cell, self._individual, path_through([self.arm.motion.stopping_pose(), self._target], limits)
+        )
 
 
 def _find_posture(state: WorldState, arm: str, name: str) -> Array:

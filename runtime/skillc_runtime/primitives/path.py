@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from skillc_runtime.motion.path import path_through as path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
+from skillc_runtime.primitives.collision_free_motion import move_tool_along
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -21,9 +22,14 @@ class FollowPath(ArmMotion):
 
     def __init__(self, cell: Cell, *, arm: str, path: Sequence[Pose], speed: float, blend: float) -> None:
         super().__init__(cell, arm)
+        self._individual = arm
         self._poses, self._speed, self._blend = path, speed, blend
 
     def start_motion(self) -> None:
         """Start the path from the stopping pose."""
         limits = self.limits(self._speed)
-        self.arm.motion.move_along(path_through([self.arm.motion.stopping_pose(), *self._poses], limits, self._blend))
+        move_tool_along(
+            self.cell,
+            self._individual,
+            path_through([self.arm.motion.stopping_pose(), *self._poses], limits, self._blend),
+        )
