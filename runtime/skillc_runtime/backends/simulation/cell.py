@@ -13,6 +13,7 @@ from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.base import SimulatedBase
 from skillc_runtime.backends.simulation.button import SimulatedButton, make_buttons
 from skillc_runtime.backends.simulation.camera import SimulatedCamera
+from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
@@ -30,7 +31,7 @@ from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
-from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.changes import Change, SetProperty
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.model import WorldModel
@@ -65,6 +66,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._grippers = {a.gripper.individual: self._hands[a.individual] for a in scene.arms if a.gripper}
         names = scene.names
         self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
+        self._cargo = {robot: Cargo(scene, robot, self._hands, self.model, self.data) for robot in self._bases}
         self._prepare()
         self._drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
         poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
@@ -278,17 +280,9 @@ class ModelledCell(ABC, Generic[A, G]):
         return [(name, hand.holding) for name, hand in self._grippers.items() if hand.holding is not None]
 
     def _move_bases(self) -> None:
-        """Move bases, and what the arms on them hold, by one step."""
+        """Move bases with their cargo by one step."""
         for robot, base in self._bases.items():
-            motion = base.step(self._timestep)
-            if motion is not None:
-                self._carry_along(robot, motion)
-
-    def _carry_along(self, robot: str, motion: Pose) -> None:
-        """Move objects held by the arms of a driving robot along with it."""
-        for arm in self.scene.arms:
-            if arm.robot == robot and arm.individual in self._hands:
-                self._hands[arm.individual].move_with_base(motion)
+            self._cargo[robot].move(base.step(self._timestep))
 
     def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
         """Run a control period of one arm; report, once, that it is broken."""
