@@ -6,14 +6,18 @@ import numpy as np
 import pytest
 
 from safety.test_faults import is_safe
-from simulation.cells import ARM, cell, run, world
+from simulation.cells import ARM, LAB, cell, run, world
 from simulation.test_link_contacts import BESIDE_THE_ELBOW, hidden_shelf, shelf
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.drive import DriveBase
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
 from skillc_runtime.primitives.path import FollowPath
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.changes import AddRelation, SetProperty
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import AT, POSITION
 
 BOARDS = {
     "iiwa_table": (BESIDE_THE_ELBOW, (0.4, 0.04, 0.4)),
@@ -92,3 +96,34 @@ def test_fingers_may_go_where_they_touch_something() -> None:
     target = Pose(np.array([tool.position[0], tool.position[1], 0.74]), tool.rotation)
     MoveLinear(there, arm=ARM["iiwa_table"], target=target, speed=0.1).start()
     assert not there.arm(ARM["iiwa_table"]).motion.done
+
+
+def test_a_base_stops_where_it_drives_into_furniture() -> None:
+    there = hidden_shelf("ur5e_whiteboard", (0.9, -0.5, 0.4), size=(0.3, 0.3, 0.4))
+    with pytest.raises(
+        SkillFailure, match=r"lab:Heron-1 stopped on the way to lab:Store: its bumper touched something"
+    ):
+        run(there, DriveBase(there, robot=LAB + "Heron-1", to=LAB + "Store"), 60.0)
+    base = there.base(LAB + "Heron-1").pose
+    there.advance(0.5)
+    np.testing.assert_array_equal(there.base(LAB + "Heron-1").pose.position, base.position)
+    (touched,) = there.ground_truth.contacts()
+    assert (touched.part, touched.other, touched.peak_force_n) == ("lab:Heron-1", "lab:Shelf-1", None)
+
+
+def test_a_base_with_nothing_in_its_way_arrives() -> None:
+    there = cell("ur5e_whiteboard")
+    run(there, DriveBase(there, robot=LAB + "Heron-1", to=LAB + "Store"), 60.0)
+    assert there.ground_truth.contacts() == ()
+
+
+def test_two_arms_that_meet_do_not_pass_through_each_other_and_both_are_named() -> None:
+    near = [SetProperty(LAB + "Hatch", POSITION[1], 2.05), AddRelation(LAB + "Heron-1", AT, LAB + "Hatch")]
+    there = SimulatedCell(WorldModel(world("shared_eraser").with_changes(near)))
+    above, at = (pose(there.world.snapshot(), LAB + "Eraser-1-" + name) for name in ("approach", "grasp"))
+    with pytest.raises(SkillFailure, match=r"of a link|on the tool is beyond|away from where it shall be"):
+        run(there, MoveJoints(there, arm=LAB + "Iiwa-1", target=above, pace=0.3))
+        run(there, MoveLinear(there, arm=LAB + "Iiwa-1", target=at, speed=0.2))
+    touched = there.ground_truth.contacts()
+    assert {"lab:Iiwa-1 link6", "lab:Robotiq-1 palm"} & {each.other for each in touched}
+    assert "lab:Ur5e-1 forearm_link" in {each.part for each in touched}

@@ -25,6 +25,11 @@ class MobileBase(Protocol):
         """Whether the base does not move, at a goal or elsewhere."""
         ...
 
+    @property
+    def fault(self) -> str | None:
+        """Why the base stopped by itself on the way to the last goal, for example its bumper; None if it did not."""
+        ...
+
     def drive_to(self, goal: Pose) -> None:
         """Begin to drive to a pose: rotate towards it, drive straight, rotate to its heading; returns at once.
 

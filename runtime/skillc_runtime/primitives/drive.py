@@ -13,7 +13,7 @@ from skillc_runtime.primitives.time_limits import drive_limit_s
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.labelled import Quantity, label
-from skillc_runtime.world.state.terms import AT
+from skillc_runtime.world.state.terms import AT, HAS_ARM
 
 
 class DriveBase(Primitive):
@@ -24,6 +24,7 @@ class DriveBase(Primitive):
     def __init__(self, cell: Cell, *, robot: str, to: str) -> None:
         super().__init__(cell)
         self._base, self._robot, self._to = cell.base(robot), robot, to
+        self._arms = sorted(cell.world.snapshot().objects(robot, HAS_ARM))
         self._limit_s = self._ends = 0.0
 
     def start(self) -> None:
@@ -37,6 +38,7 @@ class DriveBase(Primitive):
 
     def tick(self) -> Status:
         """Return SUCCESS when the base has arrived; SkillFailure if it reports another place, or does not arrive."""
+        self._check_stopped()
         if not self._base.done:
             if self.cell.now > self._ends:
                 raise self._absence()
@@ -46,6 +48,18 @@ class DriveBase(Primitive):
             raise SkillFailure(elsewhere)
         self.cell.world.commit([AddRelation(self._robot, AT, self._to)], "DriveBase", "reported")
         return Status.SUCCESS
+
+    def _check_stopped(self) -> None:
+        """Raise SkillFailure if the base, or one of its arms, stopped by itself on the way."""
+        vocabulary = self.cell.world.snapshot().vocabulary
+        faults = {self._robot: self._base.fault} | {arm: self.cell.arm(arm).take_fault() for arm in self._arms}
+        for device, fault in faults.items():
+            if fault is not None:
+                to, place = vocabulary.short(self._to), self._base.pose.position
+                raise SkillFailure(
+                    f"{vocabulary.short(device)} stopped on the way to {to}: {fault}; the base is at "
+                    f"({place[0]:.2f}, {place[1]:.2f}) m in the frame 'map'"
+                )
 
     def _absence(self) -> SkillFailure:
         state = self.cell.world.snapshot()

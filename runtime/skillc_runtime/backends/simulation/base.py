@@ -8,10 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from skillc_runtime.backends.simulation.bumper import Bumper
 from skillc_runtime.backends.simulation.names import base_body_name
 from skillc_runtime.backends.simulation.scene_spec import BaseSpec
 from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 from skillc_runtime.motion.profile import Profile, trapezoidal_profile
+
+STEPS_PER_CHECK = 5
+"""Number of steps between looks at the bumper."""
 
 NEAR_M = 1e-3
 """Shorter motions, in m or rad, are left out."""
@@ -43,7 +47,7 @@ class Leg:
 
 
 class SimulatedBase:
-    """One mobile base of a simulated cell, implementing `MobileBase`."""
+    """One mobile base of a simulated cell, implementing `MobileBase`; `touched` is what stopped it, ground truth."""
 
     def __init__(self, facts: BaseSpec, name: str, model: Any, data: Any) -> None:
         self._facts, self._data = facts, data
@@ -51,6 +55,9 @@ class SimulatedBase:
         self._pose, self._time = facts.pose, 0.0
         self._done, self._stopped = True, False
         self._legs: list[Leg] = []
+        self._bumper, self._steps = Bumper(base_body_name(name), model, data), 0
+        self._fault: str | None = None
+        self.touched: str | None = None
 
     @property
     def pose(self) -> Pose:
@@ -66,6 +73,11 @@ class SimulatedBase:
     def at_rest(self) -> bool:
         """Whether the base does not move, at a goal or elsewhere."""
         return not self._legs
+
+    @property
+    def fault(self) -> str | None:
+        """Why the base stopped by itself on the way to the last goal; None if it did not."""
+        return self._fault
 
     def drive_to(self, goal: Pose) -> None:
         """Begin to drive: brake if the base moves, rotate towards the goal, drive straight, rotate to its heading.
@@ -84,6 +96,8 @@ class SimulatedBase:
         last = self._turn(straight.end, _heading(goal))
         self._legs += [leg for leg in (first, straight, last) if leg.profile.length > NEAR_M]
         self._stopped, self._done = False, not self._legs
+        self._fault = self.touched = None
+        self._bumper.begin(self._pose)
 
     def stop(self) -> None:
         """Brake on the present leg and drop the others."""
@@ -98,8 +112,10 @@ class SimulatedBase:
         """Advance by one step; return the motion in the world (new = motion @ old), None when at rest."""
         if not self._legs:
             return None
-        self._time += period_s
+        self._time, self._steps = self._time + period_s, self._steps + 1
         leg, before = self._legs[0], self._pose
+        if self._steps % STEPS_PER_CHECK == 0 and self._is_blocked(leg.at(self._time)):
+            return None
         self._pose = leg.at(self._time)
         if self._time >= leg.profile.duration:
             self._legs, self._time = self._legs[1:], 0.0
@@ -107,6 +123,14 @@ class SimulatedBase:
         self._data.mocap_pos[self._mocap] = self._pose.position
         self._data.mocap_quat[self._mocap] = quaternion_from_rotation(self._pose.rotation)
         return self._pose @ before.inverse()
+
+    def _is_blocked(self, pose: Pose) -> bool:
+        """Stop at once if the base would touch something at a pose; tell whether it would."""
+        self.touched = self._bumper.touched(pose)
+        if self.touched is not None:
+            self._legs, self._time, self._stopped = [], 0.0, True
+            self._fault = "its bumper touched something"
+        return self.touched is not None
 
     def _turn(self, start: Pose, heading: float) -> Leg:
         angle = math.remainder(heading - _heading(start), math.tau)

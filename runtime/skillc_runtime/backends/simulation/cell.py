@@ -283,6 +283,9 @@ class ModelledCell(ABC, Generic[A, G]):
         """Move bases with their cargo by one step."""
         for robot, base in self._bases.items():
             self._cargo[robot].move(base.step(self._timestep))
+            if base.touched is not None:
+                self._touches.add(self.scene.names[robot], base.touched, self.now, None)
+                base.touched = None
 
     def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
         """Run a control period of one arm; report, once, that it is broken."""
