@@ -59,10 +59,11 @@ def check_tasks_in_scenes(
     others = [each for scene, path in valid for each in check_controllers(scene, path)]
     others += (each for scene, path in valid for each in check_sheets(scene, path))
     others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
+    cells: list[Diagnostic] = []
     for path, scene in scenes.valid.items():
         tasks = [library.tasks[name] for name, file in scenes.files.items() if file == path and name in library.tasks]
-        others += cell_diagnostics(scene, str(path), _used_in(tasks, scene))
-    return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled)]
+        cells += cell_diagnostics(scene, str(path), _used_in(tasks, scene))
+    return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled), *cells]
 
 
 def _used_in(tasks: Sequence[Task], scene: Scene) -> frozenset[str]:
