@@ -64,6 +64,17 @@ def test_a_task_that_does_not_use_it_runs_with_a_warning(tmp_path: Path) -> None
     assert f"lab:{part}, a skiros:Product, has no size" in result.stderr
 
 
+def test_a_device_that_the_cell_does_not_have_is_named(tmp_path: Path) -> None:
+    spare = "lab:Spare a skillc:WsgGripper ; skillc:hasSheet skillc:wsg50-sheet .\n"
+    (tmp_path / "cell.ttl").write_text(str(random_cell(Random(0))) + spare, "utf-8")
+    arguments = ["--scene", str(tmp_path / "cell.ttl"), "--skill", "ActuateGripper(gripper: lab:Spare, opening: 2 cm)"]
+    result = CliRunner().invoke(skillc, ["run", *arguments, "--backend", "kinematic", "--json"])
+    answer = json.loads(result.stdout)
+    assert answer["status"] == "failed"
+    assert "the cell has no gripper lab:Spare; it has lab:Wsg-1" in answer["failure"]
+    assert "KeyError" not in answer["failure"]
+
+
 def test_check_reports_an_error_if_a_task_uses_it(tmp_path: Path) -> None:
     result, _ = run(tmp_path, "no-body", "check", "DIR", "--format", "json")
     found = [(each["name"], each["severity"]) for each in json.loads(result.stdout)]

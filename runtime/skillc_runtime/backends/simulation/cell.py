@@ -29,6 +29,7 @@ from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.backend import BackendBroken
+from skillc_runtime.devices.device_map import DeviceMap
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array
@@ -63,12 +64,14 @@ class ModelledCell(ABC, Generic[A, G]):
         self._broken: str | None = None
         self._reports: list[tuple[Sequence[Change], str, Evidence]] = []
         self.arms, self._hands = self._make_arms()
-        self._grippers = {a.gripper.individual: self._hands[a.individual] for a in scene.arms if a.gripper}
-        names = scene.names
-        self._bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
+        names, hands = scene.names, {a.gripper.individual: self._hands[a.individual] for a in scene.arms if a.gripper}
+        self._grippers = DeviceMap("gripper", hands, names)
+        bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
+        self._bases = DeviceMap("mobile base", bases, names)
         self._cargo = {robot: Cargo(scene, robot, self._hands, self.model, self.data) for robot in self._bases}
         self._prepare()
-        self._drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
+        drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
+        self._drivers = DeviceMap("arm", drivers, names)
         poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
         self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
         self._observers = {
@@ -77,7 +80,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._camera = self._make_inspection_camera()
         self._cameras = self._make_cameras()
         self.watchdog = HeartbeatWatchdog()
-        self._buttons = make_buttons(scene.fixtures, variation.fixtures, names, self.data)
+        self._buttons = DeviceMap("button", make_buttons(scene.fixtures, variation.fixtures, names, self.data), names)
         self.people = make_people(scene, variation, self._drivers, self.data)
         self._touches = TouchRecorder(scene, self.model, self.data, self._held_things)
         self.ground_truth: GroundTruth = SimulatedTruth(

@@ -7,15 +7,19 @@ from pathlib import PurePath
 
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.cell import WatchdogTimeout
+from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import EvaluationError, ForeignError
 from skillc_runtime.world.state.transactions import StoreError
 
+FOR_USERS = (SkillFailure, BackendBroken, WatchdogTimeout, NoSuchDevice, EvaluationError, WorldError, StoreError)
+"""Exceptions whose messages are sentences."""
+
 
 def describe_exception(error: BaseException) -> str:
     """Return the message of an exception, with type and line unless the message is meant for users."""
-    if isinstance(error, SkillFailure | BackendBroken | WatchdogTimeout | EvaluationError | WorldError | StoreError):
+    if isinstance(error, FOR_USERS):
         return str(error)
     error = error.__cause__ if isinstance(error, ForeignError) and error.__cause__ is not None else error
     frames = traceback.extract_tb(error.__traceback__)
