@@ -15,6 +15,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.recording.events import Event, NodeEnded
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.facts import RelationFact
@@ -51,6 +52,22 @@ def sorted_parts(changes: list[Change], seed: int) -> tuple[Execution, Simulated
     return execute_task(prepared, library(), cell), cell
 
 
+class Thief:
+    """Takes a part out of its bin, once, as soon as the hand is empty, and puts it on the table at `y` m."""
+
+    def __init__(self, cell: SimulatedCell, y: float) -> None:
+        self._cell, self._y, self.acted = cell, y, False
+
+    def step(self, now: float) -> None:
+        """Act when the time has come; called in each step of the simulation."""
+        cell = self._cell
+        if self.acted or cell.gripper(LAB + "Hand-1").carries is not None or not in_bin(cell, "A"):
+            return
+        first = cell.model.joint(cell.scene.names[PARTS[0]] + "/free").qposadr[0]
+        cell.data.qpos[first : first + 7] = (0.45, self._y, 0.63, 1.0, 0.0, 0.0, 0.0)
+        self.acted = True
+
+
 def in_bin(cell: SimulatedCell, letter: str) -> bool:
     truth = cell.ground_truth
     inside = truth.body_pose(LAB + f"Bin-{letter}").inverse() @ truth.body_pose(LAB + f"Part-{letter}")
@@ -72,3 +89,28 @@ def test_without_a_camera_nobody_has_seen_where_the_parts_are() -> None:
     assert execution.status == "succeeded" and execution.verified is False
     decided = cell.world.deciding_write(RelationFact(LAB + "Bin-A", CONTAIN, PARTS[0]))
     assert decided is not None and decided.evidence == "assumed"
+
+
+def with_a_thief(y: float) -> tuple[Execution, SimulatedCell, list[str]]:
+    """Return also what failed."""
+    prepared = prepare(library(), "sort_parts", FOLDER / "cell.ttl", WATCHED)
+    cell = SimulatedCell(WorldModel(prepared.assignment.state), 1)
+    thief, events = Thief(cell, y), list[Event]()
+    cell.people = (*cell.people, thief)  # type: ignore[arg-type]
+    execution = execute_task(prepared, library(), cell, [events.append])
+    assert thief.acted
+    return execution, cell, [e.failure.message for e in events if isinstance(e, NodeEnded) and e.failure is not None]
+
+
+def test_a_part_that_is_taken_out_of_its_bin_is_missed_and_put_there_again() -> None:
+    execution, cell, failures = with_a_thief(-0.35)
+    assert any("lab:Part-A is not where it was put: its middle is" in each for each in failures), failures
+    assert execution.status == "succeeded" and execution.verified, execution.failure
+    assert all(in_bin(cell, letter) for letter in "AB")
+
+
+def test_a_part_that_is_hidden_under_the_hand_is_not_said_to_be_in_its_bin() -> None:
+    execution, cell, failures = with_a_thief(-0.05)
+    assert not in_bin(cell, "A")
+    assert any("lab:Camera-1 does not find lab:Part-A within 5.0 s" in each for each in failures), failures
+    assert not execution.verified
