@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from skillc_runtime.backends.simulation.cell import print_warnings
+from skillc_runtime.backends.simulation.mujoco_warnings import print_warnings
 
 BALL = "<mujoco><worldbody><body><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Sequence
 from typing import Any, Generic, TypeVar
@@ -18,6 +17,7 @@ from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.mujoco_warnings import print_warnings
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
@@ -307,12 +307,3 @@ class ModelledCell(ABC, Generic[A, G]):
         for name, base in self._bases.items():
             if not base.at_rest and (devices is None or name in devices):
                 base.stop()
-
-
-def print_warnings() -> None:
-    """Print warnings of MuJoCo to stderr in this process; by default it writes MUJOCO_LOG.TXT."""
-    mujoco.set_mju_user_warning(_print_warning)
-
-
-def _print_warning(warning: str) -> None:
-    print(f"simulation: {warning}", file=sys.stderr)
