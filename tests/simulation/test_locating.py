@@ -235,3 +235,8 @@ def test_a_camera_that_a_robot_moves_is_refused() -> None:
     state = world("ur5e_whiteboard").with_changes(changes)
     with pytest.raises((SheetError, FrameError), match="lab:Camera-1 moves with lab:Heron-1; only cameras that stand"):
         SimulatedCell(WorldModel(state))
+
+
+def test_a_camera_that_the_cell_does_not_have_is_named_with_those_that_it_has() -> None:
+    with pytest.raises(KeyError, match="the cell has no camera lab:Eraser-1; it has lab:Camera-1"):
+        seen().pose_camera(ERASER)

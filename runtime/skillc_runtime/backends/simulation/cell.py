@@ -78,7 +78,7 @@ class ModelledCell(ABC, Generic[A, G]):
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
         }
         self._camera = self._make_inspection_camera()
-        self._cameras = self._make_cameras()
+        self._cameras = DeviceMap("camera", self._make_cameras(), names)
         self.watchdog = HeartbeatWatchdog()
         self._buttons = DeviceMap("button", make_buttons(scene.fixtures, variation.fixtures, names, self.data), names)
         self.people = make_people(scene, variation, self._drivers, self.data)
