@@ -15,8 +15,8 @@ from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.ground_truth import Touching
 from skillc_runtime.motion.pose import Array
 
-STEPS_PER_LOOK = 5
-"""Number of steps between looks for new contacts; contacts that were found are measured in each step."""
+STEPS_PER_LOOK = 20
+"""Greatest number of steps between looks for new contacts; those that were found are measured in each step."""
 
 SAME_TOUCH_S, LEAST_N = 0.1, 0.5
 """A shorter interruption does not end a contact; a contact with a smaller force does not count."""
@@ -50,7 +50,7 @@ class TouchRecorder:
         self._watched = np.array([owner in self._robots | tools for owner, _ in self._parts])
         self._watched &= model.geom_contype & LINK > 0
         self._found: defaultdict[tuple[str, str], list[Touch]] = defaultdict(list)
-        self._steps, self._touched = 0, False
+        self._steps, self._count, self._touched = 0, 0, False
 
     @property
     def touchings(self) -> tuple[Touching, ...]:
@@ -65,7 +65,8 @@ class TouchRecorder:
     def sample(self, now: float) -> None:
         """Look at the contacts of the step that begins at `now` s, once their forces are computed."""
         self._steps += 1
-        if self._touched or self._steps % STEPS_PER_LOOK == 0:
+        if self._touched or self._data.ncon != self._count or self._steps == STEPS_PER_LOOK:
+            self._steps, self._count = 0, self._data.ncon
             self._touched = bool(self._watched[self._data.contact.geom].any()) and self._measure(now)
 
     def add(self, part: str, other: str, now: float, force_n: float | None) -> None:
