@@ -12,7 +12,10 @@ SEED := 0
 MINUTES := 1
 KINDS :=
 
-.PHONY: help demo test check reasoners sim wheel fuzz peers bench editors accept lock clean
+# For `make soak`: the number of random cells; SEED is that of the first.
+CELLS := 300
+
+.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -41,6 +44,9 @@ wheel: .venv/.dev ## build the wheel and use it in a clean environment
 
 fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; failing inputs are saved in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
+
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation; an interrupted series goes on in out/soak
+	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)
 	cmake -S tests/peers -B build/peers -D BTCPP=$(abspath $(BTCPP))

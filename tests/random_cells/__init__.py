@@ -1,0 +1,1 @@
+"""Random cells with parts to sort into bins, half of them with something wrong; start at `spoiling`."""
