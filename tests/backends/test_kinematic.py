@@ -28,8 +28,8 @@ def cell(scene: str) -> KinematicCell:
 def holding(scene: str) -> KinematicCell:
     there = cell(scene)
     reach_for_eraser(there, scene)
-    handles = {"arm": ARM[scene], "gripper": GRIPPER[scene], "object": ERASER, "grasp": ERASER + "-grasp"}
-    run(there, Grasp(there, place=PLACE[scene], **handles))
+    at, handles = pose(world(scene), ERASER + "-grasp"), {"arm": ARM[scene], "gripper": GRIPPER[scene]}
+    run(there, Grasp(there, object=ERASER, at=at, place=PLACE[scene], **handles))
     return there
 
 

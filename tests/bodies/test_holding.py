@@ -11,6 +11,7 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.grasp import Grasp
 from skillc_runtime.primitives.move import MoveLinear
+from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from space.rooms import PART, at, lab, skillc, thing
@@ -50,7 +51,9 @@ def test_fingers_hold_bodies_of_all_shapes_and_let_them_go(shape: str) -> None:
     assert gripper.touches(THING)
     assert gripper.opening_m == pytest.approx(0.05, abs=0.002)
     before = truth.body_pose(THING)
-    run(cell, Grasp(cell, arm=ARM, gripper=HAND, object=THING, grasp=THING, place=lab("Cell")))
+    run(
+        cell, Grasp(cell, arm=ARM, gripper=HAND, object=THING, at=pose(cell.world.snapshot(), THING), place=lab("Cell"))
+    )
     assert gripper.holding == THING
     move(cell, -0.1)
     assert truth.body_pose(THING).position - before.position == pytest.approx([0, 0, -0.1], abs=0.002)

@@ -31,7 +31,6 @@ from skillc_runtime.world.state.terms import (
     MOBILE_ROBOT,
     RPARTS,
     SKILLC,
-    SKIROS,
     SURFACE,
     TOOL,
     WEIGHT,
@@ -39,7 +38,6 @@ from skillc_runtime.world.state.terms import (
 from tree.stage import Library, call, par, with_
 
 GRIPPER_EFFECTOR, WORKSTATION = RPARTS + "GripperEffector", SKILLC + "Workstation"
-GRASPING_POSE = SKIROS + "GraspingPose"
 SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button", "panda_peg", "iiwa_guiding")
 
 ABSTRACT = {Primitive, ArmMotion, AddedMotion}
@@ -64,7 +62,6 @@ KINDS = {
     "robot": MOBILE_ROBOT,
     "place": WORKSTATION,
     "to": WORKSTATION,
-    "grasp": GRASPING_POSE,
     "button": BUTTON,
     "socket": CONTACT + "Socket",
     "pose": CONTACT + "TaughtPose",
@@ -109,7 +106,7 @@ def arguments(scene: str, cell: Cell) -> dict[str, object]:
     tool = cell.arm(things(scene)["arm"]).motion.stopping_pose()
     raised = Pose(tool.position + np.array([0.0, 0.0, 0.05]), tool.rotation)
     beside = Pose(tool.position + np.array([0.02, 0.0, 0.025]), tool.rotation)
-    poses = {"via": beside, "target": raised, "path": [raised, tool]}
+    poses = {"via": beside, "target": raised, "path": [raised, tool], "at": tool}
     directions = {"along": -tool.rotation[:, 2], "plane": tool.rotation[:, 0]}
     return {**things(scene), **MOTION, **PRESSING, **SWINGING, **FIGURE, **poses, **directions}
 

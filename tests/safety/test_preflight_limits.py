@@ -216,10 +216,10 @@ def test_a_force_that_is_a_fact_is_refused_beyond_the_limit_of_the_arm() -> None
     assert "Push: `force` is 18 N, more than the 10 N that lab:Iiwa-1 allows" in refused.reason
 
 
-def test_an_opening_that_follows_from_a_fact_is_refused_beyond_what_the_fingers_can() -> None:
-    refused = prepare("clean_table", SetProperty(LAB + "Eraser-1", GRASP_WIDTH, 0.13))
+def test_a_thing_that_is_wider_than_the_fingers_can_open_is_refused() -> None:
+    refused = prepare("clean_table", SetProperty(LAB + "Eraser-1", GRASP_WIDTH, 0.16))
     assert isinstance(refused, NotStarted)
-    assert "lab:Robotiq-1 opens to 155 mm, not to 170 mm" in refused.reason
+    assert "lab:Eraser-1 is 160 mm wide between the fingers, and lab:Robotiq-1 takes at most 149 mm" in refused.reason
 
 
 BOX = """
@@ -238,7 +238,7 @@ lab:Box a skillc:Workspace ; skiros:SizeX 1.0 ; skiros:SizeY 0.7 ; skiros:SizeZ 
             -0.25,
             r"FollowPath: `path` is up to 124 mm outside the workspace of lab:Iiwa-1, at \(0.423, 0.224, 0.750\) m",
         ),
-        (-2.5, r"Pick\[from_approach\]"),
+        (-2.5, r"Pick\[from_above\]"),
     ],
 )
 def test_a_run_outside_the_workspace_is_refused(y: float, why: str, tmp_path: Path) -> None:

@@ -63,8 +63,6 @@ def test_the_whole_scene_lets_both_skills_run() -> None:
         (WIPE, "Table-1", WIPING + "normalForce", "Push: `force`"),
         (WIPE, "Table-1", SKIROS + "SizeX", "MoveLinear: `target`"),
         (WIPE, "Eraser-1", SKIROS + "SizeY", "FollowPath: `path`"),
-        (PICK, "Eraser-1", CORE + "graspWidth", "ActuateGripper: `opening`"),
-        (PICK, "Eraser-1", CORE + "graspForce", "ActuateGripper: `force`"),
     ],
 )
 def test_a_missing_fact_is_named(body: tree.Node, thing: str, property_: str, what: str) -> None:

@@ -80,9 +80,10 @@ def reach_for_eraser(cell: SimulatedCell, scene: str, force: float = 30.0) -> No
 
 
 def grasp(cell: SimulatedCell, scene: str) -> None:
+    at = pose(cell.world.snapshot(), ERASER + "-grasp")
     run(
         cell,
-        Grasp(cell, arm=ARM[scene], gripper=GRIPPER[scene], object=ERASER, grasp=ERASER + "-grasp", place=PLACE[scene]),
+        Grasp(cell, arm=ARM[scene], gripper=GRIPPER[scene], object=ERASER, at=at, place=PLACE[scene]),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from skillc_runtime.devices.arm_driver import GuardedPush, PushProgress, Travel
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.known_limits import find_excess
-from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Activity, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.primitives.time_limits import approach_limit_s
 from skillc_runtime.world.state.labelled import Quantity
@@ -81,7 +81,7 @@ class Push(Primitive):
     stops the arm if the tool later sinks by as much.
     """
 
-    activity = "press"
+    activity: ClassVar[Activity] = "press"
     moves = NOTHING
 
     @classmethod

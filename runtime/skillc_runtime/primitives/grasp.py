@@ -5,11 +5,13 @@ from __future__ import annotations
 from types import MappingProxyType
 
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.devices.gripper import Gripper, working_face
+from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import pose, relocation_changes, size
+from skillc_runtime.world.space.grasps import width_between
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
@@ -32,16 +34,18 @@ class Grasp(Primitive):
 
     The fingers cannot tell one object from another of the same width.
 
-    The object's pose in the hand is assumed to be that of its grasping pose. While it is held, the world model has its
-    pose relative to the frame of the gripper, the tool centre point.
+    `at` is where the hand was to close: of a derived grasp the middle of the object, so that the fingers, which meet in
+    the middle, have moved it there along the direction in which they close. In other directions its pose in the hand is
+    assumed to be as it was believed. While it is held, the world model has its pose relative to the frame of the
+    gripper, the tool centre point.
     """
 
     moves = MappingProxyType({"object": None})
     highlights = (("ends", "object", "grasped"),)
 
-    def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, grasp: str, place: str) -> None:
+    def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, at: Pose, place: str) -> None:
         super().__init__(cell)
-        self._gripper, self._object, self._grasp = gripper, object, grasp
+        self._gripper, self._object, self._at = gripper, object, at
 
     def start(self) -> None:
         """Attach the object; SkillFailure if the fingers are not blocked, not at its width, or it cannot be held."""
@@ -54,7 +58,7 @@ class Grasp(Primitive):
             )
         self._check_fingers(gripper, hand, thing, state)
         self._frame = frame
-        self._in_hand = pose(state, self._grasp).inverse() @ pose(state, self._object)
+        self._in_hand = self._at.inverse() @ pose(state, self._object)
         try:
             gripper.attach(self._object, self._in_hand)
         except RuntimeError as error:
@@ -78,9 +82,9 @@ class Grasp(Primitive):
                 object=thing,
                 opening=Quantity(opening, "m"),
             )
-        width = state.value(self._object, GRASP_WIDTH)
+        width = width_between(state, self._gripper, self._object, self._at)
         tolerance = number_of(state, self._object, WIDTH_TOLERANCE, default=WIDTH_TOLERANCE_M)
-        if isinstance(width, float) and abs(opening - width) > tolerance + gripper.opening_error_m:
+        if width is not None and abs(opening - width) > tolerance + gripper.opening_error_m:
             raise SkillFailure(
                 "{gripper} holds something else than {object}, or holds it elsewhere: its fingers stand "
                 "{opening:.1f mm} open, {object} is {width:.1f mm} wide",

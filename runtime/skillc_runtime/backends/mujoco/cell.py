@@ -12,7 +12,7 @@ from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
-from skillc_runtime.devices.gripper import working_face
+from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.frames import relocation_changes, size
 from skillc_runtime.world.state.model import WorldModel
 

@@ -20,8 +20,8 @@ from skillc_runtime.backends.simulation.names import (
     wrist_sensor_name,
 )
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, GripperSpec, ToolSpec
-from skillc_runtime.devices.gripper import working_face
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.state.data_sheet import SheetError
 
 WRIST_SENSORS = (

@@ -10,8 +10,9 @@ from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
-from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, working_face
+from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
+from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.bodies import Body
 
 OPPOSING = -0.7

@@ -1,0 +1,212 @@
+"""A free place for a held thing on or in a carrier, beside what is known to be there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.bodies import read_shape
+from skillc_runtime.world.space.bounding_boxes import bounding_box
+from skillc_runtime.world.space.frame_tree import frame_tree_of
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.grasps import FINGER_TIP_M
+from skillc_runtime.world.space.occupants import Occupant, read_occupants
+from skillc_runtime.world.space.oriented_box import CORNERS
+from skillc_runtime.world.space.shapes import Bin, solids_of
+from skillc_runtime.world.state.data_sheet import number_of, sheet_of
+from skillc_runtime.world.state.terms import CONTAIN, FINGER_TIP, FURNITURE, SIZE
+from skillc_runtime.world.state.world_state import WorldState
+
+GAP_M = 0.01
+"""How far from what is beside it a thing is put down."""
+
+FINGER_M = 0.03
+"""How much room a finger needs beside a thing when it lets go."""
+
+HAND_M = 0.035
+"""Half the width of a hand across the direction in which it closes."""
+
+PITCH_M = 0.01
+NEAR_BASE_M = 0.25
+"""Nothing is put down nearer to the axis of an arm's base."""
+
+QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1)))
+"""The rotations (3, 3) of a hand that points down, in the frame of a carrier."""
+
+
+class PlaceError(ValueError):
+    """A thing cannot be put down; the message says why, with numbers."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Support:
+    """A horizontal rectangle that carries things: its middle in the world, half its sides (2,) in m.
+
+    rim_m: how high its walls stand above it; 0 without walls.
+    """
+
+    individual: str
+    middle: Pose
+    half: Array
+    rim_m: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Load:
+    """A held thing: its corners (n, 3) in m and those of the fingers' room (8, 3) in m, in the frame of the hand."""
+
+    corners: Array
+    fingers: Array
+
+
+def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: str) -> Pose:
+    """Return the pose of the hand, in the world, in which a held thing stands free on or in a carrier.
+
+    PlaceError if nothing there carries it, it does not fit, everything is taken, or it is out of reach. FrameError,
+    MissingFact or SheetError if facts are missing.
+    """
+    short, load = state.vocabulary.short, _read_load(state, gripper, thing)
+    supports = _supports(state, to)
+    if not supports:
+        raise PlaceError(
+            f"{short(to)} has no size, and contains nothing that could carry {short(thing)}: "
+            "state skiros:SizeX, SizeY and SizeZ, or a skiros:PlacingPose"
+        )
+    others = [each for each in read_occupants(state) if each.individual != thing]
+    failures = []
+    for support in supports:
+        neighbours = [_in_frame(each, support) for each in others if each.individual != support.individual]
+        found = _best(state, arm, support, load, neighbours)
+        if isinstance(found, Pose):
+            return found
+        failures.append(found)
+    raise PlaceError(f"{short(thing)} cannot be put down: " + "; ".join(failures))
+
+
+def pose_in_hand(state: WorldState, gripper: str, thing: str) -> Pose:
+    """Return the pose of a held thing in the frame of the hand; PlaceError if the hand does not hold it."""
+    space = frame_tree_of(state)
+    if space.carrier(thing) != gripper:
+        short = state.vocabulary.short
+        raise PlaceError(f"{short(gripper)} does not hold {short(thing)}")
+    return space.own_pose(thing)
+
+
+def clearance_m(state: WorldState, to: str) -> float:
+    """Return how high the walls of a carrier stand above what it carries, in m."""
+    return max((each.rim_m for each in _supports(state, to)), default=0.0)
+
+
+def _supports(state: WorldState, to: str) -> list[Support]:
+    if state.value(to, SIZE[0]) is not None:
+        return [_support(state, to)]
+    carriers = (each for each in state.objects(to, CONTAIN) if state.is_a(each, FURNITURE))
+    return [_support(state, each) for each in sorted(carriers)]
+
+
+def _support(state: WorldState, individual: str) -> Support:
+    shape = read_shape(state, individual)
+    box = bounding_box(state, individual)
+    if isinstance(shape, Bin):
+        x, y, z = shape.inside
+        floor = box.middle @ Pose.of((0.0, 0.0, shape.wall_m - float(box.half[2])))
+        return Support(individual, floor, np.array([x, y]) / 2, z)
+    return Support(individual, box.middle @ Pose.of((0.0, 0.0, float(box.half[2]))), box.half[:2], 0.0)
+
+
+def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
+    in_hand = pose_in_hand(state, gripper, thing)
+    solids = solids_of(read_shape(state, thing))
+    corners = np.concatenate(
+        [
+            (CORNERS * np.array(each.half) @ each.place.rotation.T + each.place.position) @ in_hand.rotation.T
+            + in_hand.position
+            for each in solids
+        ]
+    )
+    width_m = float(np.abs(corners[:, 1]).max())
+    tip_m = number_of(state, sheet_of(state, gripper).individual, FINGER_TIP, default=FINGER_TIP_M)
+    fingers = CORNERS * np.array([HAND_M, width_m + FINGER_M, tip_m])
+    return Load(corners, fingers)
+
+
+def _in_frame(other: Occupant, support: Support) -> tuple[Array, Array]:
+    """Return the lowest and highest corner (3,) in m of what takes up room, in the frame of a support."""
+    boxes = np.concatenate([each.corners for each in other.boxes])
+    local = (boxes - support.middle.position) @ support.middle.rotation
+    return local.min(axis=0), local.max(axis=0)
+
+
+def _best(
+    state: WorldState, arm: str, support: Support, load: Load, neighbours: list[tuple[Array, Array]]
+) -> Pose | str:
+    """Return the free hand pose nearest to the middle of a support, or why there is none."""
+    short, fits, free = state.vocabulary.short, False, False
+    sheet, base = sheet_of(state, arm), pose(state, arm)
+    reach_m, shoulder = sheet.number("reach"), base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")]))
+    for hand in _hands(support, load):
+        fits = True
+        if not _is_free(hand, load, neighbours):
+            continue
+        free, found = True, support.middle @ hand
+        away = found.position - base.position
+        if np.linalg.norm(found.position - shoulder) < 0.95 * reach_m and np.hypot(*away[:2]) > NEAR_BASE_M:
+            return found
+    size = np.ptp(load.corners, axis=0)
+    if not fits:
+        return (
+            f"{1e3 * size[0]:.0f} x {1e3 * size[1]:.0f} mm do not fit into {short(support.individual)}, which is "
+            f"{2e3 * support.half[0]:.0f} x {2e3 * support.half[1]:.0f} mm, with room for the fingers"
+        )
+    if not free:
+        return f"{short(support.individual)} is full: no place of {1e3 * size[0]:.0f} x {1e3 * size[1]:.0f} mm is free"
+    return f"no free place on {short(support.individual)} is within the {reach_m:.2f} m that {short(arm)} reaches"
+
+
+def _hands(support: Support, load: Load) -> Iterator[Pose]:
+    """Yield the hand poses in the frame of a support whose load stands within its edges, from its middle outwards."""
+    turns = [(rotation, *_room(support, load, rotation)) for rotation in QUARTERS]
+    for x, y in _grid(support.half):
+        for rotation, height_m, low, high in turns:
+            if (np.array([x, y]) + low >= -support.half).all() and (np.array([x, y]) + high <= support.half).all():
+                yield Pose(np.array([x, y, height_m]), rotation)
+
+
+def _room(support: Support, load: Load, rotation: Array) -> tuple[float, Array, Array]:
+    """Return the height in m of the hand, and the lowest and highest corner (2,) in m of the room that it needs.
+
+    The fingers need room between walls that are higher than their tips.
+    """
+    low, high = _extent(load.corners, rotation)
+    height_m = -float(low[2])
+    least, most = _extent(load.fingers, rotation)
+    if height_m + least[2] < support.rim_m:
+        low, high = np.minimum(low, least), np.maximum(high, most)
+    return height_m, low[:2], high[:2]
+
+
+def _grid(half: Array) -> list[tuple[float, float]]:
+    """Return points in m on a grid over a rectangle with half sides (2,) in m, in order of distance from its middle."""
+    xs, ys = (np.arange(-int(each / PITCH_M), int(each / PITCH_M) + 1) * PITCH_M for each in half.tolist())
+    points = [(float(x), float(y)) for x in xs for y in ys]
+    return sorted(points, key=lambda each: (round(each[0] ** 2 + each[1] ** 2, 9), each))
+
+
+def _extent(corners: Array, rotation: Array) -> tuple[Array, Array]:
+    turned = corners @ rotation.T
+    return turned.min(axis=0), turned.max(axis=0)
+
+
+def _is_free(hand: Pose, load: Load, neighbours: list[tuple[Array, Array]]) -> bool:
+    """Whether nothing is where the load and the fingers will be, nor above them."""
+    for corners, gap_m in ((load.corners, GAP_M), (load.fingers, 0.0)):
+        low, high = _extent(corners, hand.rotation)
+        low, high = low + hand.position, high + hand.position
+        for other_low, other_high in neighbours:
+            beside = (other_low[:2] >= high[:2] + gap_m).any() or (other_high[:2] <= low[:2] - gap_m).any()
+            if not beside and other_high[2] > low[2] + 0.001:
+                return False
+    return True
