@@ -9,7 +9,7 @@ import mujoco
 
 from control import SCENES, moving, whole
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.contact_bits import LINK
+from skillc_runtime.backends.simulation.contact_bits import LINK, SOLID
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 
 BURST_S, REPEATS = 0.05, 300
@@ -20,7 +20,8 @@ def without_links(cell: SimulatedCell) -> SimulatedCell:
     """Return a cell after its links, hands and rigid parts of tools have lost their contact bits."""
     model = cell.model
     links = model.geom_contype & LINK > 0
-    model.geom_contype[links] = model.geom_conaffinity[links] = 0
+    model.geom_contype[links] &= ~SOLID[0]
+    model.geom_conaffinity[links] &= ~SOLID[1]
     return cell
 
 
