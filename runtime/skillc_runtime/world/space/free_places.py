@@ -17,6 +17,7 @@ from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.space.shapes import Bin, solids_of
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
+from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.terms import CONTAIN, FINGER_TIP, FURNITURE, SIZE
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -37,7 +38,7 @@ QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, 
 """The rotations (3, 3) of a hand that points down, in the frame of a carrier."""
 
 
-class PlaceError(ValueError):
+class PlaceError(EvaluationError):
     """A thing cannot be put down; the message says why, with numbers."""
 
 

@@ -16,6 +16,7 @@ from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.shapes import Capsule, Cylinder, Sphere
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
+from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.terms import (
     FINGER_DEPTH,
     FINGER_SPREAD,
@@ -57,7 +58,7 @@ ACCELERATION_M_S2 = 1.0
 """How hard an arm may accelerate what it holds."""
 
 
-class GraspError(ValueError):
+class GraspError(EvaluationError):
     """A gripper cannot grasp a thing; the message says why, with numbers."""
 
 
