@@ -122,7 +122,7 @@ def test_an_arm_that_is_blocked_is_stopped_and_stops_pressing() -> None:
         if driver.fault is not None:
             break
     assert driver.fault is not None
-    assert "is the arm blocked?" in driver.fault
+    assert "something is in the way of a link" in driver.fault
     there.advance(0.5)
     assert np.abs(there.arm.state().q - blocked).max() < 5e-3
 

@@ -12,7 +12,7 @@ from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 
-TRIED = int(os.environ.get("MISTAKES", "16"))
+TRIED = int(os.environ.get("MISTAKES", "32"))
 IMPORT = re.compile(r'^import "([^"]+)"', re.MULTILINE)
 WORD = re.compile(r"[A-Za-z_]\w{2,}")
 SKIPPED = re.compile(r'#[^\n]*|python "[^"]*"|<[^>]*>|(?<=scene )"[^"]*"')

@@ -45,10 +45,19 @@ TICKS = 3
 """Ticks before a break or a halt."""
 
 
+def wanted(kind: type[Primitive]) -> set[str]:
+    """Return the names of a primitive's parameters."""
+    parameters = inspect.signature(kind).parameters.values()
+    return {each.name for each in parameters if each.kind is each.KEYWORD_ONLY}
+
+
 def _classes() -> dict[str, type[Primitive]]:
     modules = [import_module(found.name) for found in walk_packages(primitives.__path__, f"{primitives.__name__}.")]
     found = {cls for module in modules for _, cls in inspect.getmembers(module, inspect.isclass)}
-    return {cls.__name__: cls for cls in found if issubclass(cls, Primitive) and cls not in ABSTRACT}
+    kinds = (cls for cls in found if issubclass(cls, Primitive) and cls not in ABSTRACT)
+    return {
+        cls.__name__: cls for cls in kinds if "camera" not in wanted(cls)
+    }  # no shipped cell has one; it moves nothing
 
 
 CLASSES = _classes()
@@ -77,6 +86,7 @@ PRESSING = {
     "depth": 0.02,
     "still": 1.5,
     "over": 5.0,
+    "tolerance": 0.05,
 }
 SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
 FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
@@ -87,12 +97,6 @@ def things(scene: str) -> dict[str, str]:
     state = world(scene)
     found = {name: sorted(state.instances(kind)) for name, kind in KINDS.items()}
     return {name: individuals[0] for name, individuals in found.items() if individuals}
-
-
-def wanted(kind: type[Primitive]) -> set[str]:
-    """Return the names of a primitive's parameters."""
-    parameters = inspect.signature(kind).parameters.values()
-    return {each.name for each in parameters if each.kind is each.KEYWORD_ONLY}
 
 
 def scene_for(kind: type[Primitive], number: int) -> str:
