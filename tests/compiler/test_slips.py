@@ -13,7 +13,7 @@ from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 
-TRIED = int(os.environ.get("SLIPS", "40"))
+TRIED = int(os.environ.get("SLIPS", "60"))
 
 
 @cache

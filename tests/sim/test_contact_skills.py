@@ -47,7 +47,11 @@ def test_a_second_arm_does_the_same_work(task: str) -> None:
 
 
 def test_a_button_that_is_not_there_is_told() -> None:
-    done = run("press_button", change=lambda cell: vanish(cell, "Button-1"), once=True)
+    def leave_nothing(cell: SimulatedCell) -> None:
+        for thing in ("Button-1", "Panel"):  # the fingers would meet the panel behind the button
+            vanish(cell, thing)
+
+    done = run("press_button", change=leave_nothing, once=True)
     assert not done.succeeded
     assert "nothing to push against within 10 cm" in done.why
     assert at_rest(done.cell)
