@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from skillc_runtime.motion.joint import joint_motion
@@ -25,6 +25,7 @@ def sampled(generator, since, until):
 
 
 @given(speed=st.floats(0.05, 0.5), at=st.floats(0.0, 1.0), lasts=st.floats(0.01, 3.0))
+@example(speed=0.5, at=0.6640625, lasts=1.0)  # goes on right before the corner, which is slower than the way after it
 def test_a_pause_keeps_to_the_way_and_the_motion_ends_where_it_shall(speed, at, lasts):
     path = path_through([START, CORNER, GOAL], MotionLimits(speed, DECELERATION))
     generator = ReferenceGenerator(START, DECELERATION)
@@ -35,7 +36,7 @@ def test_a_pause_keeps_to_the_way_and_the_motion_ends_where_it_shall(speed, at, 
     generator.resume(began + lasts)
     positions, going_on = sampled(generator, began + lasts, began + lasts + 2.0)
     changes = np.linalg.norm(np.diff(np.concatenate([braking, going_on]), axis=0), axis=1)
-    assert changes.max(initial=0.0) <= 2.2 * DECELERATION * PERIOD
+    assert changes.max(initial=0.0) <= 2.1 * DECELERATION * PERIOD
     assert all(min(abs(y), abs(x - 1.0)) < 1e-9 for x, y, _ in positions)
     end = generator.sample(began + lasts + path.duration + 5.0)
     assert np.allclose(end.pose.position, GOAL.position) and not end.twist.any()

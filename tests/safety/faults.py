@@ -5,12 +5,13 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from importlib import import_module
 from pkgutil import walk_packages
 
 import numpy as np
 
-from simulation.cells import world
+from simulation.cells import LAB, world
 from skillc_model import tree
 from skillc_model.conditions import Compare, Individual, Literal, PropertyOf
 from skillc_runtime import primitives
@@ -24,10 +25,15 @@ from skillc_runtime.primitives.compliance import ReleaseAxis
 from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event, NodeEnded, Note, TaskEnded
+from skillc_runtime.world.space.frames import placement_changes, pose
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     BUTTON,
+    CAMERA,
     CONTACT,
+    FRAME_ID,
+    HAS_SHEET,
     MOBILE_ROBOT,
     RPARTS,
     SKILLC,
@@ -35,8 +41,10 @@ from skillc_runtime.world.state.terms import (
     TOOL,
     WEIGHT,
 )
+from skillc_runtime.world.state.world_state import WorldState
 from tree.stage import Library, call, par, with_
 
+EYE = LAB + "Eye-1"
 GRIPPER_EFFECTOR, WORKSTATION = RPARTS + "GripperEffector", SKILLC + "Workstation"
 SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button", "panda_peg", "iiwa_guiding")
 
@@ -54,10 +62,7 @@ def wanted(kind: type[Primitive]) -> set[str]:
 def _classes() -> dict[str, type[Primitive]]:
     modules = [import_module(found.name) for found in walk_packages(primitives.__path__, f"{primitives.__name__}.")]
     found = {cls for module in modules for _, cls in inspect.getmembers(module, inspect.isclass)}
-    kinds = (cls for cls in found if issubclass(cls, Primitive) and cls not in ABSTRACT)
-    return {
-        cls.__name__: cls for cls in kinds if "camera" not in wanted(cls)
-    }  # no shipped cell has one; it moves nothing
+    return {cls.__name__: cls for cls in found if issubclass(cls, Primitive) and cls not in ABSTRACT}
 
 
 CLASSES = _classes()
@@ -74,6 +79,7 @@ KINDS = {
     "button": BUTTON,
     "socket": CONTACT + "Socket",
     "pose": CONTACT + "TaughtPose",
+    "camera": CAMERA,
 }
 """Of which classes the things are that parameters of these names stand for."""
 
@@ -92,9 +98,21 @@ SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
 FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
 
 
+@cache
+def watched(scene: str) -> WorldState:
+    """Return the world of a shipped scene with a camera over its tool."""
+    state = world(scene)
+    tool = pose(state, min(state.instances(TOOL))).position if state.instances(TOOL) else np.zeros(3)
+    over = Pose.of((float(tool[0]), float(tool[1]), float(tool[2]) + 1.0), (0.0, 1.0, 0.0, 0.0))
+    sheet = AddRelation(EYE, HAS_SHEET, SKILLC + "depth-camera-sheet")
+    return state.with_changes(
+        [AddIndividual(EYE, (CAMERA,)), sheet, SetProperty(EYE, FRAME_ID, "eye"), *placement_changes(EYE, over)]
+    )
+
+
 def things(scene: str) -> dict[str, str]:
     """Return what parameters that stand for things may be in a scene, by their names."""
-    state = world(scene)
+    state = watched(scene)
     found = {name: sorted(state.instances(kind)) for name, kind in KINDS.items()}
     return {name: individuals[0] for name, individuals in found.items() if individuals}
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from safety.faults import CLASSES, KINDS, reasons, run, scene_for, things, wanted
-from simulation.cells import ARM, cell, world
+from safety.faults import CLASSES, KINDS, reasons, run, scene_for, things, wanted, watched
+from simulation.cells import ARM
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
@@ -49,7 +49,7 @@ def is_safe(there: SimulatedCell, scene: str) -> None:
 @pytest.mark.parametrize(("name", "phase"), list(_breaks()))
 def test_a_primitive_that_breaks_leaves_a_stiff_hold(name: str, phase: str) -> None:
     scene = scene_for(CLASSES[name], sorted(CLASSES).index(name) % 2)
-    there = cell(scene)
+    there = SimulatedCell(WorldModel(watched(scene)))
     told, status = run(there, scene, name, phase)
     assert f"broke at {phase}" in reasons(told)
     assert status == ("failed" if phase in ("start", "tick") else "stopped")
@@ -69,7 +69,7 @@ def _of_arms() -> Iterator[object]:
 @pytest.mark.parametrize(("name", "phase"), list(_of_arms()))
 def test_an_arm_that_takes_speeds_is_left_with_a_stiff_hold_as_well(name: str, phase: str) -> None:
     by_speed = SetProperty(ARM[BY_SPEED], COMPLIANT_CONTROLLER, "forward_dynamics_velocity")
-    there = SimulatedCell(WorldModel(world(BY_SPEED).with_changes([by_speed])))
+    there = SimulatedCell(WorldModel(watched(BY_SPEED).with_changes([by_speed])))
     told, status = run(there, BY_SPEED, name, phase)
     assert there.arms[ARM[BY_SPEED]].interface == "velocity"
     assert f"broke at {phase}" in reasons(told)

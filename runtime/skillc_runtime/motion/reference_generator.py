@@ -16,6 +16,9 @@ from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling
 TURN_DECELERATION = 2.0
 """Deceleration of a rotation in a stop, rad/s^2."""
 
+LOOK_AHEAD_S = RAMP_S / 20
+"""The time between two looks at the speed of the motion that a pause slows down, or that goes on after it."""
+
 
 class ReferenceGenerator:
     """The reference of one tool, in the base frame.
@@ -107,9 +110,11 @@ class ReferenceGenerator:
         self._scale_time(1.0, now)
 
     def _scale_time(self, rate: float, now: float) -> None:
-        time, overlay_time, ramp_s = self._time.at(now)[0], self._overlay_time.at(now)[0], RAMP_S
-        for ahead in (0.0, RAMP_S / 2, RAMP_S):
+        time, overlay_time = self._time.at(now)[0], self._overlay_time.at(now)[0]
+        ramp_s, ahead = RAMP_S, 0.0
+        while ahead <= max(RAMP_S, ramp_s / 2):  # a ramp covers half of its time of the motion
             ramp_s = max(ramp_s, self._stopping_time(time + ahead, overlay_time + ahead))
+            ahead += LOOK_AHEAD_S
         self._time = self._time.towards(rate, now, ramp_s)
         self._overlay_time = self._overlay_time.towards(rate, now, ramp_s)
 
