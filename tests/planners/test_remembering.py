@@ -115,9 +115,9 @@ def test_what_is_damaged_counts_as_missing_and_is_replaced(tmp_path: Path) -> No
     whole = file.read_bytes()
     for number, content in enumerate(damaged(whole), 2):
         file.write_bytes(content)
-        assert remembering.plan(PROBLEM, CancelToken(10.0)) == ANSWER
-        assert len(planner.asked) == number
-        assert file.read_bytes() == whole
+        for _ in range(2):  # the second answer comes from the file
+            assert remembering.plan(PROBLEM, CancelToken(10.0)) == ANSWER
+            assert len(planner.asked) == number
     assert len(planner.asked) == 8
 
 

@@ -10,7 +10,7 @@ import pytest
 from skillc.services import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.space.bodies import Body, read_bodies, read_body
+from skillc_runtime.world.space.bodies import RigidBody, read_bodies, read_body
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.changes import Change, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -33,7 +33,7 @@ def fact(name: str, property_: str, value: str | float) -> list[Change]:
     return [SetProperty(lab(name), skillc(property_) if ":" not in property_ else property_, value)]
 
 
-def body(size: tuple[float, ...], cls: str = PART, **facts: str | float) -> Body:
+def body(size: tuple[float, ...], cls: str = PART, **facts: str | float) -> RigidBody:
     """Return the body of a thing at 1 m of height."""
     found = read_body(
         world(thing("A", at(0, 0, 1), size=size, cls=cls), *(fact("A", key, value) for key, value in facts.items())),

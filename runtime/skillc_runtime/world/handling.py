@@ -25,9 +25,6 @@ APPROACH_M = 0.12
 OVER_RIM_M = 0.04
 """How far above the rim of a carrier a thing is brought to its place, and the hand leaves it."""
 
-LOWERING_M = 0.01
-"""How far above its place a thing is before it is lowered until it stands."""
-
 
 def grasp_pose(state: WorldState, gripper: str, thing: str, choice: int) -> Pose:
     """Return where the hand grasps a thing; choice 1 is the best grasp. GraspError if there is none."""
@@ -72,11 +69,6 @@ def hand_pose(state: WorldState, gripper: str, thing: str, at: Pose) -> Pose:
 def above_place(state: WorldState, to: str, at: Pose) -> Pose:
     """Return a pose moved up so far that a tool there is above the rim of a carrier."""
     return Pose(at.position + np.array([0.0, 0.0, max(0.1, clearance_m(state, to) + OVER_RIM_M)]), at.rotation)
-
-
-def before_support(_state: WorldState, at: Pose) -> Pose:
-    """Return a pose moved up by the way on which a thing is lowered until it stands."""
-    return Pose(at.position + np.array([0.0, 0.0, LOWERING_M]), at.rotation)
 
 
 def upwards(_state: WorldState) -> Array:

@@ -9,17 +9,16 @@ from skillc.services.cell_checks.facts import ROUNDED_M
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.bodies import read_body
 from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.grasps import LEAST_CLEARANCE_M, weight_problem
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.space.shapes import Bin
-from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
-from skillc_runtime.world.state.terms import END_EFFECTOR, FRICTION, GRASP_WIDTH, MANIPULATABLE, SIZE, WEIGHT
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.terms import END_EFFECTOR, GRASP_WIDTH, MANIPULATABLE, SIZE, WEIGHT
 from skillc_runtime.world.state.world_state import WorldState
-
-GRAVITY_M_S2 = 9.81
 
 
 @dataclass(frozen=True, slots=True)
-class Grip:
+class GripperLimits:
     """A gripper: how far it opens in m and how hard it presses in N."""
 
     gripper: str
@@ -39,22 +38,22 @@ def check_grasps(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator
     for each in occupants:
         if state.is_a(each.individual, MANIPULATABLE):
             yield from _too_wide(state, each.individual, widest)
-            yield from _too_heavy(state, each.individual, strongest)
+            yield from _too_heavy(state, each.individual, strongest.gripper)
 
 
-def _read_grip(state: WorldState, gripper: str) -> Grip:
+def _read_grip(state: WorldState, gripper: str) -> GripperLimits:
     sheet = sheet_of(state, gripper)
-    return Grip(gripper, sheet.number("maxOpening"), sheet.number("maxForce"))
+    return GripperLimits(gripper, sheet.number("maxOpening"), sheet.number("maxForce"))
 
 
-def _too_wide(state: WorldState, thing: str, grip: Grip) -> Iterator[SceneViolation]:
+def _too_wide(state: WorldState, thing: str, grip: GripperLimits) -> Iterator[SceneViolation]:
     short, stated = state.vocabulary.short, state.value(thing, GRASP_WIDTH)
     width_m = float(stated) if isinstance(stated, int | float) else _narrowest(state, thing)
-    if width_m is None or width_m <= grip.opening_m + ROUNDED_M:
+    if width_m is None or width_m <= grip.opening_m - LEAST_CLEARANCE_M + ROUNDED_M:
         return
     what = "{:.0f} mm wide where it is held" if stated else "nowhere less than {:.0f} mm wide"
     message = f"{short(thing)} is {what.format(1e3 * width_m)}, and {short(grip.gripper)} opens to "
-    message += f"{1e3 * grip.opening_m:.0f} mm"
+    message += f"{1e3 * grip.opening_m:.0f} mm, {1e3 * LEAST_CLEARANCE_M:.0f} mm of which it needs beside a thing"
     cure = "use a wider gripper, or write where it is narrower, `skillc:graspWidth NUMBER-IN-m`"
     yield SceneViolation(thing, GRASP_WIDTH if stated else SIZE[0], "too-wide", message, cure, "warning")
 
@@ -68,21 +67,14 @@ def _narrowest(state: WorldState, thing: str) -> float | None:
     return None if body is None or isinstance(body.shape, Bin) else float(body.size.min())
 
 
-def _too_heavy(state: WorldState, thing: str, grip: Grip) -> Iterator[SceneViolation]:
-    """Yield a thing that slides out of two fingers: 2 mu F < m g."""
+def _too_heavy(state: WorldState, thing: str, gripper: str) -> Iterator[SceneViolation]:
+    """Yield a thing that slides out of the fingers of the strongest gripper."""
     try:
-        body = read_body(state, thing)
-        friction = body.friction if body else number_of(state, thing, FRICTION)
-        mass_kg = body.mass_kg if body else number_of(state, thing, WEIGHT)
+        problem = weight_problem(state, thing, gripper)
     except (SheetError, FrameError):
         return
-    held_kg = 2 * friction * grip.force_n / GRAVITY_M_S2
-    if mass_kg <= held_kg:
+    if problem is None:
         return
     short, stated = state.vocabulary.short, state.value(thing, WEIGHT) is not None
-    message = (
-        f"{short(thing)} weighs {mass_kg:.3g} kg, and with a friction of {friction:g} {short(grip.gripper)} holds "
-        f"at most {held_kg:.2g} kg: it presses with at most {grip.force_n:g} N"
-    )
     cure = "use a stronger gripper" if stated else f"write its `{short(WEIGHT)}`, which follows from its size else"
-    yield SceneViolation(thing, WEIGHT if stated else None, "too-heavy", message, cure, "warning")
+    yield SceneViolation(thing, WEIGHT if stated else None, "too-heavy", problem, cure, "warning")

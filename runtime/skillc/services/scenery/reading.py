@@ -35,7 +35,7 @@ UNUSED = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Mesh:
+class ImportedMesh:
     """Triangles in m, around the middle of their bounding box: points (n, 3), corners (k, 3) as numbers of points."""
 
     points: Array
@@ -53,7 +53,7 @@ class ImportedSolid:
     kind: SolidKind
     size: Array
     pose: Pose
-    mesh: Mesh | None = None
+    mesh: ImportedMesh | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +160,7 @@ def _mesh(model: Any, mesh: int, pose: Pose, name: str) -> ImportedSolid:
     face, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
     low, high = points.min(axis=0), points.max(axis=0)
     middle = (low + high) / 2
-    made = Mesh(points - middle, np.array(model.mesh_face[face : face + faces]))
+    made = ImportedMesh(points - middle, np.array(model.mesh_face[face : face + faces]))
     return ImportedSolid(name, "mesh", high - low, Pose(pose.apply(middle), pose.rotation), made)
 
 

@@ -13,7 +13,7 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
 from skillc.services.scene_file import SceneFile
 from skillc.services.scene_things import Pairs, PoseRequest
-from skillc.services.scenery.reading import ImportedFile, ImportedSolid, Mesh, read_scenery
+from skillc.services.scenery.reading import ImportedFile, ImportedMesh, ImportedSolid, read_scenery
 from skillc_rdf.turtle.terms import RDF_TYPE, XSD
 from skillc_runtime.motion.pose import Pose, angles_from_rotation, rotation_from_angles
 from skillc_runtime.world.state.terms import ANGLES, BASE_FRAME_ID, MESH, POSITION, SHAPE, SIZE
@@ -82,7 +82,7 @@ def _free_name(file: SceneFile, name: str, taken: set[str]) -> str:
     return wanted
 
 
-def _write_mesh(mesh: Mesh, path: Path) -> None:
+def _write_mesh(mesh: ImportedMesh, path: Path) -> None:
     lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in mesh.points.tolist()]
     lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in mesh.corners.tolist()]
     with writing_to(path.parent):

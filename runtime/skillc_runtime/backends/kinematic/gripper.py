@@ -15,7 +15,7 @@ from skillc_runtime.motion.arrays import OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cross
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
-from skillc_runtime.world.space.bodies import Body
+from skillc_runtime.world.space.bodies import RigidBody
 
 
 class KinematicGripper(ModelledGripper):
@@ -29,7 +29,7 @@ class KinematicGripper(ModelledGripper):
         self,
         facts: GripperSpec,
         names: dict[str, str],
-        things: tuple[ToolSpec | Body, ...],
+        things: tuple[ToolSpec | RigidBody, ...],
         arm: ModelledArm,
         model: Any,
         data: Any,

@@ -15,7 +15,7 @@ from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
-from skillc_runtime.world.space.bodies import Body
+from skillc_runtime.world.space.bodies import RigidBody
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
 """Fingers that have been slower than this for this time, at their goal or blocked, have arrived."""
@@ -28,7 +28,7 @@ class SimulatedGripper(ModelledGripper):
         self,
         facts: GripperSpec,
         names: dict[str, str],
-        things: tuple[ToolSpec | Body, ...],
+        things: tuple[ToolSpec | RigidBody, ...],
         arm: ModelledArm,
         model: Any,
         data: Any,

@@ -12,7 +12,7 @@ from skillc_runtime.backends.simulation.contact_bits import CARRIES, MOVABLE, WO
 from skillc_runtime.backends.simulation.names import part_name, solid_geom_name
 from skillc_runtime.collision.solid_geoms import add_solid
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
-from skillc_runtime.world.space.bodies import Body
+from skillc_runtime.world.space.bodies import RigidBody
 from skillc_runtime.world.space.solids import centre_of
 
 TORSION_M, ROLLING_M = 0.005, 0.0002
@@ -25,14 +25,14 @@ OWN_CONTACT = 1
 """Priority of movable bodies: in their contacts, their friction counts, whatever they touch."""
 
 
-def add_fixed_body(spec: Any, parent: Any, name: str, body: Body, place: Pose) -> None:
+def add_fixed_body(spec: Any, parent: Any, name: str, body: RigidBody, place: Pose) -> None:
     """Add a fixed body to a parent, in whose frame it has a pose."""
     added = parent.add_body(name=name, pos=place.position, quat=quaternion_from_rotation(place.rotation))
     for geom in _add_solids(spec, added, name, body):
         set_support(geom, body.friction)
 
 
-def add_movable_body(spec: Any, name: str, body: Body) -> None:
+def add_movable_body(spec: Any, name: str, body: RigidBody) -> None:
     """Add a body with a free joint, its mass and its own friction."""
     place = body.pose
     added = spec.worldbody.add_body(
@@ -54,7 +54,7 @@ def set_support(geom: Any, friction: float) -> None:
     geom.solmix = 0.0
 
 
-def _set_centre(added: Any, body: Body) -> None:
+def _set_centre(added: Any, body: RigidBody) -> None:
     """Set a centre of mass other than that of the solids; the moments of inertia about it are those of the solids."""
     alone = mujoco.MjSpec()
     list(_add_solids(alone, alone.worldbody.add_body(name="alone"), "alone", body))
@@ -63,7 +63,7 @@ def _set_centre(added: Any, body: Body) -> None:
     added.inertia, added.iquat = model.body_inertia[1], model.body_iquat[1]
 
 
-def _add_solids(spec: Any, parent: Any, name: str, body: Body) -> Iterator[Any]:
+def _add_solids(spec: Any, parent: Any, name: str, body: RigidBody) -> Iterator[Any]:
     """Add the solids of a body with their shares of its mass, and yield their geoms."""
     volume = sum(each.volume for each in body.solids)
     for number, solid in enumerate(body.solids):

@@ -13,7 +13,7 @@ from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.motion.working_face import working_face
-from skillc_runtime.world.space.bodies import Body
+from skillc_runtime.world.space.bodies import RigidBody
 
 OPPOSING = -0.7
 """Cosine below which two contact normals count as opposite sides."""
@@ -33,7 +33,7 @@ class ModelledGripper(ABC):
         self,
         facts: GripperSpec,
         names: dict[str, str],
-        things: tuple[ToolSpec | Body, ...],
+        things: tuple[ToolSpec | RigidBody, ...],
         arm: ModelledArm,
         model: Any,
         data: Any,

@@ -16,7 +16,7 @@ from skillc_runtime.backends.simulation.people import PersonSpec, read_people
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.bodies import Body, read_bodies
+from skillc_runtime.world.space.bodies import RigidBody, read_bodies
 from skillc_runtime.world.space.frames import moves_with, pose, size
 from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, least_force_n, surface_layout
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of, text_of
@@ -168,7 +168,7 @@ class SceneSpec:
     bases: tuple[BaseSpec, ...]
     tools: tuple[ToolSpec, ...]
     surfaces: tuple[SurfaceSpec, ...]
-    bodies: tuple[Body, ...]
+    bodies: tuple[RigidBody, ...]
     mounted: Mapping[str, str]
     fixtures: tuple[FixtureSpec, ...] = ()
     people: tuple[PersonSpec, ...] = ()
@@ -177,12 +177,12 @@ class SceneSpec:
     displaced: tuple[DisplacementRange, ...] = ()
 
     @property
-    def movable(self) -> tuple[Body, ...]:
+    def movable(self) -> tuple[RigidBody, ...]:
         """The bodies that lie free."""
         return tuple(body for body in self.bodies if body.movable)
 
     @property
-    def graspable(self) -> tuple[ToolSpec | Body, ...]:
+    def graspable(self) -> tuple[ToolSpec | RigidBody, ...]:
         """What a gripper can hold."""
         return (*self.tools, *self.movable)
 
@@ -206,7 +206,7 @@ def read_scene_spec(state: WorldState) -> SceneSpec:
     )
 
 
-def _mounted(state: WorldState, bodies: tuple[Body, ...]) -> dict[str, str]:
+def _mounted(state: WorldState, bodies: tuple[RigidBody, ...]) -> dict[str, str]:
     """Return the mobile robot with which each fixed body moves."""
     robots, fixed = sorted(state.instances(MOBILE_ROBOT)), [each.individual for each in bodies if not each.movable]
     return {one: robot for one in fixed for robot in robots if moves_with(state, one, robot)}

@@ -25,7 +25,7 @@ FLOOR = "the floor"
 
 
 @dataclass(slots=True)
-class Touch:
+class OngoingTouch:
     """A contact between two parts that may go on; times in s, its greatest force in N, None if it is not known."""
 
     start_s: float
@@ -49,7 +49,7 @@ class TouchRecorder:
         self._parts = [_part(model, geom) for geom in range(model.ngeom)]
         self._watched = np.array([owner in self._robots | tools for owner, _ in self._parts])
         self._watched &= model.geom_contype & LINK > 0
-        self._found: defaultdict[tuple[str, str], list[Touch]] = defaultdict(list)
+        self._found: defaultdict[tuple[str, str], list[OngoingTouch]] = defaultdict(list)
         self._steps, self._count, self._touched = 0, 0, False
 
     @property
@@ -73,7 +73,7 @@ class TouchRecorder:
         """Add a contact of two parts at `now` s with a force in N, None if it is not known."""
         touches = self._found[part, other]
         if not touches or now - touches[-1].end_s > SAME_TOUCH_S:
-            touches.append(Touch(now, now, force_n))
+            touches.append(OngoingTouch(now, now, force_n))
         touches[-1].end_s = now
         if force_n is not None:
             touches[-1].peak_force_n = max(touches[-1].peak_force_n or 0.0, force_n)

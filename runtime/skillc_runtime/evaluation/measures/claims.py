@@ -10,7 +10,7 @@ import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.bodies import Body
+from skillc_runtime.world.space.bodies import RigidBody
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.oriented_box import OrientedBox
@@ -32,12 +32,12 @@ REST_M = 0.01
 class TrueBody:
     """A body where it really is: its pose in the world, and its bounding box there."""
 
-    body: Body
+    body: RigidBody
     at: Pose
     box: OrientedBox
 
 
-def find_false_claims(bodies: Sequence[Body], state: WorldState, truth: GroundTruth) -> tuple[str, ...]:
+def find_false_claims(bodies: Sequence[RigidBody], state: WorldState, truth: GroundTruth) -> tuple[str, ...]:
     """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each.
 
     `bodies` are those of the world with which the cell was built. A claim about what has no body is not judged.
@@ -46,7 +46,7 @@ def find_false_claims(bodies: Sequence[Body], state: WorldState, truth: GroundTr
     return (*_false_grasps(real, state, truth), *_false_places(real, state, truth))
 
 
-def place_body(body: Body, at: Pose) -> TrueBody:
+def place_body(body: RigidBody, at: Pose) -> TrueBody:
     """Return a body at a pose in the world."""
     reach = [np.abs(each.place.rotation) @ np.array(each.half) for each in body.solids]
     pairs = list(zip(body.solids, reach, strict=True))

@@ -83,7 +83,7 @@ GOODS: Final[Colour] = (0.85, 0.55, 0.2, 1.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class RigidBody:
     """A thing that exists: its shape, the convex solids of it in its frame, mass in kg, centre of mass (3,) in m.
 
     pose: in the world, of the thing's frame, which for furniture lies in the middle of the top, for all others in the
@@ -107,13 +107,13 @@ class Body:
         return np.array(self.shape.size)
 
 
-def read_bodies(state: WorldState) -> tuple[Body, ...]:
+def read_bodies(state: WorldState) -> tuple[RigidBody, ...]:
     """Return all bodies in order of IRI; errors as of `read_body`."""
     sized = sorted({each for name in SIZE if (values := state.stored.get(name)) for each, _ in values.items()})
     return tuple(body for each in sized if (body := read_body(state, each)) is not None)
 
 
-def read_body(state: WorldState, individual: str) -> Body | None:
+def read_body(state: WorldState, individual: str) -> RigidBody | None:
     """Return the body of a thing; None if it has none: no size, no known pose, a part of space, or a model of its own.
 
     MissingFact if a part of its size is missing, FrameError if its pose is contradictory, SheetError if its shape is
@@ -127,7 +127,7 @@ def read_body(state: WorldState, individual: str) -> Body | None:
     except Unplaced:
         return None
     solids = _in_own_frame(state, individual, shape)
-    return Body(
+    return RigidBody(
         individual=individual,
         pose=place,
         shape=shape,

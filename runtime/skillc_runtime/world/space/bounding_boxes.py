@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.extents import Extent
+from skillc_runtime.world.space.extents import LocalBox
 from skillc_runtime.world.space.frame_tree import FrameTree, frame_tree_of
 from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.state.terms import SIZE
@@ -24,7 +24,7 @@ def bounding_box(state: WorldState, individual: str) -> OrientedBox:
     if individual not in space.boxes:
         known = any(state.value(individual, name) is not None for name in SIZE if name in state.stored)
         half = _half(space, individual) if known else np.zeros(3)
-        middle = space.pose(individual) @ Pose(Extent.of(half, state.classes.get(individual)).middle, np.eye(3))
+        middle = space.pose(individual) @ Pose(LocalBox.of(half, state.classes.get(individual)).middle, np.eye(3))
         space.boxes[individual] = OrientedBox.of(middle, half)
     return space.boxes[individual]
 

@@ -24,17 +24,17 @@ FACES = {
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Extent:
+class LocalBox:
     """The box of an object: half its size (3,) in m, and its middle (3,) in m in the object's frame."""
 
     half: Array
     middle: Array
 
     @staticmethod
-    def of(half: Array, classes: frozenset[str]) -> Extent:
+    def of(half: Array, classes: frozenset[str]) -> LocalBox:
         """Return the box of an object of these classes, superclasses included; `half` (3,) is half its size in m."""
         share = next((share for cls, share in FRAME_HEIGHT.items() if cls in classes), 0.0)
-        return Extent(half, np.array([0.0, 0.0, -2 * share * half[2]]))
+        return LocalBox(half, np.array([0.0, 0.0, -2 * share * half[2]]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ class Spot:
     offset: tuple[float, float, float]
 
 
-def contact_pose(carrier: Extent, thing: Extent, rotation: Array, spot: Spot) -> Pose:
+def contact_pose(carrier: LocalBox, thing: LocalBox, rotation: Array, spot: Spot) -> Pose:
     """Return the pose, in the frame of the carrier, in which a thing touches its box from outside at a spot.
 
     rotation: of the thing in the frame of the carrier, (3, 3). The middle of the thing's box is over the spot.

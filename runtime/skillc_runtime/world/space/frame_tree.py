@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary, ref
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles, rotation_from_quaternion
-from skillc_runtime.world.space.extents import Extent, Spot, contact_pose
+from skillc_runtime.world.space.extents import LocalBox, Spot, contact_pose
 from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import (
@@ -191,12 +191,12 @@ class FrameTree:
             Spot(str(face), corner, (x, y, z)),
         )
 
-    def _extent(self, individual: str, *, optional: bool) -> Extent:
+    def _extent(self, individual: str, *, optional: bool) -> LocalBox:
         """Return the box of an object; a point if it is optional and no size is stated, else MissingFact."""
         if optional and all(self._values[name].get(individual) is None for name in SIZE):
-            return Extent(np.zeros(3), np.zeros(3))
+            return LocalBox(np.zeros(3), np.zeros(3))
         half = np.array([self.number(individual, name) for name in SIZE]) / 2
-        return Extent.of(half, self._classes.get(individual))
+        return LocalBox.of(half, self._classes.get(individual))
 
     def _rotation(self, individual: str, default: Array | None = None) -> Array:
         """Return the rotation of an object in its parent frame, from its quaternion or its angles in degrees."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.bodies import FRICTION_UNLESS_STATED, Body, read_body
+from skillc_runtime.world.space.bodies import FRICTION_UNLESS_STATED, RigidBody, read_body
 from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.shapes import Capsule, Cylinder, Sphere
@@ -63,14 +63,14 @@ class GraspError(EvaluationError):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Grasp:
+class GraspCandidate:
     """Where the tool centre point is in the world, and how wide the thing is between the fingers in m."""
 
     tool: Pose
     width_m: float
 
 
-def find_grasp(state: WorldState, gripper: str, thing: str, choice: int = 1) -> Grasp:
+def find_grasp(state: WorldState, gripper: str, thing: str, choice: int = 1) -> GraspCandidate:
     """Return a grasp, the best for choice 1; a stated GraspingPose is the only one.
 
     GraspError if there are not so many; FrameError, MissingFact or SheetError if facts are missing.
@@ -82,7 +82,7 @@ def find_grasp(state: WorldState, gripper: str, thing: str, choice: int = 1) -> 
     return grasps[choice - 1]
 
 
-def find_grasps(state: WorldState, gripper: str, thing: str) -> tuple[Grasp, ...]:
+def find_grasps(state: WorldState, gripper: str, thing: str) -> tuple[GraspCandidate, ...]:
     """Return all grasps, the best one first; errors as of `find_grasp`."""
     stated = stated_pose(state, thing, GRASPING_POSE)
     if stated is None:
@@ -90,7 +90,7 @@ def find_grasps(state: WorldState, gripper: str, thing: str) -> tuple[Grasp, ...
     tool = pose(state, stated)
     width_m = width_between(state, gripper, thing, tool)
     widest = _check_width(state, gripper, thing, [0.0 if width_m is None else width_m])
-    return (Grasp(tool, widest if width_m is None else width_m),)
+    return (GraspCandidate(tool, widest if width_m is None else width_m),)
 
 
 def stated_pose(state: WorldState, thing: str, cls: str) -> str | None:
@@ -98,7 +98,7 @@ def stated_pose(state: WorldState, thing: str, cls: str) -> str | None:
     return min((each for each in state.objects(thing, HAS_A) if state.is_a(each, cls)), default=None)
 
 
-def grasp_opening_m(state: WorldState, gripper: str, grasp: Grasp) -> float:
+def grasp_opening_m(state: WorldState, gripper: str, grasp: GraspCandidate) -> float:
     """Return how far the fingers open around a thing, in m."""
     return min(grasp.width_m + OPENING_CLEARANCE_M, sheet_of(state, gripper).number("maxOpening"))
 
@@ -147,19 +147,19 @@ def _spread_m(state: WorldState, gripper: str) -> float:
     return number_of(state, sheet_of(state, gripper).individual, FINGER_SPREAD, default=0.0)
 
 
-def _is_round(body: Body) -> bool:
+def _is_round(body: RigidBody) -> bool:
     """Whether a body is round, seen from above."""
     standing = abs(float(body.pose.rotation[2, 2])) > STANDING
     return isinstance(body.shape, Sphere) or (standing and isinstance(body.shape, Cylinder | Capsule))
 
 
-def span(body: Body, direction: Array) -> tuple[float, float]:
+def span(body: RigidBody, direction: Array) -> tuple[float, float]:
     """Return where a body begins and ends along a direction (3,) of length 1 in the world, in m from the origin."""
     low = min(-each.reach(-direction, body.pose) for each in body.solids)
     return low, max(each.reach(direction, body.pose) for each in body.solids)
 
 
-def _derive(state: WorldState, gripper: str, thing: str) -> tuple[Grasp, ...]:
+def _derive(state: WorldState, gripper: str, thing: str) -> tuple[GraspCandidate, ...]:
     body = read_body(state, thing)
     short = state.vocabulary.short
     if body is None:
@@ -180,11 +180,11 @@ def _derive(state: WorldState, gripper: str, thing: str) -> tuple[Grasp, ...]:
     stated = state.value(thing, GRASP_WIDTH)
     fits = _check_width(state, gripper, thing, widths)
     height_m = _tool_height(state, gripper, body)
-    found: list[Grasp] = []
+    found: list[GraspCandidate] = []
     for closing, width_m in zip(closings, widths, strict=True):
         if width_m <= fits:
             held_m = float(stated) if isinstance(stated, float) and len(found) == 0 else width_m
-            found.append(Grasp(Pose(_middle(body, height_m), _hand(closing, away)), held_m))
+            found.append(GraspCandidate(Pose(_middle(body, height_m), _hand(closing, away)), held_m))
     return tuple(sorted(found, key=lambda each: round(each.width_m, 3)))
 
 
@@ -200,7 +200,7 @@ def _check_width(state: WorldState, gripper: str, thing: str, widths: list[float
     )
 
 
-def _tool_height(state: WorldState, gripper: str, body: Body) -> float:
+def _tool_height(state: WorldState, gripper: str, body: RigidBody) -> float:
     """Return the height in m of the tool centre point: the middle of the body, or as deep as the fingers reach."""
     sheet = sheet_of(state, gripper).individual
     depth_m = number_of(state, sheet, FINGER_DEPTH, default=FINGER_DEPTH_M)
@@ -216,13 +216,13 @@ def _tool_height(state: WorldState, gripper: str, body: Body) -> float:
     return height_m
 
 
-def _middle(body: Body, height_m: float) -> Array:
+def _middle(body: RigidBody, height_m: float) -> Array:
     """Return the point (3,) in m, in the world, over or in the middle of a body at a height in m."""
     x, y = (sum(span(body, axis)) / 2 for axis in np.eye(3)[:2])
     return np.array([x, y, height_m])
 
 
-def _closings(body: Body, away: Array) -> tuple[Array, Array]:
+def _closings(body: RigidBody, away: Array) -> tuple[Array, Array]:
     """Return two horizontal directions (3,) across a body in which fingers can close, first that across `away`."""
     axes = body.pose.rotation
     if _is_round(body):
@@ -254,16 +254,23 @@ def _away_from_arm(state: WorldState, gripper: str, point: Array) -> Array:
 
 def _check_weight(state: WorldState, gripper: str, thing: str) -> None:
     """Check that friction bears the thing; GraspError if 2 mu F < m (g + a)."""
+    problem = weight_problem(state, thing, gripper)
+    if problem is not None:
+        raise GraspError(problem)
+
+
+def weight_problem(state: WorldState, thing: str, gripper: str) -> str | None:
+    """Return that a thing slides out of the fingers of a gripper, with numbers, if 2 mu F < m (g + a)."""
     strongest = sheet_of(state, gripper).number("maxForce")
     force_n = min(number_of(state, thing, GRASP_FORCE, default=strongest), strongest)
-    if force_n < _needed_force_n(state, thing):
-        mass_kg, friction = _mass_kg(state, thing), _friction(state, thing)
-        held_kg = 2 * friction * force_n / (GRAVITY_M_S2 + ACCELERATION_M_S2)
-        short = state.vocabulary.short
-        raise GraspError(
-            f"{short(thing)} weighs {mass_kg:.3g} kg, and with {force_n:g} N and a friction of {friction:g} "
-            f"{short(gripper)} carries at most {held_kg:.2g} kg"
-        )
+    if force_n >= _needed_force_n(state, thing):
+        return None
+    mass_kg, friction, short = _mass_kg(state, thing), _friction(state, thing), state.vocabulary.short
+    held_kg = 2 * friction * force_n / (GRAVITY_M_S2 + ACCELERATION_M_S2)
+    return (
+        f"{short(thing)} weighs {mass_kg:.3g} kg, and with {force_n:g} N and a friction of {friction:g} "
+        f"{short(gripper)} carries at most {held_kg:.2g} kg"
+    )
 
 
 def _needed_force_n(state: WorldState, thing: str) -> float:

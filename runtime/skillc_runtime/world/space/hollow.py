@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.space.bodies import Body, has_body, read_body
+from skillc_runtime.world.space.bodies import RigidBody, has_body, read_body
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M, bounding_box, solid_box
 from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.space.shapes import Bin
@@ -73,7 +73,7 @@ def _boxes(state: WorldState, individual: str) -> list[OrientedBox]:
     return [OrientedBox.of(body.pose @ each.place, np.array(each.half)) for each in body.solids]
 
 
-def _shaped(state: WorldState, individual: str) -> Body | None:
+def _shaped(state: WorldState, individual: str) -> RigidBody | None:
     """Return a body that is not a box, None for everything else."""
     stated = state.value(individual, SHAPE)
     plain = stated == "box" or (stated is None and not state.is_a(individual, CONTAINER))
