@@ -90,6 +90,22 @@ def test_no_plan_is_proved_and_explained(changes: list, goal: Condition, words: 
     assert words in result.why
 
 
+@pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
+def test_many_steps_that_may_not_be_used_do_not_multiply(planner: Planner) -> None:
+    places = [f"place-{number}" for number in range(12)]
+    state = LAB.with_changes([individual(name, "Location") for name in places])
+    ways = [("shelf", "dock"), *((place, "dock") for place in places), *(("shelf", place) for place in places[1:])]
+    without = [Step("Drive", {"robot": iri("robot"), "to": iri(to), "from": iri(start)}) for to, start in ways]
+    goal = Holds(i("robot"), iri("at"), i("shelf"))
+    found = solve(WIPING, state, goal, (planner,), without=without)
+    assert isinstance(found, Solved), found
+    assert [each.arguments["to"] for each in found.plan.steps] == [iri("wall"), iri("shelf")]
+    every = [*without, Step("Drive", {"robot": iri("robot"), "to": iri("wall"), "from": iri("dock")})]
+    answer = solve(WIPING, state, goal, (planner,), without=every)
+    assert isinstance(answer, GaveUp), "it is not proved, since steps were left out"
+    assert "Drive needs not tried before with" in answer.why
+
+
 def test_a_skill_left_out_of_planning_is_named_when_the_goal_needs_it() -> None:
     number = msgspec.structs.replace(
         parameter("how_often", "Board", "in"), type=WIPING.vocabulary.properties[iri("weight")].type

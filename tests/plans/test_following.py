@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from plans.depot import LAB, Depot, carried_out, contain, iri, world
+from plans.depot import LAB, Depot, carried_out, contain, iri, library, world
+from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, Replanned
 from skillc_runtime.world.state.changes import RemoveIndividual
@@ -73,6 +74,17 @@ def test_a_step_that_failed_is_done_in_another_way_where_there_is_one() -> None:
     assert [each.reason for each in call.rejected] == [
         "it has failed, and nothing that it depends on has changed since: carl crate b failed"
     ]
+
+
+def test_a_step_that_succeeded_in_another_way_has_not_failed() -> None:
+    failures, arguments = FailedSteps(library()), {"robot": iri("carl"), "crate": iri("crate"), "to": iri("b")}
+    state = world({"carl": "c"}, {"crate": "a"})
+    failures.add("Unload", arguments, "lower", state, "it slipped")
+    assert [step.skill for step in failures.steps] == ["Unload"]
+    failures.forget_call("Unload", {**arguments, "crate": iri("box")})
+    assert [step.skill for step in failures.steps] == ["Unload"]
+    failures.forget_call("Unload", arguments)
+    assert failures.steps == ()
 
 
 def test_a_step_that_can_only_fail_again_is_not_repeated() -> None:

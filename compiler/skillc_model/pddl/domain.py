@@ -73,7 +73,14 @@ class GoalMeaning:
     """True once the goal has been reached; false at first."""
 
 
-Meaning: TypeAlias = RelationMeaning | PropertyMeaning | ClassMeaning | GuardMeaning | GoalMeaning
+@dataclass(frozen=True)
+class ExclusionMeaning:
+    """True of the arguments (IRIs, in the order of the parameters) of steps that no plan may contain; never changes."""
+
+    steps: tuple[tuple[str, ...], ...]
+
+
+Meaning: TypeAlias = RelationMeaning | PropertyMeaning | ClassMeaning | GuardMeaning | GoalMeaning | ExclusionMeaning
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,15 @@ from skillc_model.format_condition import (
     format_quantified,
     format_relation,
 )
-from skillc_model.pddl.domain import ROOT, ClassMeaning, GoalMeaning, GuardMeaning, PropertyMeaning, RelationMeaning
+from skillc_model.pddl.domain import (
+    ROOT,
+    ClassMeaning,
+    ExclusionMeaning,
+    GoalMeaning,
+    GuardMeaning,
+    PropertyMeaning,
+    RelationMeaning,
+)
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import Implementation, SkillLibrary
@@ -80,6 +88,8 @@ class FormulaFormatter:
                 return f"{text} for {', '.join(terms)}"
             case GoalMeaning():
                 return "the goal"
+            case ExclusionMeaning():
+                return f"tried before with {', '.join(terms)}"
             case _:
                 assert_never(meaning)
 

@@ -49,8 +49,11 @@ class FailedSteps:
         self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, reason: str
     ) -> None:
         """Remember that an implementation failed for a call that started in `state`."""
-        named = {name: value for name, value in arguments.items() if isinstance(value, str)}
-        self._failed.append(FailedStep(Step(skill, named), implementation, state, reason))
+        self._failed.append(FailedStep(_step_of(skill, arguments), implementation, state, reason))
+
+    def forget_call(self, skill: str, arguments: Mapping[str, Value]) -> None:
+        """Forget the implementations that failed for a call, because another one succeeded."""
+        self.forget((_step_of(skill, arguments),))
 
     def forget(self, steps: Sequence[Step]) -> None:
         """Let steps be tried again, because somebody has decided so."""
@@ -102,3 +105,7 @@ class FailedSteps:
         skill = self._library.skills[step.skill]
         for requirement in (*skill.pre, *skill.hold, *implementation.pre, *implementation.hold):
             yield from facts_read(requirement.condition, step.arguments, failed.state.vocabulary)
+
+
+def _step_of(skill: str, arguments: Mapping[str, Value]) -> Step:
+    return Step(skill, {name: value for name, value in arguments.items() if isinstance(value, str)})

@@ -137,6 +137,8 @@ class CallNode(Node):
         if failure is not None:
             return self._end_failed(activation, failure)
         activation.release_locks()
+        if self._scope.failures is not None:
+            self._scope.failures.forget_call(self.skill.name, self._arguments)
         return self.succeed()
 
     def stop(self, reason: str) -> None:

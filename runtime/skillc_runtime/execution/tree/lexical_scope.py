@@ -30,6 +30,10 @@ class CallFailures(Protocol):
         """Return why an implementation would fail again for these arguments, or None if it may be tried."""
         ...
 
+    def forget_call(self, skill: str, arguments: Mapping[str, Value]) -> None:
+        """Forget the implementations that failed for a call, because another one succeeded."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class LexicalScope:

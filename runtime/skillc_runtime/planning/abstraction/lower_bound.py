@@ -21,6 +21,7 @@ from skillc_model.pddl.costs import ASSUMED_SECONDS
 from skillc_model.pddl.domain import (
     ClassMeaning,
     CostFunction,
+    ExclusionMeaning,
     GoalMeaning,
     GuardMeaning,
     PlanningDomain,
@@ -109,7 +110,7 @@ class _Abstraction:
                 yield from (Atom(predicate.name, (name,)) for name in accepted)
             case GuardMeaning():
                 yield from (Atom(predicate.name, names) for names in self._abstract_arguments(predicate.parameters))
-            case GoalMeaning():
+            case GoalMeaning() | ExclusionMeaning():
                 return
             case _:
                 assert_never(predicate.meaning)

@@ -13,6 +13,7 @@ from skillc_model.pddl.costs import ASSUMED_SECONDS, exact_seconds
 from skillc_model.pddl.domain import (
     ClassMeaning,
     CostFunction,
+    ExclusionMeaning,
     GoalMeaning,
     GuardMeaning,
     PlanningDomain,
@@ -74,6 +75,8 @@ class InitialState:
                 return self._satisfying(predicate, predicate.meaning)
             case GoalMeaning():
                 return ()
+            case ExclusionMeaning(steps):
+                return (tuple(map(self._names.__getitem__, step)) for step in steps)
             case _:
                 assert_never(predicate.meaning)
 

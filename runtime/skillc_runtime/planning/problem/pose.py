@@ -11,10 +11,10 @@ import msgspec
 from skillc_model.conditions import Anything, Condition, Exists, Forall, Holds, Individual
 from skillc_model.pddl.constants import most_specific
 from skillc_model.pddl.costs import common_scale
-from skillc_model.pddl.domain import Action, ComputedCost, PlanningDomain
-from skillc_model.pddl.formulas import TRUE, Equal, Formula, Negation, Typed, conjunction, disjunction, rename_terms
+from skillc_model.pddl.domain import Action, ComputedCost, ExclusionMeaning, PlanningDomain, Predicate
+from skillc_model.pddl.formulas import TRUE, Atom, Formula, Negation, Typed, conjunction, rename_terms
 from skillc_model.pddl.goals import add_goal_predicates, ground_goal
-from skillc_model.pddl.names import assign_object_names
+from skillc_model.pddl.names import assign_object_names, make_unique
 from skillc_model.pddl.problem import Problem, action_durations
 from skillc_model.pddl.translate import Untranslatable
 from skillc_model.skills import SkillLibrary
@@ -114,7 +114,7 @@ def pose_problem(
     names = _name_objects(constants, types, domain, state.vocabulary)
     by_iri = {iri: name for name, iri in names.items()}
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
-    domain = exclude_steps(without, useful.domain, by_iri, types)
+    domain = exclude_steps(without, useful.domain, by_iri)
     initial = InitialState(domain, state, objects, names)
     problem = Problem(
         name="task",
@@ -264,29 +264,21 @@ def _ground_goal(
         raise GoalError(f"the goal cannot be decided: {error}") from error
 
 
-def exclude_steps(
-    steps: Sequence[Step], domain: PlanningDomain, names: Mapping[str, str], types: Mapping[str, str]
-) -> PlanningDomain:
-    """Return the domain without the steps; `names` and `types` are those of the objects, by IRI.
+def exclude_steps(steps: Sequence[Step], domain: PlanningDomain, names: Mapping[str, str]) -> PlanningDomain:
+    """Return the domain without the steps; `names` are those of the objects, by IRI.
 
-    An action gets the precondition that at least one of its parameters differs from the step's argument.
+    An action gets a static predicate that is true of the arguments of its steps, and the precondition that it is false.
+    A disjunction of inequalities would say the same, but planners expand disjunctions, and several multiply.
     """
-    if not steps:
-        return domain
     known = [step for step in steps if names.keys() >= set(step.arguments.values())]
-    individuals = sorted({iri for step in known for iri in step.arguments.values()})
-    constants = {*domain.constants, *(Typed(names[iri], types[iri]) for iri in individuals)}
-    actions = tuple(_exclude_from(known, each, names) for each in domain.actions)
-    return replace(domain, actions=actions, constants=tuple(sorted(constants, key=lambda each: each.name)))
-
-
-def _exclude_from(steps: Sequence[Step], action: Action, names: Mapping[str, str]) -> Action:
-    others = [
-        disjunction(
-            Negation(Equal(parameter.name, names[step.arguments[bound]]))
-            for parameter, bound in zip(action.parameters, action.binds, strict=True)
+    actions, predicates = list(domain.actions), list(domain.predicates)
+    for number, action in enumerate(actions):
+        arguments = tuple(
+            tuple(step.arguments[each] for each in action.binds) for step in known if step.skill == action.skill
         )
-        for step in steps
-        if step.skill == action.skill
-    ]
-    return replace(action, precondition=conjunction((action.precondition, *others))) if others else action
+        if arguments:
+            name = make_unique(f"excluded-{action.name}", {*domain.names, *domain.predicate})
+            predicates.append(Predicate(name, action.parameters, ExclusionMeaning(arguments), changes=False))
+            allowed = Negation(Atom(name, tuple(each.name for each in action.parameters)))
+            actions[number] = replace(action, precondition=conjunction((action.precondition, allowed)))
+    return replace(domain, actions=tuple(actions), predicates=tuple(predicates))
