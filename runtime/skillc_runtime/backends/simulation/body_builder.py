@@ -13,6 +13,7 @@ from skillc_runtime.backends.simulation.names import part_name, solid_geom_name
 from skillc_runtime.collision.solid_geoms import add_solid
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import RigidBody
+from skillc_runtime.world.space.drawers import Slide
 from skillc_runtime.world.space.solids import centre_of
 
 TORSION_M, ROLLING_M = 0.005, 0.0002
@@ -21,15 +22,31 @@ TORSION_M, ROLLING_M = 0.005, 0.0002
 SOLREF, SOLIMP = (0.006, 1.0), (0.95, 0.99, 0.001, 0.5, 2.0)
 """Contact of movable bodies: as stiff as that of fingers, whose pads yield by less than 0.1 mm."""
 
+SLIDE_DAMPING = 5.0
+"""Damping of drawers in N s/m: one that is pushed hard comes to rest."""
+
+STICKING = (0.004, 1.0), (0.99, 0.999, 0.001, 0.5, 2.0)
+"""Friction of drawers: one that is pulled with less than its friction creeps by less than 0.1 mm/s."""
+
 OWN_CONTACT = 1
 """Priority of movable bodies: in their contacts, their friction counts, whatever they touch."""
 
 
 def add_fixed_body(spec: Any, parent: Any, name: str, body: RigidBody, place: Pose) -> None:
-    """Add a fixed body to a parent, in whose frame it has a pose."""
+    """Add a fixed body, or a drawer, which slides, to a parent, in whose frame it has a pose."""
     added = parent.add_body(name=name, pos=place.position, quat=quaternion_from_rotation(place.rotation))
     for geom in _add_solids(spec, added, name, body):
         set_support(geom, body.friction)
+    if body.slide is not None:
+        _add_slide(added, name, body.slide)
+
+
+def _add_slide(added: Any, name: str, slide: Slide) -> None:
+    """Let a body slide along -y of its frame, from where it is."""
+    joint = added.add_joint(name=part_name(name, "slide"), type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0.0, -1.0, 0.0])
+    joint.ref, joint.range, joint.limited = slide.opening_m, [0.0, slide.travel_m], True
+    joint.frictionloss, joint.damping[0] = slide.friction_n, SLIDE_DAMPING
+    joint.solref_friction, joint.solimp_friction = STICKING
 
 
 def add_movable_body(spec: Any, name: str, body: RigidBody) -> None:

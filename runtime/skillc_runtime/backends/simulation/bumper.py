@@ -1,4 +1,4 @@
-"""The bumper of a simulated mobile base: it feels what the base would drive into, which stands fixed in the world."""
+"""The bumper of a simulated mobile base: it feels what the base would drive into, which stands or slides there."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DEPTH_M = 0.002
 
 
 class Bumper:
-    """Compares the box of one base with the fixed geoms around it; MuJoCo computes no contacts between the two.
+    """Compares the box of one base with furniture, drawers and fixtures; MuJoCo computes no contacts between the two.
 
     It writes where the box is in `data`, which the next step of the simulation computes again.
     """
@@ -25,8 +25,8 @@ class Bumper:
         self._model, self._data = model, data
         base = int(model.body(body).id)
         owners, kinds, types = model.geom_bodyid, model.geom_contype, model.geom_type
-        fixed = (kinds & CARRIES > 0) & (model.body_dofnum[model.body_weldid[owners]] == 0)
-        fixed &= (types != mujoco.mjtGeom.mjGEOM_PLANE) & (model.body_weldid[owners] != model.body_weldid[base])
+        fixed = (kinds & CARRIES > 0) & (types != mujoco.mjtGeom.mjGEOM_PLANE)
+        fixed &= model.body_rootid[owners] != model.body_rootid[base]
         self._obstacles = [int(geom) for geom in np.flatnonzero(fixed)]
         self._box = int(np.flatnonzero(owners == base)[0])
         turn = rotation_from_quaternion(model.geom_quat[self._box])

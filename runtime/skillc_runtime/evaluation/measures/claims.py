@@ -82,6 +82,8 @@ def _false_grasps(real: Mapping[str, TrueBody], state: WorldState, truth: Ground
 
 
 def _false_places(real: Mapping[str, TrueBody], state: WorldState, truth: GroundTruth) -> Iterator[str]:
+    for drawer in (name for name, each in real.items() if each.body.slide is not None):
+        yield from _false_pose(real, truth, state, drawer)
     for thing in (name for name, each in real.items() if each.body.movable):
         holders = [each for each in sorted(state.subjects(CONTAIN, thing)) if each != thing]
         if any(state.is_a(each, END_EFFECTOR) for each in holders):

@@ -8,6 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.drawers import Slide, read_slide
 from skillc_runtime.world.space.extents import FRAME_HEIGHT
 from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose, relative_pose, size
@@ -88,7 +89,8 @@ class RigidBody:
 
     pose: in the world, of the thing's frame, which for furniture lies in the middle of the top, for all others in the
     middle of the bounding box. friction: sliding, without unit. colour: red, green, blue and opacity, 0 to 1.
-    movable: whether it lies free, as things to handle do; all others are fixed where they are.
+    movable: whether it lies free, as things to handle do; all others are fixed where they are, but for drawers, which
+    have a `slide`.
     """
 
     individual: str
@@ -100,6 +102,7 @@ class RigidBody:
     friction: float
     colour: Colour
     movable: bool
+    slide: Slide | None = None
 
     @property
     def size(self) -> Array:
@@ -137,6 +140,7 @@ def read_body(state: WorldState, individual: str) -> RigidBody | None:
         friction=number_of(state, individual, FRICTION, default=FRICTION_UNLESS_STATED),
         colour=_colour(state, individual),
         movable=state.is_a(individual, MANIPULATABLE),
+        slide=read_slide(state, individual),
     )
 
 

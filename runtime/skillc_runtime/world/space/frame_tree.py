@@ -29,6 +29,7 @@ from skillc_runtime.world.state.terms import (
     LOCATION,
     OFFSET,
     ON,
+    OPENING,
     ORIENTATION,
     POSITION,
     SCENE,
@@ -44,7 +45,7 @@ Values: TypeAlias = "VersionedMap[str, Value | None]"
 
 _NO_VALUES: Values = VersionedMap(None)
 _NO_LINKS = PairIndex.empty()
-_VALUES = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *ANGLES, *OFFSET, ANCHOR, FACE, *SIZE)
+_VALUES = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *ANGLES, *OFFSET, ANCHOR, FACE, *SIZE, OPENING)
 _LINKS = (ON, AT, CONTAIN, HAS_A)
 
 
@@ -143,13 +144,23 @@ class FrameTree:
     def own_pose(self, individual: str) -> Pose:
         """Return the pose of an object in the frame of its carrier, or in the world if nothing carries it.
 
-        FrameError when it is contradictory, MissingFact when a number is missing.
+        That of a drawer is the stated pose, moved by as far as it is open. FrameError when it is contradictory,
+        MissingFact when a number is missing.
         """
+        opening = self._number_or(individual, OPENING, 0.0)
+        stated = self._stated_pose(individual)
+        return _frozen(stated @ Pose.of((0.0, -opening, 0.0)) if opening else stated)
+
+    def frame_pose(self, frame: str, individual: str) -> Pose:
+        """Return the pose in the world of the frame with a FrameId, in which an individual has its place."""
+        return Pose.of((0.0, 0.0, 0.0)) if frame == WORLD_FRAME else self.pose(self._owner(frame, individual))
+
+    def _stated_pose(self, individual: str) -> Pose:
         support = self._support(individual)
         if self._values[BASE_FRAME_ID].get(individual) is None and support is not None:
-            return _frozen(self._pose_on(individual, support))
+            return self._pose_on(individual, support)
         position = [self.number(individual, name) for name in POSITION]
-        return _frozen(Pose(np.array(position), self._rotation(individual)))
+        return Pose(np.array(position), self._rotation(individual))
 
     def _moved_with(self, holder: str, individual: str) -> str:
         if ARM_DEVICE not in self._classes.get(holder):

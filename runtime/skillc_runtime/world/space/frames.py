@@ -17,9 +17,11 @@ from skillc_runtime.world.state.terms import (
     FRAME_ID,
     OFFSET,
     ON,
+    OPENING,
     ORIENTATION,
     POSITION,
     SIZE,
+    TRAVEL,
 )
 
 if TYPE_CHECKING:
@@ -56,13 +58,25 @@ def placement_changes(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[Se
 def relocation_changes(state: WorldState, thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[Change]:
     """Return the changes that place an object at another pose in the frame with a FrameId.
 
-    Facts that stated its former pose in another way, by angles or by what it is on, are retracted.
+    Facts that stated its former pose in another way, by angles or by what it is on, are retracted. A drawer stays in
+    its furniture: it is as far open as comes nearest to that pose.
     """
+    travel = state.value(thing, TRAVEL) if TRAVEL in state.stored else None
+    if isinstance(travel, float):
+        return [SetProperty(thing, OPENING, _opening_at(state, thing, travel, at, frame))]
     stated = (name for name in (*ANGLES, *OFFSET, ANCHOR, FACE) if name in state.stored)
     cleared = [ClearProperty(thing, name) for name in stated if state.value(thing, name) is not None]
     supports = state.facts[ON].forward.get(thing) if ON in state.facts else ()
     left = [RemoveRelation(thing, ON, each) for each in sorted(supports)]
     return [*cleared, *left, *placement_changes(thing, at, frame)]
+
+
+def _opening_at(state: WorldState, drawer: str, travel_m: float, at: Pose, frame: str) -> float:
+    """Return how far a drawer is open in m, from 0 to its travel, at a pose in the frame with a FrameId."""
+    there = frame_tree_of(state).frame_pose(frame, drawer) @ at
+    present = state.value(drawer, OPENING)
+    further = -float(pose(state, drawer).inverse().apply(there.position)[1])
+    return min(max((present if isinstance(present, float) else 0.0) + further, 0.0), travel_m)
 
 
 def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[Change]:
