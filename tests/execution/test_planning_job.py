@@ -25,10 +25,12 @@ from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
 from skillc_runtime.planning.plan import Plan, PlanResult
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.world_state import WorldState
 
 STATE = world({"carl": "c", "dora": "d"}, {"crate": "a", "box": "d"})
+SLIPPED = Failure(kind="body", message="it slipped")
 BOTH = "lab:b contain lab:crate and lab:b contain lab:box"
 
 
@@ -50,7 +52,7 @@ def failed(*implementations: str, crate: str = "crate") -> FailedSteps:
         skill, _, name = each.partition(".")
         place = {"from": iri("a")} if skill == "Load" else {"to": iri("b")}
         arguments = {"robot": iri("carl"), "crate": iri(crate), **place}
-        failures.add(skill, arguments, name, STATE if skill == "Load" else loaded, "it slipped")
+        failures.add(skill, arguments, name, STATE if skill == "Load" else loaded, SLIPPED)
     return failures
 
 

@@ -6,9 +6,12 @@ from plans.depot import LAB, Depot, carried_out, contain, iri, library, world
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, Replanned
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.failure_text import describe_failure, list_details
 from skillc_runtime.world.state.changes import RemoveIndividual
 from skillc_runtime.world.state.model import WorldModel
 
+SLIPPED = Failure(kind="body", message="it slipped")
 MOVED = "lab:b contain lab:crate"
 
 
@@ -79,7 +82,7 @@ def test_a_step_that_failed_is_done_in_another_way_where_there_is_one() -> None:
 def test_a_step_that_succeeded_in_another_way_has_not_failed() -> None:
     failures, arguments = FailedSteps(library()), {"robot": iri("carl"), "crate": iri("crate"), "to": iri("b")}
     state = world({"carl": "c"}, {"crate": "a"})
-    failures.add("Unload", arguments, "lower", state, "it slipped")
+    failures.add("Unload", arguments, "lower", state, SLIPPED)
     assert [step.skill for step in failures.steps] == ["Unload"]
     failures.forget_call("Unload", {**arguments, "crate": iri("box")})
     assert [step.skill for step in failures.steps] == ["Unload"]
@@ -94,20 +97,20 @@ def test_a_step_that_can_only_fail_again_is_not_repeated() -> None:
     assert execution.status == "failed" and len(execution.attempts) == 1
     assert depot.log == ["carl c a", "carl crate a"]
     assert execution.failure is not None and execution.failure.kind == "plan"
-    assert execution.failure.message.replace(LAB, "lab:") == (
-        "carl crate a failed; no other plan was found: all remaining alternatives have failed, and nothing "
-        "that they depend on has changed: Load[forks](robot: lab:carl, crate: lab:crate, from: lab:a): "
-        "carl crate a failed"
-    )
+    assert describe_failure(execution.failure) == "carl crate a failed; no other plan was found"
+    details = list(list_details(execution.failure))
+    assert details[-1] == "  all remaining alternatives have failed, and nothing that they depend on has changed"
 
 
-def test_when_all_ways_have_failed_each_is_listed_with_its_reason() -> None:
+def test_when_all_ways_have_failed_for_one_reason_it_is_said_once_and_each_way_is_a_detail() -> None:
     model, state = one_robot()
     depot = Depot(model, fails=lambda step, number: "crate b" in step)
     execution = carried_out(MOVED, state, depot)
     assert execution.status == "failed" and len(execution.attempts) == 2
     assert execution.failure is not None
-    assert all(f"Unload[{each}](" in execution.failure.message for each in ("lower", "tilt"))
+    assert describe_failure(execution.failure) == "carl crate b failed; no other plan was found"
+    details = "\n".join(list_details(execution.failure))
+    assert all(f"Unload[{each}]: carl crate b failed (" in details for each in ("lower", "tilt"))
 
 
 def test_a_step_that_failed_is_tried_again_after_a_change_of_what_it_depends_on() -> None:

@@ -22,6 +22,7 @@ from skillc_runtime.evaluation.trials.experiment import judge_claims
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.execution.assignment import NotStarted, prepare_task
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -68,7 +69,7 @@ class CaseRunner:
         return Trial(
             seed=case.seed,
             status=execution.status,
-            reason=execution.failure.message if execution.failure else None,
+            reason=describe_failure(execution.failure) if execution.failure else None,
             verified=execution.verified,
             at_rest=cell.is_at_rest(),
             sim_time_s=cell.now,

@@ -38,10 +38,10 @@ def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, pace
         return run_task(loaded, options, progress, Terminal())
 
 
-def print_results(results: Sequence[TaskResult], folder: Path | None) -> None:
-    """Print a table for each result, and the path of its report."""
+def print_results(results: Sequence[TaskResult], folder: Path | None, verbose: bool = False) -> None:
+    """Print a table for each result, with all details of failures if `verbose`, and the path of its report."""
     console = rich_console()
     for result in results:
-        console.print(render_table(result))
+        console.print(render_table(result, verbose))
         if folder is not None:
             click.echo(f"report: {folder / 'report.html'}\n")

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain as together
 
 from skillc_runtime.recording.failure import Failure, Rejection
+from skillc_runtime.recording.failure_text import describe_failure, list_details
 from skillc_runtime.recording.history import Attempt, FailedNode, RecordedCall, RecordedFact, RunHistory
 from skillc_runtime.recording.known_facts import (
     describe_missing_sensing,
@@ -28,7 +29,8 @@ def format_overview(story: RunHistory, run: str) -> str:
         lines += _attempt(attempt)
     lines += _rests_on(story)
     if story.failure is not None:
-        lines += ["", f"why: {story.failure.message}", *_indented(_chain(story.chain, story.failure.message))]
+        lines += ["", f"why: {describe_failure(story.failure)}", *_indented(list_details(story.failure))]
+        lines += _indented(_chain(story.chain, story.failure.message))
     lines += ["", f"Ask about a step, a skill or a parameter: `skillc why {run} {_example(story)}`"]
     return "\n".join(lines)
 

@@ -15,7 +15,7 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import arrange_plan, step_numbers
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
-from skillc_runtime.planning.plan import PlanResult, Solved, Step
+from skillc_runtime.planning.plan import PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S, solve
@@ -65,9 +65,14 @@ class PreparedTask:
 
 @dataclass(frozen=True, slots=True)
 class NotStarted:
-    """A task that does not start, and the reason."""
+    """A task that does not start, the reason in a sentence, and what there is to say besides.
+
+    `proved` if no planner finds a plan, whatever time it has.
+    """
 
     reason: str
+    detail: str = ""
+    proved: bool = False
 
 
 def prepare_task(
@@ -116,13 +121,13 @@ def replan_task(
         prepared = prepare_task(assignment, library, without, planners, cancel)
         if isinstance(prepared, NotStarted) or prepared.planned is None:
             break
-        repeated = failures.find_repeated(prepared.planned.steps, assignment.state)
+        repeated = failures.find_repeated_steps(prepared.planned.steps, assignment.state)
         if not repeated:
             return prepared
         without = (*without, *repeated)
     if without:
         message = "all remaining alternatives have failed, and nothing that they depend on has changed"
-        return NotStarted(f"{message}: {failures.describe()}")
+        return NotStarted(message, proved=True)
     return prepared
 
 
@@ -144,7 +149,7 @@ def _prepare_plan(
 ) -> PreparedTask | NotStarted:
     result = _plan(assignment.state, objective, library, without, search)
     if not isinstance(result, Solved):
-        return NotStarted(result.message)
+        return NotStarted(result.message, proved=isinstance(result, Unsolvable))
     return arrange_prepared(assignment, result, library)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.execution.assignment import AchieveGoal, ExecuteBody, PreparedTask, arrange_prepared
+from skillc_runtime.execution.assignment import AchieveGoal, ExecuteBody, NotStarted, PreparedTask, arrange_prepared
 from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.success_facts import collect_success_facts
@@ -59,7 +59,8 @@ def conclude(attempts: Sequence[AttemptResult], failures: FailedSteps, state: Wo
     if last.status is Status.FAILURE and not _has_failed_step(last, failures):
         return ended
     if len(attempts) == MAX_ATTEMPTS:
-        return Ended("failed", no_other_plan(last, f"the task was tried {MAX_ATTEMPTS} times"))
+        enough = NotStarted(f"the task was tried {MAX_ATTEMPTS} times")
+        return Ended("failed", no_other_plan(attempts, failures, enough))
     return NeedsPlan()
 
 
@@ -69,10 +70,23 @@ def _has_failed_step(last: AttemptResult, failures: FailedSteps) -> bool:
     return not planned or any(step in failures.steps for step in last.steps_with_status("failure"))
 
 
-def no_other_plan(last: AttemptResult, reason: str) -> Failure:
-    """Return the failure of a task that needed another plan after its last attempt."""
-    message = f"{last.reason}; no other plan was found: {reason}"
-    return Failure(kind="plan", message=message, source=last.failure.source if last.failure else None)
+def no_other_plan(attempts: Sequence[AttemptResult], failures: FailedSteps, answer: NotStarted) -> Failure:
+    """Return the failure of a task that needed a plan after its attempts, if there were any, and got `answer`.
+
+    Its cause is that of the last attempt, or what an earlier one measured if nothing was tried in the last one.
+    """
+    if not attempts:
+        return Failure(kind="plan", message=answer.reason, detail=answer.detail)
+    last = attempts[-1]
+    tried, cause = failures.failures, None if last.invalidated is not None else last.failure
+    if cause is not None and cause.is_unmet_need:
+        cause = next((each for each in reversed(tried) if not each.is_unmet_need), cause)
+    message = last.reason if cause is None else cause.message
+    leading = [each for each in tried if each.message == message] or [each for each in (cause,) if each is not None]
+    end = "no other plan was found" + ("" if answer.proved else f": {answer.reason}")
+    why = Failure(kind="plan", message=end, detail="; ".join(filter(None, (answer.reason, answer.detail))))
+    causes = (*leading, *(each for each in tried if each.message != message), why)
+    return Failure(kind="plan", message=message, source=cause.source if cause else None, causes=causes)
 
 
 def collect_facts(last: AttemptResult, world: WorldModel) -> tuple[KnownFact, ...]:

@@ -65,7 +65,7 @@ def make_plan_event(prepared: PreparedTask, library: SkillLibrary, now: float) -
 def make_arrival_event(answer: PreparedTask | NotStarted, library: SkillLibrary, now: float, tick: int) -> PlanArrived:
     """Return the event that a task has been prepared, or that it cannot be, in a tick of the loop."""
     if isinstance(answer, NotStarted):
-        return PlanArrived(time=now, tick=tick, refused=answer.reason)
+        return PlanArrived(time=now, tick=tick, refused=answer.reason, detail=answer.detail, proved=answer.proved)
     plan = None if answer.planned is None else record_plan(answer.planned.solved, library)
     return PlanArrived(time=now, tick=tick, plan=plan)
 
@@ -73,7 +73,7 @@ def make_arrival_event(answer: PreparedTask | NotStarted, library: SkillLibrary,
 def read_arrival(event: PlanArrived, assignment: Assignment, library: SkillLibrary) -> PreparedTask | NotStarted:
     """Return the answer that an event records, for the same assignment; PlanError if the plan does not work."""
     if event.refused:
-        return NotStarted(event.refused)
+        return NotStarted(event.refused, event.detail, event.proved)
     if event.plan is not None:
         return arrange_prepared(assignment, restore_plan(event.plan), library)
     assert isinstance(assignment.objective, ExecuteBody), "a goal needs a plan"

@@ -31,6 +31,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
@@ -192,8 +193,7 @@ class TaskRun:
             return False
         self._emit(make_arrival_event(answer, self._context.library, self._now, tick))
         if isinstance(answer, NotStarted):
-            reason, last = answer.reason, self.attempts[-1] if self.attempts else None
-            self._finish("failed", no_other_plan(last, reason) if last else Failure(kind="plan", message=reason))
+            self._finish("failed", no_other_plan(self.attempts, self._context.failures, answer))
         elif self._settings.approve:
             self._enter("planned", "waits for approval")
         else:
@@ -280,7 +280,7 @@ class TaskRun:
         world = self._context.backend.cell.world
         self._claims.release(self.id)
         self.state = self.end = state
-        self.reason, self.failure = failure.message if failure else "", failure
+        self.reason, self.failure = describe_failure(failure) if failure else "", failure
         self.facts = collect_facts(self.attempts[-1], world) if state == "succeeded" else ()
         event = TaskEnded(time=self._now, task=self.assignment.name, status=state, failure=failure)
         self._emit(structs.replace(event, verified=self.verified, facts=self.facts))

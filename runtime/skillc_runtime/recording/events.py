@@ -19,7 +19,7 @@ from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 5
+FORMAT = 6
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
@@ -99,12 +99,15 @@ class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):
 class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
     """The answer of a planner took effect in a tick of the cell's loop: a plan, or why there is none.
 
-    Neither if there was nothing to plan and the body that was given passed its checks.
+    Neither if there was nothing to plan and the body that was given passed its checks. `detail` is what there is to say
+    besides; `proved` if there is no plan, rather than that none was found.
     """
 
     tick: int
     plan: ArrivedPlan | None = None
     refused: str = ""
+    detail: str = ""
+    proved: bool = False
 
 
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):

@@ -40,14 +40,17 @@ _KIND_OF_STAGE: dict[Stage, FailureKind] = {
 class Failure(msgspec.Struct, frozen=True, kw_only=True):
     """Why a node failed; `source` is the responsible line, `skill` the innermost skill.
 
-    `values` are the values in a primitive's message, by name. `causes` are the failures that this one combines: those
-    of all alternatives that were tried.
+    `message` is the cause in one sentence, `detail` what there is to say besides. `values` are the values in a
+    primitive's message, by name. `causes` are the failures that this one combines, those of all alternatives that were
+    tried: first the one whose message it has. `alternative` names one of several, for example `Pick[across]`.
     """
 
     kind: FailureKind
     message: str
+    detail: str = ""
     source: Position | None = None
     skill: str = ""
+    alternative: str = ""
     values: dict[str, LabelledValue] = {}
     causes: tuple[Failure, ...] = ()
 
@@ -56,11 +59,16 @@ class Failure(msgspec.Struct, frozen=True, kw_only=True):
         """Whether a hold or `verify` line was violated, here or in a cause; such a failure never becomes a success."""
         return self.kind in ("hold", "verify") or any(cause.breaks_hold for cause in self.causes)
 
+    @property
+    def is_unmet_need(self) -> bool:
+        """Whether an argument or a precondition kept something from being tried; nothing was measured then."""
+        return self.kind in ("pre", "inference")
+
 
 class Rejection(msgspec.Struct, frozen=True, kw_only=True):
     """An implementation that was rejected, at which stage, and why.
 
-    `failure` is its failure if the implementation had started.
+    `failure` is its failure if the implementation had started, now or in an earlier attempt.
     """
 
     implementation: str

@@ -61,6 +61,7 @@ if TYPE_CHECKING:
 )
 @operating_options
 @click.option("--strict", is_flag=True, help="Exit with code 3 also if the success rests on an assumption.")
+@click.option("-v", "--verbose", is_flag=True, help="Print all that was tried before a failure, with source lines.")
 @json_option
 def command(
     task: str | None,
@@ -82,6 +83,7 @@ def command(
     step: bool,
     pause_at: tuple[str, ...],
     strict: bool,
+    verbose: bool,
     as_json: bool,
 ) -> int:
     """Run TASK (`LIBRARY:NAME`, or a shipped task), or --goal or --skill in --scene, in simulation."""
@@ -106,7 +108,7 @@ def command(
     if as_json:
         print_json(ran.result)
     else:
-        print_results([ran.result], out if ran.written else None)
+        print_results([ran.result], out if ran.written else None, verbose)
     if ran.result.status != "succeeded" or (strict and not ran.result.verified):
         return 3
     return 0 if ran.written else 1

@@ -9,6 +9,7 @@ from msgspec import structs
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
+from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.states import EndState
@@ -37,7 +38,8 @@ def summarise_recording(start: TaskResult, history: RunHistory, wall_time_s: flo
         wall_time_s=wall_time_s,
         real_time_factor=history.last / wall_time_s if wall_time_s > 0.0 else 0.0,
         replanned=tuple(each.replaces for each in history.attempts[1:]),
-        failure=history.failure.message if history.failure is not None else None,
+        failure=describe_failure(history.failure) if history.failure is not None else None,
+        cause=history.failure,
     )
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.table import format_choice_reason, list_table_rows
+from skillc_runtime.evaluation.report.table import format_choice_reason, list_failure_details, list_table_rows
 from skillc_runtime.evaluation.report.wiping_figure import FigureFiles
 from skillc_runtime.film.film import SPEED_UP, FilmFiles
 from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
@@ -31,6 +31,7 @@ def render_page(
         result=result,
         status=format_status(result.status, result.verified),
         unverified=unverified_facts(result.facts),
+        details=list_failure_details(result),
         rows=list_table_rows(result) if result.sim_time_s else [],
         format_choice_reason=format_choice_reason,
         format_value=format_value,

@@ -6,7 +6,8 @@ from typing import Literal
 
 import msgspec
 
-from skillc_runtime.recording.failure import Rejection
+from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.labelled import LabelledValue
@@ -93,8 +94,17 @@ class TouchResult(msgspec.Struct, frozen=True, kw_only=True):
         return f"{self.part} touched {self.other}{force} at {self.start_s:.1f} s"
 
 
+class FailedCall(msgspec.Struct, frozen=True, kw_only=True):
+    """A call that failed, with its implementation, and its source line."""
+
+    name: str
+    source: Position
+
+
 class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     """The result of a task; one that did not start is `refused`, and `failure` is why it did not succeed.
+
+    `cause` is the same with all details, None if the task did not begin; `failed_calls` lead to it, outermost first.
 
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
@@ -125,3 +135,5 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     touches: tuple[TouchResult, ...] = ()
     replanned: tuple[str, ...] = ()
     failure: str | None = None
+    cause: Failure | None = None
+    failed_calls: tuple[FailedCall, ...] = ()

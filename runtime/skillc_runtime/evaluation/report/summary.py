@@ -11,12 +11,13 @@ from msgspec import structs
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.placements import measure_placements
-from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult, TouchResult
+from skillc_runtime.evaluation.report.result import ChoiceResult, FailedCall, StepResult, TaskResult, TouchResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_ARM
@@ -60,7 +61,8 @@ def summarise_run(
         placements=measure_placements(simulation.cell.world, truth),
         touches=tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
-        failure=_describe_failure(execution),
+        failure=describe_failure(execution.failure) if execution.failure else None,
+        cause=execution.failure,
     )
     return _add_attempt(result, execution.last, choices, library) if execution.attempts else result
 
@@ -84,6 +86,7 @@ def _add_attempt(
         plan_optimal=None if solved is None else solved.optimal == "proven",
         plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         planner="" if solved is None else solved.planner,
+        failed_calls=tuple(_failed_calls(last.tree)) if result.status == "failed" else (),
     )
 
 
@@ -142,19 +145,10 @@ def _controllers(state: WorldState) -> list[str]:
     return sorted({str(controller) for controller in found if controller is not None})
 
 
-def _describe_failure(execution: Execution[Any]) -> str | None:
-    """Return why a task failed, with the chain of failed calls, outermost first, or why it was stopped."""
-    failure = execution.failure
-    if failure is None or execution.status == "stopped" or not execution.attempts:
-        return failure.message if failure else None
-    calls = " > ".join(f"{call.name} ({call.source})" for call in _failed_calls(execution.last.tree))
-    return f"{failure.message}\n  in {calls}" if calls else failure.message
-
-
-def _failed_calls(node: NodeOutcome) -> Iterator[NodeOutcome]:
+def _failed_calls(node: NodeOutcome) -> Iterator[FailedCall]:
     """Yield the calls from the top of the tree to the innermost one that failed."""
     if node.kind == "call":
-        yield node
+        yield FailedCall(name=node.name, source=node.source)
     failed = [child for child in node.children if child.status == "failure"]
     if failed:
         yield from _failed_calls(failed[-1])

@@ -8,6 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from skillc_runtime.evaluation.report.result import ChoiceResult, PlacementResult, StepResult, TaskResult, WipingResult
+from skillc_runtime.recording.failure_text import list_details
 from skillc_runtime.recording.known_facts import format_evidence, format_status, format_unverified, unverified_facts
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
@@ -15,19 +16,31 @@ END_STYLES = {"succeeded": "bold green", "failed": "bold red", "refused": "bold 
 STEP_STYLES = {"success": "bold green", "failure": "bold red", "halted": "bold yellow"}
 
 
-def render_table(result: TaskResult) -> RenderableType:
-    """Return the table of one task: the plan with the chosen implementations, then the results."""
+def render_table(result: TaskResult, detailed: bool = False) -> RenderableType:
+    """Return the table of one task: the plan with the chosen implementations, then the results.
+
+    A failure is one sentence; if `detailed`, its causes and the calls that led to it follow.
+    """
     words = format_status(result.status, result.verified)
     title = Text.assemble((result.task, "bold"), "  ", (words, END_STYLES.get(words, "bold yellow")))
     parts: list[RenderableType] = [title]
     parts += [Text(format_unverified(fact), style="yellow") for fact in unverified_facts(result.facts)]
     if result.failure:
         parts.append(Text(result.failure, style="red"))
+    if detailed:
+        parts += [Text(f"  {line}", style="dim") for line in list_failure_details(result)]
     if result.plan:
         parts.append(_render_plan(result))
     if result.sim_time_s:
         parts.append(_render_numbers(result))
     return Group(*parts, "")
+
+
+def list_failure_details(result: TaskResult) -> list[str]:
+    """Return the causes of a failure, each below what it explains, and the calls that led to it, one a line."""
+    details = list(list_details(result.cause)) if result.cause is not None else []
+    calls = " > ".join(f"{call.name} ({call.source})" for call in result.failed_calls)
+    return [*details, f"in {calls}"] if calls else details
 
 
 def _render_plan(result: TaskResult) -> RenderableType:

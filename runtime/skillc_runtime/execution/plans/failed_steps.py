@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from msgspec import structs
+
 from skillc_model.read_write import FactPattern, facts_read
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
 from skillc_runtime.planning.world_changes import find_changed_facts
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -17,12 +20,12 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class FailedStep:
-    """A call with the implementation that failed, the state of the world in which it started, and the reason."""
+    """A call with the implementation that failed, the state of the world in which it started, and its failure."""
 
     step: Step
     implementation: str
     state: WorldState
-    reason: str
+    failure: Failure
 
 
 class FailedSteps:
@@ -45,11 +48,20 @@ class FailedSteps:
                 found.append(each.step)
         return tuple(found)
 
+    @property
+    def failures(self) -> tuple[Failure, ...]:
+        """The failures of all steps, each once and named after its implementation."""
+        named = (
+            structs.replace(each.failure, alternative=f"{each.step.skill}[{each.implementation}]")
+            for each in self._failed
+        )
+        return tuple({(each.alternative, each.message): each for each in named}.values())
+
     def add(
-        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, reason: str
+        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, failure: Failure
     ) -> None:
         """Remember that an implementation failed for a call that started in `state`."""
-        self._failed.append(FailedStep(_step_of(skill, arguments), implementation, state, reason))
+        self._failed.append(FailedStep(_step_of(skill, arguments), implementation, state, failure))
 
     def forget_call(self, skill: str, arguments: Mapping[str, Value]) -> None:
         """Forget the implementations that failed for a call, because another one succeeded."""
@@ -59,37 +71,28 @@ class FailedSteps:
         """Let steps be tried again, because somebody has decided so."""
         self._failed = [each for each in self._failed if each.step not in steps]
 
-    def reason_to_skip(
+    def find_repeated(
         self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState
-    ) -> str | None:
-        """Return why an implementation would fail again for these arguments, None if it may be tried."""
+    ) -> Failure | None:
+        """Return the failure that an implementation would only repeat for these arguments; None if it may be tried."""
         for each in self._failed:
             same = each.step.skill == skill and each.implementation == implementation
             if same and each.step.arguments == arguments and not self._has_changed(each, state):
-                return f"it has failed, and nothing that it depends on has changed since: {each.reason}"
+                return each.failure
         return None
 
-    def find_repeated(self, steps: Sequence[Step], state: WorldState) -> tuple[Step, ...]:
+    def find_repeated_steps(self, steps: Sequence[Step], state: WorldState) -> tuple[Step, ...]:
         """Return the steps of a plan, which starts in `state`, that can only fail again."""
         found: list[Step] = []
         for step in steps:
             try:
                 possible = find_startable_implementations(step, self._library, state)
-                if all(self.reason_to_skip(step.skill, step.arguments, each.name, state) for each in possible):
+                if all(self.find_repeated(step.skill, step.arguments, each.name, state) for each in possible):
                     found.append(step)
                 state = apply_step(step, self._library, state)
             except (PlanError, EvaluationError):
                 break
         return tuple(found)
-
-    def describe(self) -> str:
-        """Return a list of all steps that failed, with the reasons."""
-        return "; ".join(dict.fromkeys(map(self._describe_step, self._failed)))
-
-    def _describe_step(self, failed: FailedStep) -> str:
-        short = failed.state.vocabulary.short
-        arguments = ", ".join(f"{name}: {short(iri)}" for name, iri in failed.step.arguments.items())
-        return f"{failed.step.skill}[{failed.implementation}]({arguments}): {failed.reason}"
 
     def _has_changed(self, failed: FailedStep, state: WorldState) -> bool:
         changed = tuple(find_changed_facts(failed.state, state))

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Final
+
+from msgspec import structs
 
 from skillc_model.skills import Implementation, SkillLibrary
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
-from skillc_runtime.recording.failure import Rejection
+from skillc_runtime.recording.failure import Failure, Rejection, Stage, as_failure
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
+
+STAGES: Final[tuple[Stage, ...]] = ("argument", "inference", "pre", "hold", "lock", "start", "run")
+"""How far a call gets with an implementation."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +60,33 @@ def select_implementation(
 
 
 def explain_none_selected(skill: str, rejected: Sequence[Rejection]) -> str:
-    """Explain why no implementation can run: with one reason if all have the same, else with the reason of each."""
-    reasons = {rejection.reason for rejection in rejected}
+    """Explain why no implementation can run: with the reason of the one that got further than all others.
+
+    If none got further than its arguments and preconditions, with the one reason of all, else with the reason of each.
+    """
     if not rejected:
         return f"{skill} has no implementation"
-    if len(reasons) == 1:
-        return f"{skill}: {rejected[0].reason}"
+    furthest = _order_by_stage(rejected)[0]
+    if STAGES.index(furthest.stage) > STAGES.index("pre"):
+        return as_failure(furthest, skill).message
+    if len({rejection.reason for rejection in rejected}) == 1:
+        return f"{skill}: {furthest.reason}"
     each = "; ".join(f"{rejection.implementation}: {rejection.reason}" for rejection in rejected)
     return f"no implementation of {skill} fits: {each}"
+
+
+def combine_rejections(skill: str, rejected: Sequence[Rejection], source: Position) -> Failure:
+    """Return the failure of the call at `source` all of whose implementations were rejected."""
+    if len(rejected) == 1:
+        return as_failure(rejected[0], skill)
+    message, ordered = explain_none_selected(skill, rejected), _order_by_stage(rejected)
+    causes = tuple(
+        structs.replace(as_failure(each, skill), alternative=f"{skill}[{each.implementation}]") for each in ordered
+    )
+    kind = causes[0].kind if causes else "error"
+    return Failure(kind=kind, message=message, source=source, skill=skill, causes=causes)
+
+
+def _order_by_stage(rejected: Sequence[Rejection]) -> list[Rejection]:
+    """Return those that got furthest first, those that got equally far in rank order."""
+    return sorted(rejected, key=lambda each: -STAGES.index(each.stage))

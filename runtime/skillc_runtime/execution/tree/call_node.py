@@ -11,7 +11,7 @@ from skillc_model import tree
 from skillc_model.conditions import Variable
 from skillc_model.skills import Implementation, PausePolicy
 from skillc_runtime.execution.selection.binding import bind_implementation
-from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
+from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
 from skillc_runtime.execution.tree.activation import Activation, BuildNode, activate
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import TreeContext
@@ -30,8 +30,6 @@ from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.labelled import LabelledFact
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
-
-_STAGES = ("argument", "inference", "pre", "hold", "lock", "start", "run")
 
 
 class CallNode(Node):
@@ -176,12 +174,12 @@ class CallNode(Node):
             if isinstance(activation, Rejection):
                 self.rejected.append(activation)
                 if activation.stage not in ("run", "lock"):
-                    self._remember_failure(activation.implementation, activation.reason)
+                    self._remember_failure(activation.implementation, as_failure(activation, self.skill.name))
                 continue
             status = self._start(activation)
             if status is not None:
                 return status
-        return self.fail(self._combine_rejections())
+        return self.fail(combine_rejections(self.skill.name, self.rejected, self.source))
 
     def _activate(self, implementation: Implementation) -> Activation | Rejection:
         try:
@@ -212,7 +210,7 @@ class CallNode(Node):
         if isinstance(activation.body, PrimitiveNode) and activation.body.refused_to_start:
             activation.release_locks()
             failure = self._with_skill(activation.body.failure)
-            self._remember_failure(activation.implementation.name, failure.message)
+            self._remember_failure(activation.implementation.name, failure)
             self.rejected.append(self._reject(activation.implementation, failure))
             return None
         return self.on_child_ended(status)
@@ -223,7 +221,7 @@ class CallNode(Node):
         if isinstance(activation.body, PrimitiveNode):
             activation.body.undo_now()
         activation.release_locks()
-        self._remember_failure(activation.implementation.name, failure.message)
+        self._remember_failure(activation.implementation.name, failure)
         if not self.skill.fallback:
             return self.fail(failure)
         self.context.refresh_state()
@@ -234,15 +232,16 @@ class CallNode(Node):
     def _reject_repeated(self, implementation: Implementation) -> Rejection | None:
         """Reject an implementation that failed in an earlier attempt and can only fail again."""
         failures, name = self._scope.failures, implementation.name
-        reason = failures and failures.reason_to_skip(self.skill.name, self._arguments, name, self.context.state)
-        if not reason:
+        earlier = failures and failures.find_repeated(self.skill.name, self._arguments, name, self.context.state)
+        if not earlier:
             return None
-        return Rejection(implementation=name, stage="run", reason=reason, source=implementation.source)
+        reason = f"it has failed, and nothing that it depends on has changed since: {earlier.message}"
+        return Rejection(implementation=name, stage="run", reason=reason, source=implementation.source, failure=earlier)
 
-    def _remember_failure(self, implementation: str, reason: str) -> None:
+    def _remember_failure(self, implementation: str, failure: Failure) -> None:
         """Record a failure for later attempts."""
         if self._scope.failures is not None:
-            self._scope.failures.add(self.skill.name, self._arguments, implementation, self._state_at_start, reason)
+            self._scope.failures.add(self.skill.name, self._arguments, implementation, self._state_at_start, failure)
 
     def _check_running(self, activation: Activation) -> Failure | None:
         """Check the holds if the state is new, and the `verify` lines in each tick; return the failure, if any."""
@@ -255,15 +254,6 @@ class CallNode(Node):
     def _assign_output(self, activation: Activation) -> None:
         if self.node.out is not None:
             self._scope.frame[self.node.out] = activation.frame[activation.outputs[0]]
-
-    def _combine_rejections(self) -> Failure:
-        causes = tuple(as_failure(rejection, self.skill.name) for rejection in self.rejected)
-        if len(causes) == 1:
-            return causes[0]
-        furthest = max(self.rejected, key=lambda rejection: _STAGES.index(rejection.stage), default=None)
-        kind = as_failure(furthest, self.skill.name).kind if furthest is not None else "error"
-        message = explain_none_selected(self.skill.name, self.rejected)
-        return Failure(kind=kind, message=message, source=self.source, skill=self.skill.name, causes=causes)
 
     def _reject(self, implementation: Implementation, failure: Failure, ran: bool = False) -> Rejection:
         return Rejection(

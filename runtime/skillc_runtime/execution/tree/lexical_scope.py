@@ -8,6 +8,7 @@ from typing import Protocol, TypeAlias
 
 from skillc_model.skills import Implementation
 from skillc_runtime.execution.tree.undo_stack import UndoStack
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -19,15 +20,15 @@ class CallFailures(Protocol):
     """Remembers which calls failed, so that a call that would only fail again is skipped."""
 
     def add(
-        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, reason: str
+        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, failure: Failure
     ) -> None:
         """Record that an implementation failed for a call that started in `state`."""
         ...
 
-    def reason_to_skip(
+    def find_repeated(
         self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState
-    ) -> str | None:
-        """Return why an implementation would fail again for these arguments, or None if it may be tried."""
+    ) -> Failure | None:
+        """Return the failure that an implementation would only repeat for these arguments; None if it may be tried."""
         ...
 
     def forget_call(self, skill: str, arguments: Mapping[str, Value]) -> None:

@@ -11,10 +11,11 @@ from skillc_runtime.recording.failure import Failure
 
 
 def combine_failures(node: Node) -> Failure:
-    """Return the failure of a node whose children have all failed, with the message of each."""
-    causes = tuple(child.failure for child in node.children if child.failure is not None)
-    reasons = "; ".join(cause.message for cause in causes)
-    return Failure(kind="body", message=f"every alternative failed: {reasons}", source=node.source, causes=causes)
+    """Return the failure of a node whose children have all failed: its cause is that of the first that was tried."""
+    failures = (child.failure for child in node.children if child.failure is not None)
+    causes = tuple(sorted(failures, key=lambda each: each.is_unmet_need))
+    message = causes[0].message if causes else "every alternative failed"
+    return Failure(kind="body", message=message, source=node.source, causes=causes)
 
 
 class SelectorNode(Node):
