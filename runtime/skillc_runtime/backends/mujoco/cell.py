@@ -7,6 +7,7 @@ from collections.abc import Callable
 import mujoco
 
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
+from skillc_runtime.backends.mujoco.cargo import InertialCargo
 from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.simulation.cell import ModelledCell
@@ -23,6 +24,8 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
     `advance` raises SimulationDiverged if the physics diverges.
     `variation` is how reality differs from the facts. The same facts and the same seed give the same run, bit for bit.
     """
+
+    cargo_type = InertialCargo
 
     def __init__(
         self,

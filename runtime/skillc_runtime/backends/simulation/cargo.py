@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.simulation.contact_bits import CARRIES, HANDLE, WORKS
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
@@ -18,27 +19,17 @@ STANDS_M = 0.003
 
 
 class Cargo:
-    """The cargo of one mobile base: what touches it, or other cargo, when it starts to drive.
-
-    Cargo neither slips nor tips while the base drives, whatever its acceleration.
-    """
+    """The cargo of one mobile base: what touches it, or other cargo, when it starts to drive. It stays where it is."""
 
     def __init__(
-        self,
-        scene: SceneSpec,
-        robot: str,
-        hands: Mapping[str, ModelledGripper],
-        model: Any,
-        data: Any,
+        self, scene: SceneSpec, robot: str, hands: Mapping[str, ModelledGripper], model: Any, data: Any
     ) -> None:
         """Prepare the cargo of a robot; `hands` are all grippers of the cell, by the IRI of their arm."""
-        names = scene.names
-        self._model, self._data = model, data
+        self._model, self._data, self._all = model, data, tuple(hands.values())
         self._own = [hands[arm.individual] for arm in scene.arms if arm.robot == robot and arm.individual in hands]
-        self._all = tuple(hands.values())
-        fixed = [names[body] for body, owner in scene.mounted.items() if owner == robot]
-        self._base = _geoms(model, [base_body_name(names[robot]), *fixed])
-        self._free = {each.individual: names[each.individual] for each in scene.graspable}
+        self._base = int(model.body(base_body_name(scene.names[robot])).id)
+        blocks = {each.individual: part_name(scene.names[each.individual], "block") for each in scene.graspable}
+        self._blocks = {individual: int(model.body(name).id) for individual, name in blocks.items()}
         self._loaded: list[int] | None = None
 
     def move(self, motion: Pose | None) -> None:
@@ -47,42 +38,42 @@ class Cargo:
             self._loaded = None
             return
         if self._loaded is None:
-            self._loaded = [int(self._model.joint(part_name(name, "free")).qposadr[0]) for name in self._standing()]
+            self._loaded = self._find_standing()
         for hand in self._own:
             hand.move_with_base(motion)
-        for first in self._loaded:
-            q = self._data.qpos[first : first + 7]
-            moved = motion @ Pose.of(q[:3], q[3:])
-            q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
+        for block in self._loaded:
+            self._carry(block, motion)
 
-    def _standing(self) -> list[str]:
-        """Return the names of things that stand on the base or on each other, without what hands carry."""
+    def _carry(self, block: int, motion: Pose) -> None:
+        """Move a thing, by the number of its body, with the base."""
+        first = self._model.jnt_qposadr[self._model.body_jntadr[block]]
+        q = self._data.qpos[first : first + 7]
+        moved = motion @ Pose.of(q[:3], q[3:])
+        q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
+
+    def _free_blocks(self) -> list[int]:
+        """Return the numbers of the bodies of things that no hand carries."""
         carried = {hand.carries for hand in self._all}
-        free = [name for each, name in self._free.items() if each not in carried]
-        left = {name: _geoms(self._model, [part_name(name, "block")]) for name in free}
-        touching, found = list(self._base), list[str]()
-        while near := [name for name, geoms in left.items() if self._touch(geoms, touching)]:
+        return [block for each, block in self._blocks.items() if each not in carried]
+
+    def _find_standing(self) -> list[int]:
+        """Return the bodies of things that stand on the base or on each other."""
+        left = {block: self._geoms(block) for block in self._free_blocks()}
+        touching, found = self._geoms(self._base), list[int]()
+        while near := [block for block, geoms in left.items() if self._is_near(geoms, touching)]:
             found += near
-            touching = [geom for name in near for geom in left.pop(name)]
+            touching = [geom for block in near for geom in left.pop(block)]
         return found
 
-    def _touch(self, ones: list[int], others: list[int]) -> bool:
+    def _geoms(self, root: int) -> list[int]:
+        """Return the geoms of a body and of all that is attached to it, but for links of arms."""
+        kinds, roots = self._model.geom_contype, self._model.body_rootid[self._model.geom_bodyid]
+        return [int(g) for g in np.flatnonzero((roots == root) & (kinds & (CARRIES | WORKS | HANDLE) > 0))]
+
+    def _is_near(self, ones: list[int], others: list[int]) -> bool:
         model, data, none = self._model, self._data, np.zeros(6)
         return any(
             mujoco.mj_geomDistance(model, data, one, other, 2 * STANDS_M, none) < STANDS_M
             for one in ones
             for other in others
         )
-
-
-def _geoms(model: Any, bodies: Sequence[str]) -> list[int]:
-    """Return the geoms of bodies, and of parts of these that move against them, such as the pad of a tool."""
-    roots = {model.body(name).id for name in bodies}
-    return [g for g in range(model.ngeom) if model.geom_bodyid[g] in roots or _free_root(model, g) in roots]
-
-
-def _free_root(model: Any, geom: int) -> int:
-    """Return the root body of a geom if it lies free, else -1."""
-    root = int(model.body_rootid[model.geom_bodyid[geom]])
-    first = int(model.body_jntadr[root])
-    return root if first >= 0 and model.jnt_type[first] == mujoco.mjtJoint.mjJNT_FREE else -1

@@ -49,6 +49,8 @@ class ModelledCell(ABC, Generic[A, G]):
     present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
     """
 
+    cargo_type: type[Cargo] = Cargo
+
     def __init__(
         self, world: WorldModel, scene: SceneSpec, variation: Variation, timestep_s: float, steps_per_command: int
     ) -> None:
@@ -68,7 +70,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._grippers = DeviceMap("gripper", hands, names)
         bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
         self._bases = DeviceMap("mobile base", bases, names)
-        self._cargo = {robot: Cargo(scene, robot, self._hands, self.model, self.data) for robot in self._bases}
+        self._cargo = {r: self.cargo_type(scene, r, self._hands, self.model, self.data) for r in self._bases}
         self._prepare()
         drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
         self._drivers = DeviceMap("arm", drivers, names)
