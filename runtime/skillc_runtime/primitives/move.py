@@ -27,6 +27,9 @@ HOME = "home"
 RANDOM_SEEDS = 8
 """How many other postures are searched for if the one nearest to home is in collision."""
 
+ROOM_RAD = 0.3
+"""How far from the ends of their ranges the joints of these postures are, if there are such."""
+
 
 class MoveJoints(ArmMotion):
     """Moves the tool to `target` in joint space at `pace`, a share of the maximum joint speeds.
@@ -55,13 +58,22 @@ class MoveJoints(ArmMotion):
         move_collision_free(self.cell, self._individual, chain([q], self._others(seed)), self._pace)
 
     def _others(self, home: Array) -> Iterator[Array]:
-        """Yield other postures (nv,) in rad for the same pose: near the current one, then over all joint ranges."""
+        """Yield other postures (nv,) in rad for the same pose: near the current one, then over all joint ranges.
+
+        Those near the end of a joint's range come last, since a line from there may leave it.
+        """
         draw, limits = np.random.default_rng(0), self.arm.limits.range
         low, high = np.maximum(limits[:, 0], home - np.pi), np.minimum(limits[:, 1], home + np.pi)
+        cramped = list[Array]()
         for seed in (self.arm.measured.q, *(draw.uniform(low, high) for _ in range(RANDOM_SEEDS))):
             q = self.arm.motion.inverse_kinematics(self._target, seed)
-            if q is not None:
+            if q is None:
+                continue
+            if np.minimum(q - limits[:, 0], limits[:, 1] - q).min() < ROOM_RAD:
+                cramped.append(q)
+            else:
                 yield q
+        yield from cramped
 
 
 class TakePosture(ArmMotion):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,8 +34,8 @@ PITCH_M = 0.01
 NEAR_BASE_M = 0.25
 """Nothing is put down nearer to the axis of an arm's base."""
 
-QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1)))
-"""The rotations (3, 3) of a hand that points down, in the frame of a carrier."""
+QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, s in ((1, 0), (0, 1), (0, -1), (-1, 0)))
+"""The rotations (3, 3) of a hand that points down, in the frame of a support: first as its x points."""
 
 
 class PlaceError(EvaluationError):
@@ -46,7 +46,7 @@ class PlaceError(EvaluationError):
 class Support:
     """A horizontal rectangle that carries things: its middle in the world, half its sides (2,) in m.
 
-    rim_m: how high its walls stand above it; 0 without walls.
+    rim_m: how high its walls stand above it; 0 without walls. x of its frame is the side that points off an arm.
     """
 
     individual: str
@@ -70,7 +70,7 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
     MissingFact or SheetError if facts are missing.
     """
     short, load = state.vocabulary.short, _read_load(state, gripper, thing)
-    supports = _supports(state, to)
+    supports = [_facing(each, pose(state, arm).position) for each in _supports(state, to)]
     if not supports:
         raise PlaceError(
             f"{short(to)} has no size, and contains nothing that could carry {short(thing)}: "
@@ -116,6 +116,15 @@ def _support(state: WorldState, individual: str) -> Support:
         floor = box.middle @ Pose.of((0.0, 0.0, shape.wall_m - float(box.half[2])))
         return Support(individual, floor, np.array([x, y]) / 2, z)
     return Support(individual, box.middle @ Pose.of((0.0, 0.0, float(box.half[2]))), box.half[:2], 0.0)
+
+
+def _facing(support: Support, base: Array) -> Support:
+    """Return a support in that frame of its sides whose x points off the base (3,) of an arm, so that its hand may."""
+    away = support.middle.position - base
+    quarters = (support.middle @ Pose(np.zeros(3), turn * np.array([1.0, -1.0, -1.0])) for turn in QUARTERS)
+    middle = max(quarters, key=lambda each: round(float(each.rotation[:, 0] @ away), 6))
+    swapped = abs(float(middle.rotation[:, 0] @ support.middle.rotation[:, 0])) < 0.5
+    return replace(support, middle=middle, half=support.half[::-1] if swapped else support.half)
 
 
 def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
