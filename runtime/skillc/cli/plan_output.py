@@ -25,7 +25,7 @@ def format_plan(answer: Answer, loaded: LoadedTask) -> str:
         case Scheduled():
             return _schedule_text(answer, loaded)
         case Unsolvable() | GaveUp():
-            return answer.message
+            return f"{answer.message}\n{answer.why}" if answer.causes else answer.message
         case _:
             assert_never(answer)
 
@@ -78,10 +78,10 @@ def _document(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
             times = {"makespan_s": schedule.makespan_s, "duration_s": plan.duration_s}
             notes = {"planner": answer.planner, "times": answer.times, "note": answer.note}
             return {**_solved(answer, steps), **times, **notes}
-        case Unsolvable(why=why):
-            return {"status": "unsolvable", "failure": why}
-        case GaveUp(why=why):
-            return {"status": "gave-up", "failure": why, "searched": answer.searched}
+        case Unsolvable(why=why, causes=causes):
+            return {"status": "unsolvable", "failure": why, "causes": list(causes)}
+        case GaveUp(why=why, causes=causes):
+            return {"status": "gave-up", "failure": why, "causes": list(causes), "searched": answer.searched}
         case _:
             assert_never(answer)
 

@@ -15,7 +15,7 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import arrange_plan, step_numbers
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
-from skillc_runtime.planning.plan import PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S, solve
@@ -149,8 +149,16 @@ def _prepare_plan(
 ) -> PreparedTask | NotStarted:
     result = _plan(assignment.state, objective, library, without, search)
     if not isinstance(result, Solved):
-        return NotStarted(result.message, proved=isinstance(result, Unsolvable))
+        return _refuse(result)
     return arrange_prepared(assignment, result, library)
+
+
+def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:
+    """Return that a task does not start because there is no plan; it leads with what the cell lacks or cannot do."""
+    proved = isinstance(answer, Unsolvable)
+    if not answer.causes:
+        return NotStarted(answer.message, proved=proved)
+    return NotStarted("; ".join(answer.causes), answer.why, proved)
 
 
 def _plan(

@@ -76,30 +76,36 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Unsolvable:
-    """The whole problem is proved to have no plan; `why` is an explanation, as far as one could be found."""
+    """The whole problem is proved to have no plan; `why` is an explanation, as far as one could be found.
+
+    `causes` are what the cell lacks, or cannot do, at the end of this explanation.
+    """
 
     why: str
+    causes: tuple[str, ...] = ()
 
     @property
     def message(self) -> str:
         """The answer as a sentence."""
-        return f"there is no plan: {self.why}"
+        return f"there is no plan: {'; '.join(self.causes) or self.why}"
 
 
 @dataclass(frozen=True, slots=True)
 class GaveUp:
     """No answer, with the reason: out of time or memory, or the planner failed.
 
-    `searched` is False if the goal cannot be expressed for a planner.
+    `searched` is False if the goal cannot be expressed for a planner. `causes` are as of `Unsolvable`.
     """
 
     why: str
     searched: bool = True
+    causes: tuple[str, ...] = ()
 
     @property
     def message(self) -> str:
         """The answer as a sentence."""
-        return f"no plan was {'found' if self.searched else 'searched for'}: {self.why}"
+        why = "; ".join(self.causes) or self.why
+        return f"no plan was {'found' if self.searched else 'searched for'}: {why}"
 
 
 PlanResult: TypeAlias = Solved | Unsolvable | GaveUp

@@ -42,8 +42,8 @@ def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Conditio
     problem = relax_scene(posed, state) if posed.narrowed else posed.problem
     if problem is None or _is_reachable(problem):
         return None
-    why = explain_unsolvable(replace(posed, problem=problem), goal, state)
-    return UnreachableGoal(why, proved=not posed.restricted)
+    reason = explain_unsolvable(replace(posed, problem=problem), goal, state)
+    return UnreachableGoal("; ".join(reason.causes) or reason.why, proved=not posed.restricted)
 
 
 def _is_reachable(problem: Problem) -> bool:

@@ -23,7 +23,7 @@ from skillc_runtime.planning.plan import (
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
 from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds, pose_problem
-from skillc_runtime.planning.unsolvability import explain_unsolvable
+from skillc_runtime.planning.unsolvability import UnsolvabilityReason, explain_unsolvable
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -61,7 +61,7 @@ def solve(
     def search(problem: Problem, part: CancelToken) -> PlanResult:
         return chosen[0].plan(problem, part)
 
-    def explain(posed: PosedProblem) -> str:
+    def explain(posed: PosedProblem) -> UnsolvabilityReason:
         return explain_unsolvable(posed, goal, state)
 
     try:

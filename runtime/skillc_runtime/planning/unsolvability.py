@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
@@ -11,7 +12,7 @@ from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.grounding import Grounding
-from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.explain import explain, find_obstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -21,18 +22,34 @@ EXPLANATION_S = 5.0
 """The time limit for an explanation; a large scene may need more, and then gets a general one."""
 
 
-def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) -> str:
+@dataclass(frozen=True, slots=True)
+class UnsolvabilityReason:
+    """Why there is no plan: how the parts of the goal depend on conditions, and what keeps these from holding.
+
+    `causes` are what reasoners say, or else which classes have no individual; empty if neither explains it.
+    """
+
+    why: str
+    causes: tuple[str, ...] = ()
+
+
+def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) -> UnsolvabilityReason:
     """Return why a problem has no plan, as far as reachability without deletions shows."""
+    causes: tuple[str, ...] = ()
     try:
-        reasons = tuple(_Explanation(posed, state).explain_goal(goal))
+        explanation = _Explanation(posed, state)
+        reasons = tuple(explanation.explain_goal(goal))
+        causes = tuple(dict.fromkeys(explanation.obstacles or explanation.missing))[:MAX_LISTED]
     except Cancelled:
         reasons = ("no sequence of skills reaches the goal; the scene is too large to say why",)
     undecided = (f"not decided: {each}" for each in posed.undecided[:MAX_LISTED])
     notes = (*reasons, *_describe_left_out(posed), *undecided)
-    return "; ".join(dict.fromkeys(notes))
+    return UnsolvabilityReason("; ".join(dict.fromkeys(notes)), causes)
 
 
 class _Explanation:
+    """Fills `obstacles` while it explains a goal, with what reasoners say, and `missing`, with the empty classes."""
+
     def __init__(self, posed: PosedProblem, state: WorldState) -> None:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
         self._state, self._iris = state, posed.problem.names
@@ -42,6 +59,8 @@ class _Explanation:
         self._formatter = FormulaFormatter(posed.problem, posed.library)
         self._grounding = Grounding(posed.problem, CancelToken(EXPLANATION_S))
         self._grounding.explore()
+        self.obstacles: list[str] = []
+        self.missing: list[str] = []
 
     def explain_goal(self, condition: Condition) -> Iterator[str]:
         """Yield an explanation for each part of the goal that cannot be reached."""
@@ -85,7 +104,9 @@ class _Explanation:
         """Return what an action needs: an object of a class, or the first condition that cannot hold with others."""
         for parameter, label in zip(action.parameters, action.binds, strict=True):
             if not self._domain.of_type(self._objects, parameter.type):
-                return f"needs a {self._formatter.format_type(parameter.type)} as `{label}`, and there is none"
+                wanted = self._formatter.format_type(parameter.type)
+                self.missing.append(f"there is no {wanted}, which {action.skill} needs as `{label}`")
+                return f"needs a {wanted} as `{label}`, and there is none"
         conditions = conjuncts(conjunction((action.precondition, action.hold)))
         names = {each.name: f"`{label}`" for each, label in zip(action.parameters, action.binds, strict=True)}
         for count, condition in enumerate(conditions):
@@ -120,6 +141,9 @@ class _Explanation:
         individuals = [self._iris.get(term) for term in terms]
         bindings = {name: iri for name, iri in zip(meaning.variables, individuals, strict=True) if iri is not None}
         try:
+            obstacle = find_obstacle(meaning.condition, self._state, bindings)
+            if obstacle is not None:
+                self.obstacles.append(obstacle)
             return explain(meaning.condition, self._state, bindings, self._state.vocabulary)
         except EvaluationError as reason:
             return str(reason)

@@ -18,6 +18,7 @@ from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem
+from skillc_runtime.planning.unsolvability import UnsolvabilityReason
 from skillc_runtime.world.state.world_state import WorldState
 
 STAGE_SHARE = 0.5
@@ -29,7 +30,7 @@ BOUND_S = 2.0
 Pose: TypeAlias = Callable[[AbstractionSize | None], PosedProblem]
 Answer: TypeAlias = Callable[[PosedProblem, CancelToken], PlanResult]
 Search: TypeAlias = Callable[[Problem, CancelToken], PlanResult]
-Explain: TypeAlias = Callable[[PosedProblem], str]
+Explain: TypeAlias = Callable[[PosedProblem], UnsolvabilityReason]
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,9 +105,11 @@ def _limit_claims(solved: Solved, posed: PosedProblem) -> Solved:
     return replace(solved, at_least_s=None)
 
 
-def _no_plan(why: str, posed: PosedProblem) -> Unsolvable | GaveUp:
+def _no_plan(reason: UnsolvabilityReason, posed: PosedProblem) -> Unsolvable | GaveUp:
     """Return that there is no plan; this is a proof only if no skill or step was left out."""
-    return GaveUp(why) if posed.restricted else Unsolvable(why)
+    if posed.restricted:
+        return GaveUp(reason.why, causes=reason.causes)
+    return Unsolvable(reason.why, reason.causes)
 
 
 def _rate(solved: Solved, posed: PosedProblem, stages: PlanningStages, state: WorldState) -> Solved:
@@ -121,7 +124,7 @@ def _rate(solved: Solved, posed: PosedProblem, stages: PlanningStages, state: Wo
     return replace(found, optimal="optimal for the filtered problem", at_least_s=least_s or None)
 
 
-def _explain_unreachable(posed: PosedProblem, stages: PlanningStages, state: WorldState) -> str | None:
+def _explain_unreachable(posed: PosedProblem, stages: PlanningStages, state: WorldState) -> UnsolvabilityReason | None:
     """Return why the whole scene has no plan; None if it may have one."""
     relaxed = relax_scene(posed, state)
     if relaxed is None or not isinstance(stages.search(relaxed, stages.cancel.share(STAGE_SHARE)), Unsolvable):

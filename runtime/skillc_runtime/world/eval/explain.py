@@ -44,6 +44,18 @@ def explain(condition: Condition, state: WorldState, bindings: Bindings, vocabul
     return _Explainer(state, vocabulary).unmet(condition, bindings)
 
 
+def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -> str | None:
+    """Return what the reasoner of a computed relation says against it; None for any other condition, or if it holds."""
+    match condition:
+        case Holds(subject, relation, object_) if relation in state.axioms.computed:
+            start, end = _iri(subject, bindings), _iri(object_, bindings)
+            if start is None or end is None:
+                return None
+            return state.axioms.computed[relation].obstacle(state, start, end)
+        case _:
+            return None
+
+
 class _Explainer:
     def __init__(self, state: WorldState, vocabulary: Vocabulary) -> None:
         self._state = state

@@ -59,7 +59,11 @@ ACCELERATION_M_S2 = 1.0
 
 
 class GraspError(EvaluationError):
-    """A gripper cannot grasp a thing; the message says why, with numbers."""
+    """A gripper cannot grasp a thing: `problem` says why, with numbers, `cure` what to do; `name` is the diagnostic."""
+
+    def __init__(self, problem: str, cure: str = "", name: str = "no-grasp") -> None:
+        super().__init__(f"{problem}; {cure}" if cure else problem)
+        self.problem, self.cure, self.name = problem, cure, name
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,8 +115,8 @@ def grasp_force_n(state: WorldState, gripper: str, thing: str) -> float:
     return min(number_of(state, thing, GRASP_FORCE, default=max(GRASP_FORCE_N, needed)), strongest)
 
 
-def grasp_obstacle(state: WorldState, gripper: str, thing: str) -> str | None:
-    """Return why a gripper cannot grasp a thing as it lies, with numbers; None if it can. Errors as of `find_grasp`.
+def grasp_problem(state: WorldState, gripper: str, thing: str) -> GraspError | None:
+    """Return why a gripper cannot grasp a thing as it lies; None if it can. Other errors as of `find_grasp`.
 
     Of a thing whose pose is not known, as an arm carries it, only the weight counts.
     """
@@ -121,7 +125,7 @@ def grasp_obstacle(state: WorldState, gripper: str, thing: str) -> str | None:
         with suppress(Unplaced):
             find_grasps(state, gripper, thing)
     except GraspError as error:
-        return str(error)
+        return error
     return None
 
 
@@ -164,14 +168,13 @@ def _derive(state: WorldState, gripper: str, thing: str) -> tuple[GraspCandidate
     short = state.vocabulary.short
     if body is None:
         pose(state, thing)
-        raise GraspError(
-            f"nothing says how to grasp {short(thing)}: it has no body of its own, so it needs a skiros:GraspingPose"
-        )
+        raise GraspError(f"nothing says how to grasp {short(thing)}: it has no body", "state a skiros:GraspingPose")
     if _is_round(body) and body.size[0] <= _spread_m(state, gripper):
         apart = 1e3 * _spread_m(state, gripper)
         raise GraspError(
             f"{short(thing)} has a diameter of {1e3 * body.size[0]:.0f} mm and slips between the fingers of "
-            f"{short(gripper)}, which are {apart:.0f} mm apart"
+            f"{short(gripper)}, which are {apart:.0f} mm apart",
+            "use a gripper whose fingers meet",
         )
     away = _away_from_arm(state, gripper, body.pose.position)
     closings = _closings(body, away)
@@ -196,7 +199,9 @@ def _check_width(state: WorldState, gripper: str, thing: str, widths: list[float
     short, each = state.vocabulary.short, " and ".join(f"{1e3 * width:.0f}" for width in dict.fromkeys(widths))
     raise GraspError(
         f"{short(thing)} is {each} mm wide between the fingers, and {short(gripper)} takes at most "
-        f"{1e3 * (widest - LEAST_CLEARANCE_M):.0f} mm: it opens to {1e3 * widest:.0f} mm"
+        f"{1e3 * (widest - LEAST_CLEARANCE_M):.0f} mm: it opens to {1e3 * widest:.0f} mm",
+        "use a wider gripper, lay it down differently, or state `skillc:graspWidth` where it is narrower",
+        "too-wide",
     )
 
 
@@ -211,7 +216,8 @@ def _tool_height(state: WorldState, gripper: str, body: RigidBody) -> float:
         short = state.vocabulary.short
         raise GraspError(
             f"{short(body.individual)} is {1e3 * (top - bottom):.0f} mm high as it lies, and the fingers of "
-            f"{short(gripper)} need {1e3 * (over_m + LEAST_HOLD_M):.0f} mm to hold it from above"
+            f"{short(gripper)} need {1e3 * (over_m + LEAST_HOLD_M):.0f} mm to hold it from above",
+            "lay it down differently, or state a skiros:GraspingPose",
         )
     return height_m
 
@@ -254,22 +260,17 @@ def _away_from_arm(state: WorldState, gripper: str, point: Array) -> Array:
 
 def _check_weight(state: WorldState, gripper: str, thing: str) -> None:
     """Check that friction bears the thing; GraspError if 2 mu F < m (g + a)."""
-    problem = weight_problem(state, thing, gripper)
-    if problem is not None:
-        raise GraspError(problem)
-
-
-def weight_problem(state: WorldState, thing: str, gripper: str) -> str | None:
-    """Return that a thing slides out of the fingers of a gripper, with numbers, if 2 mu F < m (g + a)."""
     strongest = sheet_of(state, gripper).number("maxForce")
     force_n = min(number_of(state, thing, GRASP_FORCE, default=strongest), strongest)
     if force_n >= _needed_force_n(state, thing):
-        return None
+        return
     mass_kg, friction, short = _mass_kg(state, thing), _friction(state, thing), state.vocabulary.short
     held_kg = 2 * friction * force_n / (GRAVITY_M_S2 + ACCELERATION_M_S2)
-    return (
+    raise GraspError(
         f"{short(thing)} weighs {mass_kg:.3g} kg, and with {force_n:g} N and a friction of {friction:g} "
-        f"{short(gripper)} carries at most {held_kg:.2g} kg"
+        f"{short(gripper)} carries at most {held_kg:.2g} kg",
+        f"use a stronger gripper, or state its true `{short(WEIGHT)}` and `{short(FRICTION)}`",
+        "too-heavy",
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from skillc_runtime.world.space.grasps import grasp_obstacle
+from skillc_runtime.world.space.grasps import grasp_problem
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 
@@ -18,6 +18,7 @@ class CanGrasp:
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
         """Return why the gripper cannot grasp the object, with numbers; None when it can."""
         try:
-            return grasp_obstacle(state, subject, object_)
+            problem = grasp_problem(state, subject, object_)
         except SheetError as error:
             raise InsufficientFacts(str(error)) from error
+        return None if problem is None else str(problem)
