@@ -1,0 +1,53 @@
+"""The shipped pick-and-place cells: three arms, derived grasps, parts that lie where they should in the end."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from backends.kinematic_runs import library, prepare
+from skillc.services.library_files import SHIPPED
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.space.frames import pose, size
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
+
+pytestmark = pytest.mark.sim
+
+PLACED_MM = 10.0
+"""How far from its believed place, in the plane, a part may really lie."""
+
+
+@pytest.mark.parametrize(
+    ("task", "scene", "parts", "verified"),
+    [
+        ("sort_parts", "panda.ttl", 2, False),
+        ("sort_seen_parts", "ur5e.ttl", 3, True),
+        ("sort_shapes", "iiwa.ttl", 5, False),
+    ],
+)
+def test_all_parts_lie_in_their_boxes_and_where_they_are_believed_to_be(
+    task: str, scene: str, parts: int, verified: bool
+) -> None:
+    compiled = library("sorting")
+    prepared = prepare(compiled, task, SHIPPED / "sorting" / scene)
+    cell = SimulatedCell(WorldModel(prepared.assignment.state), seed=1)
+    execution = execute_task(prepared, compiled, cell)
+    assert (execution.status, execution.verified) == ("succeeded", verified), execution.failure
+    cell.advance(0.5)
+    state, truth = cell.world.snapshot(), cell.ground_truth
+    moved = sorted(state.instances(MANIPULATABLE))
+    assert len(moved) == parts
+    for part in moved:
+        (box,) = state.subjects(CONTAIN, part)
+        really = truth.body_pose(part)
+        assert is_inside(truth.body_pose(box).inverse() @ really, size(state, box)), part
+        away = pose(state, part).position - really.position
+        assert 1e3 * np.linalg.norm(away[:2]) <= PLACED_MM, part
+
+
+def is_inside(in_box: Pose, extent: np.ndarray) -> bool:
+    """Whether the middle of a part is inside the walls of a box, and not far above it; its extent (3,) is in m."""
+    return bool(np.all(np.abs(in_box.position[:2]) < extent[:2] / 2) and abs(in_box.position[2]) < extent[2])
