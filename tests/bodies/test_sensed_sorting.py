@@ -21,7 +21,17 @@ from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Chang
 from skillc_runtime.world.state.facts import RelationFact
 from skillc_runtime.world.state.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import CAMERA, CONTAIN, FRAME_ID, HAS_SHEET, POSITION_RANGE, SKILLC, TURN_RANGE
+from skillc_runtime.world.state.terms import (
+    CAMERA,
+    CONTAIN,
+    FRAME_ID,
+    FURNITURE,
+    HAS_SHEET,
+    POSITION_RANGE,
+    SIZE,
+    SKILLC,
+    TURN_RANGE,
+)
 
 pytestmark = pytest.mark.sim
 
@@ -82,6 +92,31 @@ def test_displaced_parts_are_located_sorted_and_seen_in_their_bins(seed: int) ->
     known = {format_fact(fact.fact): fact.known for fact in execution.facts}
     assert known["lab:Bin-A contain lab:Part-A"] == "sensed"
     assert all(in_bin(cell, letter) for letter in "AB")
+
+
+SCREEN = LAB + "Screen"
+HIDDEN: list[Change] = [
+    AddIndividual(SCREEN, (FURNITURE,)),
+    SetProperty(SCREEN, FRAME_ID, "screen"),
+    *(SetProperty(SCREEN, name, each) for name, each in zip(SIZE, (0.02, 0.02, 0.01), strict=True)),
+    *placement_changes(SCREEN, Pose.of((0.45, 0.0, 1.88))),
+]
+"""A board right before the lens."""
+
+
+@pytest.mark.parametrize("hidden", [False, True], ids=["seen", "hidden"])
+def test_a_part_is_grasped_without_looking_only_if_the_camera_cannot_see_its_place(hidden: bool) -> None:
+    prepared = prepare(library(), "sort_parts", FOLDER / "cell.ttl", [*WATCHED, *(HIDDEN if hidden else [])])
+    cell, events = SimulatedCell(WorldModel(prepared.assignment.state), 1), list[Event]()
+    first = cell.model.joint(cell.scene.names[PARTS[0]] + "/free").qposadr[0]
+    cell.data.qpos[first : first + 3] = (-0.8, 0.8, 0.05)
+    execution = execute_task(prepared, library(), cell, [events.append])
+    failures = [each.failure.message for each in events if isinstance(each, NodeEnded) and each.failure is not None]
+    assert execution.status == "failed"
+    gone = "lab:Camera-1 sees that lab:Part-A is not where it is believed to be, and does not find it elsewhere"
+    closed = "lab:Hand-1 does not hold lab:Part-A: nothing keeps its fingers from closing"
+    assert any(gone in each for each in failures) is not hidden
+    assert any(closed in each for each in failures) is hidden
 
 
 def test_without_a_camera_nobody_has_seen_where_the_parts_are() -> None:

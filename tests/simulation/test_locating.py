@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import mujoco
 import numpy as np
 import pytest
 from cells import ERASER, LAB, run, world
@@ -131,6 +132,29 @@ def test_what_is_hidden_is_not_found_and_what_is_behind_does_not_hide() -> None:
     with pytest.raises(SkillFailure, match="of 0 estimates 0 agree"):
         locate(seen(0, [*screen(1.2), *numbers(0.0, "falseAlarmRate")]), patience=1.0)
     locate(seen(0, [*screen(0.3), *numbers(0.0, "falseAlarmRate")]), patience=1.0)
+
+
+def carried_off(there: SimulatedCell) -> SimulatedCell:
+    """Take the eraser out of view."""
+    first = there.model.joint(there.scene.names[ERASER] + "/free").qposadr[0]
+    there.data.qpos[first : first + 3] = (-1.5, 0.0, 0.1)
+    mujoco.mj_forward(there.model, there.data)
+    return there
+
+
+def test_a_camera_that_sees_past_where_a_thing_should_be_knows_that_it_is_not_there() -> None:
+    there = carried_off(seen(0, numbers(0.0, "falseAlarmRate")))
+    with pytest.raises(SkillFailure, match="lab:Camera-1 sees that lab:Eraser-1 is not where it is believed to be"):
+        locate(there, patience=1.0)
+    assert there.world.snapshot().value(ERASER, LOCATED) is False
+
+
+@pytest.mark.parametrize("changes", [screen(1.2), numbers(1.0, "dropoutRate")], ids=["hidden", "without images"])
+def test_a_camera_that_cannot_see_the_place_does_not_know_what_is_there(changes: list[Change]) -> None:
+    there = carried_off(seen(0, [*changes, *numbers(0.0, "falseAlarmRate")]))
+    with pytest.raises(SkillFailure, match="does not find lab:Eraser-1"):
+        locate(there, patience=1.0)
+    assert there.world.snapshot().value(ERASER, LOCATED) is None
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,5 +33,12 @@ class PoseCamera(Protocol):
         """Return the newest estimate of an object, by IRI, from images taken at `since_s` or later.
 
         None as long as no such image has arrived in which the object was found.
+        """
+        ...
+
+    def depth_m(self, towards: Array) -> float | None:
+        """Return how far away the first thing is on the ray towards a point (3,) in m in the frame of the camera, in m.
+
+        Infinite if there is nothing; None if the point is out of view, or no image arrives.
         """
         ...

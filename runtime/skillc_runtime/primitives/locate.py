@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from skillc_runtime.devices.camera import PoseEstimate
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.pose_consensus import agreeing_estimates, mean_pose
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.frames import move_changes
+from skillc_runtime.world.space.frames import move_changes, relative_pose
 from skillc_runtime.world.space.lying import lying_problem
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
 from skillc_runtime.world.state.terms import CONTAIN, LOCATED, WORKSTATION
+
+BEHIND_M = 0.005
+"""How far behind the middle of an object a camera must see to know that the object is not there."""
 
 IMAGES = 5
 """How many estimates are averaged."""
@@ -22,7 +27,10 @@ AGREEING = 3
 
 
 class Locate(Primitive):
-    """Writes the pose of an object on which several images of a camera agree."""
+    """Writes the pose of an object on which several images of a camera agree.
+
+    If there is none, and the camera sees past the place where the object is believed to be, it is no longer located.
+    """
 
     moves = NOTHING
 
@@ -54,8 +62,19 @@ class Locate(Primitive):
             self._conclude(mean_pose(agreeing))
             return Status.SUCCESS
         if late:
-            raise self._unseen(len(agreeing))
+            raise self._gone() if self._sees_that_it_is_gone() else self._unseen(len(agreeing))
         return Status.RUNNING
+
+    def _sees_that_it_is_gone(self) -> bool:
+        """Whether the camera sees what lies behind the place where the middle of the object should be."""
+        state = self.cell.world.snapshot()
+        try:
+            middle = relative_pose(state, self._camera, self._object).position
+        except FrameError:
+            return False
+        depths = (self._device.depth_m(middle) for _ in range(IMAGES))
+        depth_m = next((each for each in depths if each is not None), 0.0)
+        return depth_m > float(np.linalg.norm(middle)) + BEHIND_M
 
     def _conclude(self, in_camera: Pose) -> None:
         self.cell.world.commit(self._placement(in_camera), "Locate", "sensed")
@@ -67,6 +86,15 @@ class Locate(Primitive):
         except FrameError as error:
             raise SkillFailure(str(error)) from error
         return [*moved, SetProperty(self._object, LOCATED, True)]
+
+    def _gone(self) -> SkillFailure:
+        """Write that it is not known where the object is."""
+        self.cell.world.commit([SetProperty(self._object, LOCATED, False)], "Locate", "sensed")
+        return SkillFailure(
+            "{camera} sees that {object} is not where it is believed to be, and does not find it elsewhere",
+            camera=self._label(self._camera),
+            object=self._label(self._object),
+        )
 
     def _unseen(self, agreeing: int) -> SkillFailure:
         return SkillFailure(

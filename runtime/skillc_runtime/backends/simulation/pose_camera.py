@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
+from math import inf
 from typing import Any, Final
 
 import mujoco
@@ -56,6 +57,14 @@ class SimulatedPoseCamera:
         arrived = (each for each in reversed(found) if since_s <= each.taken_s <= now - self._spec.delay_s + 1e-9)
         return next(arrived, None)
 
+    def depth_m(self, towards: Array) -> float | None:
+        """Return the distance in m of the first thing on the ray towards a point (3,); None without view or image."""
+        error = distort(np.zeros(6), self._imperfections)
+        if error is None or self._spec.view.obstacle(towards):
+            return None
+        away = float(self._ray(self._spec.pose.rotation @ towards)[0])
+        return away + float(error[2]) if away >= 0 else inf
+
     def _take_image(self, thing: str, now: float) -> PoseEstimate | None:
         """Return what an estimator makes of an image at `now` in s; None if it does not find the object."""
         errors = self._errors
@@ -105,11 +114,16 @@ class SimulatedPoseCamera:
 
     def _sees(self, point: Array, own: tuple[int, ...]) -> bool:
         """Whether nothing but the object itself is between the camera and a point (3,) of it."""
-        eye, hit = self._spec.pose.position, np.zeros(1, dtype=np.int32)
-        way = point - eye
-        away = float(np.linalg.norm(way))
-        reached = mujoco.mj_ray(self._model, self._data, eye, way / away, None, 1, -1, hit)
-        return reached < 0 or int(hit[0]) in own or reached > away - NEAR_M
+        way = point - self._spec.pose.position
+        reached, hit = self._ray(way)
+        return reached < 0 or hit in own or reached > float(np.linalg.norm(way)) - NEAR_M
+
+    def _ray(self, way: Array) -> tuple[float, int]:
+        """Return how far away the first geom is along a direction (3,) in the world, in m, below 0 if there is none."""
+        hit = np.zeros(1, dtype=np.int32)
+        along = way / np.linalg.norm(way)
+        reached = mujoco.mj_ray(self._model, self._data, self._spec.pose.position, along, None, 1, -1, hit)
+        return float(reached), int(hit[0])
 
     def _false_pose(self) -> Pose:
         """Return a pose somewhere in view, in the frame of the camera."""
