@@ -28,12 +28,12 @@ def main() -> int:
         task="random cells",
         disturbance="none",
         skillc=identity.identify_skillc(),
-        library=f"{options.backend}, at most {options.bins} bins",
+        library=f"{options.backend}, at most {options.parts} parts",
         scene=identity.compute_digest(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py"))),
     )
     with TrialJournal(out, heading) as journal:
         missing = find_missing_seeds(seeds, journal.trials)
-        prepare = partial(CaseRunner, out, options.backend, options.bins)
+        prepare = partial(CaseRunner, out, options.backend, options.parts)
         for trial in run_in_processes(prepare, missing, options.jobs, CELL_LIMIT_S):
             journal.add(trial)
             said = "; ".join(trial.false_claims) if trial.is_false_success else trial.reason or ""
@@ -49,7 +49,7 @@ def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="random_cells", description=__doc__)
     parser.add_argument("--cells", type=int, default=300, help="how many cells")
     parser.add_argument("--seed", type=int, default=0, help="the seed of the first cell")
-    parser.add_argument("--bins", type=int, default=6, help="at most so many bins, and parts to move, in a cell")
+    parser.add_argument("--parts", type=int, default=12, help="at most so many parts to move in a cell")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes")
     parser.add_argument("--backend", choices=["mujoco", "kinematic"], default="mujoco", help="what simulates them")
     parser.add_argument("--out", type=Path, default=Path("out/soak"), help="where cells and results are kept")

@@ -22,9 +22,24 @@ SHAPES: Final[dict[ArmName, tuple[ShapeName, ...]]] = {
 
 JITTER_M = 0.005
 
-PART_PLACES: Final = tuple((x, y) for y in (-0.1, -0.23, -0.36, -0.48) for x in (0.38, 0.48, 0.58))
-BIN_PLACES: Final = tuple((x, y) for y in (0.14, 0.31, 0.48) for x in (0.40, 0.57))
+PART_PLACES: Final = (
+    *((x, y) for y in (-0.1, -0.23, -0.36) for x in (0.43, 0.53, 0.63)),
+    *((x, -0.48) for x in (0.33, 0.43, 0.53)),
+)
 """Places on the table in m in front of the arm: fingers around a thing at one of them are clear of the next."""
+
+WIDE_PLACES: Final = (*((x, y) for y in (-0.12, -0.27) for x in (0.46, 0.60)), (0.36, -0.42), (0.50, -0.42))
+"""The same for things that really lie up to ELSEWHERE_M and ELSEWHERE_RAD from there."""
+
+ELSEWHERE_M, ELSEWHERE_RAD = 0.02, 0.26
+
+BIN_PLACES: Final[tuple[tuple[int, tuple[float, float], tuple[tuple[float, float], ...]], ...]] = (
+    (8, (0.30, 0.36), ((0.52, 0.26),)),
+    (4, (0.30, 0.22), ((0.53, 0.19), (0.45, 0.45))),
+    (2, (0.155, 0.23), ((0.47, 0.19), (0.64, 0.19), (0.35, 0.45), (0.52, 0.45))),
+    (1, (0.145, 0.145), ((0.45, 0.14), (0.61, 0.14), (0.45, 0.31), (0.61, 0.31), (0.32, 0.48), (0.48, 0.48))),
+)
+"""How many parts each bin takes with margins, its length and width in m, and places for so large bins."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +52,7 @@ class Part:
     mass_kg: float
     at: Point
     roll_deg: float = 0.0
+    yaw_deg: float = 0.0
     friction: float = 0.6
 
 
@@ -51,7 +67,10 @@ class Bin:
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A cell: an arm, parts, bins, other boxes by size and position, what is to be put where, what is in what."""
+    """A cell: an arm, parts, bins, other boxes by size and position, what is to be put where, what is in what.
+
+    If it has a camera, the parts really lie somewhere near the places where the scene says.
+    """
 
     arm: ArmName
     parts: tuple[Part, ...]
@@ -59,17 +78,22 @@ class Cell:
     goal: tuple[tuple[str, str], ...]
     boxes: tuple[tuple[str, Point, Point], ...] = ()
     contained: tuple[tuple[str, str], ...] = ()
+    has_camera: bool = False
 
 
-def draw_cell(rng: Random, most_bins: int = 6) -> Cell:
-    """Draw a cell that can be solved; each bin gets at most one part, further parts stay where they are."""
+def draw_cell(rng: Random, most_parts: int = 12) -> Cell:
+    """Draw a cell that can be solved; at most `most_parts` parts are to be put into bins, the others stay."""
     arm: ArmName = rng.choice(("iiwa14", "ur5e", "panda"))
-    count, bins = rng.randint(1, 12), rng.randint(1, most_bins)
-    parts = tuple(_draw_part(rng, n, at, SHAPES[arm]) for n, at in enumerate(rng.sample(PART_PLACES, count), 1))
-    places = enumerate(rng.sample(BIN_PLACES, bins), 1)
-    drawn = tuple(_draw_bin(rng, n, at) for n, at in places)
-    goal = tuple((part.name, bin_.name) for part, bin_ in zip(parts, drawn, strict=False))
-    return Cell(arm, parts, drawn, goal)
+    has_camera = rng.random() < 0.5
+    places = WIDE_PLACES if has_camera else PART_PLACES
+    count, bins = rng.randint(1, len(places)), rng.randint(1, 6)
+    parts = tuple(_draw_part(rng, n, at, SHAPES[arm]) for n, at in enumerate(rng.sample(places, count), 1))
+    room, size, corners = next(each for each in BIN_PLACES if bins <= len(each[2]))
+    drawn = tuple(_draw_bin(rng, n, size, at) for n, at in enumerate(rng.sample(corners, bins), 1))
+    slots = [each.name for each in drawn for _ in range(room)]
+    moved = min(count, most_parts)
+    goal = tuple(zip((part.name for part in parts[:moved]), rng.sample(slots, len(slots)), strict=False))
+    return Cell(arm, parts, drawn, goal, has_camera=has_camera)
 
 
 def _draw_part(rng: Random, number: int, place: tuple[float, float], shapes: tuple[ShapeName, ...]) -> Part:
@@ -79,13 +103,14 @@ def _draw_part(rng: Random, number: int, place: tuple[float, float], shapes: tup
     length = round(1.5 * width, 4) if shape == "bar" else width
     x, y = _near(rng, place)
     mass = round(rng.uniform(0.05, 0.25), 3)
-    return Part(f"Part-{number}", shape, (length, width, height), mass, (x, y, TABLE_M + height / 2))
+    yaw = round(rng.choice((0.0, rng.uniform(-20.0, 20.0))), 1)
+    return Part(f"Part-{number}", shape, (length, width, height), mass, (x, y, TABLE_M + height / 2), yaw_deg=yaw)
 
 
-def _draw_bin(rng: Random, number: int, place: tuple[float, float]) -> Bin:
-    side, height = round(rng.uniform(0.145, 0.155), 3), round(rng.uniform(0.035, 0.05), 3)
+def _draw_bin(rng: Random, number: int, size: tuple[float, float], place: tuple[float, float]) -> Bin:
+    (length, width), height = size, round(rng.uniform(0.035, 0.05), 3)
     x, y = _near(rng, place)
-    return Bin(f"Bin-{number}", (side, side, height), (x, y, TABLE_M + height / 2))
+    return Bin(f"Bin-{number}", (length, width, height), (x, y, TABLE_M + height / 2))
 
 
 def _near(rng: Random, place: tuple[float, float]) -> tuple[float, float]:

@@ -28,6 +28,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.difference import changes_between
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTAIN
 from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
@@ -40,11 +41,11 @@ class CaseRunner:
 
     out: Path
     backend: Backend = "mujoco"
-    most_bins: int = 6
+    most_parts: int = 12
 
     def run(self, seed: int) -> Trial:
         """Run the case of a seed."""
-        case = draw_case(seed, self.most_bins)
+        case = draw_case(seed, self.most_parts)
         folder = self.out / f"cell_{seed}"
         write_cell(case.believed, folder)
         try:
@@ -97,7 +98,7 @@ def _load_reality(case: Case, folder: Path, task: LoadedTask) -> WorldState:
 
 
 class Thief:
-    """Takes a part away at a time of a run, unless it is held."""
+    """Takes a part away at a time of a run, unless it is held or has been put where it belongs."""
 
     def __init__(self, case: Case, cell: SimulatedCell | KinematicCell) -> None:
         self._case, self._cell = case, cell
@@ -108,8 +109,8 @@ class Thief:
         if self._done or self._cell.now < (self._case.taken_at_s or 0.0):
             return
         self._done = True
-        cell, part = self._cell, LAB + self._case.victim
-        if cell.ground_truth.carried_by(LAB + "Hand-1") == part:
+        cell, part, bin_ = self._cell, LAB + self._case.victim, LAB + self._case.believed.goal[-1][1]
+        if cell.ground_truth.carried_by(LAB + "Hand-1") == part or part in cell.world.snapshot().objects(bin_, CONTAIN):
             return
         joint = cell.model.joint(part_name(cell.scene.names[part], "free"))
         position, speed = int(joint.qposadr[0]), int(joint.dofadr[0])

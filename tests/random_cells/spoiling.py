@@ -43,10 +43,10 @@ class Case:
         return self.believed.goal[-1][0]
 
 
-def draw_case(seed: int, most_bins: int = 6) -> Case:
+def draw_case(seed: int, most_parts: int = 12) -> Case:
     """Draw the case of a seed: even seeds can be solved, in odd ones something is wrong, each kind in turn."""
     rng = Random(f"cells:{seed}")
-    cell = draw_cell(rng, most_bins)
+    cell = draw_cell(rng, most_parts)
     if seed % 2 == 0:
         return Case(seed, "none", cell, cell)
     return _spoil(rng, seed, TROUBLES[seed // 2 % len(TROUBLES)], cell)
@@ -70,14 +70,14 @@ def _spoil(rng: Random, seed: int, trouble: Trouble, cell: Cell) -> Case:
         case "too heavy":
             return Case(seed, trouble, cell, _with(cell, replace(part, mass_kg=round(rng.uniform(25.0, 40.0), 1))))
         case "displaced":
-            aside = replace(part, at=(x + rng.choice((-0.15, 0.15)), y, z))
+            aside = replace(part, at=(x + (0.15 if x < 0.48 else -0.15), y, z))
             return Case(seed, trouble, _only(cell, part), _only(cell, aside))
         case "fallen over":
             tall = replace(part, shape="box", size=(width, width, 0.07), at=(x, y, TABLE_M + 0.035))
             lying = replace(tall, roll_deg=90.0, at=(x, y, TABLE_M + width / 2))
             return Case(seed, trouble, _only(cell, tall), _only(cell, lying))
         case "taken away":
-            return Case(seed, trouble, cell, cell, taken_at_s=round(rng.uniform(0.2, 1.5), 2))
+            return Case(seed, trouble, cell, cell, taken_at_s=round(rng.uniform(0.2, 15.0), 2))
         case "blocked way":
             return Case(seed, trouble, cell, _blocked(cell))
         case _:
@@ -98,8 +98,9 @@ def _only(cell: Cell, part: Part) -> Cell:
 
 
 def _without_bin(cell: Cell) -> Cell:
-    """Return a cell in which the last goal is a place in the air."""
-    target = cell.goal[-1][1]
+    """Return a cell in which the last goal is a place in the air, which no other part is to be put at."""
+    part, target = cell.goal[-1]
+    cell = replace(cell, goal=(*(each for each in cell.goal if each[1] != target), (part, target)))
     moved = (replace(b, size=None, at=(*b.at[:2], TABLE_M + 0.2)) if b.name == target else b for b in cell.bins)
     return replace(cell, bins=tuple(moved))
 
@@ -108,12 +109,15 @@ def _filled(cell: Cell) -> Cell:
     """Return a cell in which a block fills the bin of the last goal."""
     target = next(each for each in cell.bins if each.name == cell.goal[-1][1])
     assert target.size is not None
-    side, height = round(target.size[0] - 0.012, 4), round(target.size[2] + 0.02, 4)
-    block = Part("Block", "box", (side, side, height), 0.5, (*target.at[:2], TABLE_M + 0.004 + height / 2))
+    length, width, height = target.size
+    size = (round(length - 0.012, 4), round(width - 0.012, 4), round(height + 0.02, 4))
+    block = Part("Block", "box", size, 0.5, (*target.at[:2], TABLE_M + 0.004 + size[2] / 2))
     return replace(cell, parts=(*cell.parts, block), contained=((block.name, target.name),))
 
 
 def _blocked(cell: Cell) -> Cell:
-    """Return a cell with a pillar in the bin of the last goal that nobody knows of."""
+    """Return a cell with a block in the bin of the last goal that nobody knows of."""
     target = next(each for each in cell.bins if each.name == cell.goal[-1][1])
-    return replace(cell, boxes=(("Pillar", (0.06, 0.06, 0.14), (*target.at[:2], TABLE_M + 0.14)),))
+    assert target.size is not None
+    length, width, _ = target.size
+    return replace(cell, boxes=(("Pillar", (length - 0.04, width - 0.04, 0.14), (*target.at[:2], TABLE_M + 0.14)),))

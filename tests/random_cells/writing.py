@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from math import cos, radians, sin
 from pathlib import Path
 from string import Template
 
-from random_cells.drawing import TABLE_M, Bin, Cell, Part, Point
+from random_cells.drawing import ELSEWHERE_M, ELSEWHERE_RAD, TABLE_M, Bin, Cell, Part, Point
 
 TASK = "sort_parts"
 
@@ -57,8 +56,11 @@ HANDS = {
     "ur5e": "skillc:WsgGripper ; skillc:hasSheet skillc:wsg50-sheet",
 }
 
-DOWN = (0.0, 1.0, 0.0, 0.0)
-"""The orientation (w, x, y, z) of a hand that points down."""
+CAMERA = """lab:Camera-1 a skillc:Camera ; skillc:hasSheet skillc:depth-camera-sheet ;
+    skiros:FrameId "camera" ; skiros:BaseFrameId "map" ;
+    skiros:PositionX 0.5 ; skiros:PositionY 0.0 ; skiros:PositionZ 2.1 ; skillc:roll 180.0 .
+
+"""
 
 
 def write_cell(cell: Cell, folder: Path, scene: str = "cell.ttl") -> None:
@@ -72,9 +74,9 @@ def write_cell(cell: Cell, folder: Path, scene: str = "cell.ttl") -> None:
 def format_scene(cell: Cell, library: str) -> str:
     """Return the scene of a cell as Turtle."""
     inside = {part for part, _ in cell.contained}
-    loose = [f"lab:{each.name}" for each in cell.parts if each.name not in inside]
-    loose += [f"lab:{each.name}" for each in cell.bins] + [f"lab:{name}" for name, _, _ in cell.boxes]
-    contained = ", ".join(("lab:Table", "lab:Pedestal", *loose))
+    loose = [each for each in cell.parts if each.name not in inside]
+    names = [f"lab:{each.name}" for each in (*loose, *cell.bins)] + [f"lab:{name}" for name, _, _ in cell.boxes]
+    contained = ", ".join(("lab:Table", "lab:Pedestal", *names))
     return "".join(
         (
             HEAD.replace("$library", library),
@@ -82,59 +84,43 @@ def format_scene(cell: Cell, library: str) -> str:
             ROBOT,
             ARMS[cell.arm],
             '    skiros:FrameId "arm" ; skiros:BaseFrameId "robot" ; skillc:deviceState "Idle" ;\n',
-            f"{_pose((0, 0, TABLE_M))} .\n\n",
+            f"{_position((0, 0, TABLE_M))} .\n\n",
             f'lab:Hand-1 a {HANDS[cell.arm]} ; skiros:FrameId "hand" ; skillc:deviceState "Idle" .\n\n',
             _thing("Pedestal", "skillc:Furniture", (0, 0, TABLE_M), _size((0.3, 0.3, TABLE_M))),
-            _thing("Table", "skillc:Furniture", (0.5, 0, TABLE_M), _size((0.6, 1.3, TABLE_M))),
-            *map(_format_part, cell.parts),
+            _thing("Table", "skillc:Furniture", (0.5, 0, TABLE_M), _size((0.68, 1.3, TABLE_M))),
+            *(_format_part(each, is_elsewhere=cell.has_camera and each in loose) for each in cell.parts),
             *(_format_bin(each, cell) for each in cell.bins),
             *(_thing(name, "skillc:Furniture", at, _size(size)) for name, size, at in cell.boxes),
+            CAMERA if cell.has_camera else "",
         )
     )
 
 
-def _format_part(part: Part) -> str:
+def _format_part(part: Part, *, is_elsewhere: bool) -> str:
     shape = part.shape if part.shape in ("cylinder", "sphere") else "box"
     facts = f'    skiros:Weight {part.mass_kg} ; skillc:shape "{shape}" ; skillc:friction {part.friction} ;\n'
-    facts += f"    skillc:graspWidth {part.size[1]} ; skillc:graspForce 30.0 ;\n"
-    facts += f"    skiros:hasA lab:{part.name}-grasp, lab:{part.name}-approach ;\n"
-    turn = radians(part.roll_deg) / 2
-    said = _thing(part.name, "cell:WorkPart", part.at, _size(part.size) + facts, (cos(turn), sin(turn), 0.0, 0.0))
-    over = 0.0 if part.shape == "sphere" else 0.01
-    said += _pose_of(f"{part.name}-grasp", "skiros:GraspingPose", part.name, (0, 0, over))
-    return said + _pose_of(f"{part.name}-approach", "skiros:ApproachPose", part.name, (0, 0, 0.14))
+    facts += f"    skillc:roll {part.roll_deg} ; skillc:yaw {part.yaw_deg} ;\n"
+    if is_elsewhere:
+        facts += f"    skillc:positionRange {ELSEWHERE_M} ; skillc:turnRange {ELSEWHERE_RAD} ;\n"
+    return _thing(part.name, "cell:WorkPart", part.at, _size(part.size) + facts)
 
 
 def _format_bin(bin_: Bin, cell: Cell) -> str:
     facts = "" if bin_.size is None else _size(bin_.size)
-    facts += f"    skiros:hasA lab:{bin_.name}-placing ;\n"
     inside = [f"lab:{part}" for part, holder in cell.contained if holder == bin_.name]
     facts += f"    skiros:contain {', '.join(inside)} ;\n" if inside else ""
     cls = "cell:Bin" if bin_.size is not None else "skiros:Location"
-    bottom = 0.0 if bin_.size is None else 0.006 - bin_.size[2] / 2
-    said = _thing(bin_.name, cls, bin_.at, facts)
-    return said + _pose_of(f"{bin_.name}-placing", "skiros:PlacingPose", bin_.name, (0, 0, bottom))
+    return _thing(bin_.name, cls, bin_.at, facts)
 
 
-def _thing(
-    name: str, cls: str, at: Point, facts: str, turn: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
-) -> str:
+def _thing(name: str, cls: str, at: Point, facts: str) -> str:
     frame = f'    skiros:FrameId "{name}" ; skiros:BaseFrameId "map" ;\n'
-    return f"lab:{name} a {cls} ;\n{facts}{frame}{_pose(at, turn)} .\n\n"
+    return f"lab:{name} a {cls} ;\n{facts}{frame}{_position(at)} .\n\n"
 
 
-def _pose_of(name: str, cls: str, carrier: str, at: Point) -> str:
-    frame = f'    skiros:FrameId "{name}" ; skiros:BaseFrameId "{carrier}" ;\n'
-    return f"lab:{name} a {cls} ;\n{frame}{_pose(at, DOWN)} .\n\n"
-
-
-def _pose(at: Point, turn: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)) -> str:
-    (x, y, z), (w, i, j, k) = at, turn
-    return (
-        f"    skiros:PositionX {x:.4f} ; skiros:PositionY {y:.4f} ; skiros:PositionZ {z:.4f} ;\n"
-        f"    skiros:OrientationW {w:.6f} ; skiros:OrientationX {i:.6f} ; "
-        f"skiros:OrientationY {j:.6f} ; skiros:OrientationZ {k:.6f}"
-    )
+def _position(at: Point) -> str:
+    x, y, z = at
+    return f"    skiros:PositionX {x:.4f} ; skiros:PositionY {y:.4f} ; skiros:PositionZ {z:.4f}"
 
 
 def _size(size: Point) -> str:

@@ -9,7 +9,6 @@ from skillc_runtime.scene.checks.stated_poses import check_stated_poses, support
 from skillc_runtime.scene.violation import SceneViolation, stored_values
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.terms import (
-    ANGLES,
     AREA,
     ARM_DEVICE,
     AT,
@@ -87,13 +86,16 @@ def _partial_poses(state: WorldState) -> Iterator[SceneViolation]:
     """Yield poses in a frame that lack some of their numbers."""
     short = state.vocabulary.short
     for individual, _ in stored_values(state, BASE_FRAME_ID):
-        is_turned = any(name in state.stored and state.value(individual, name) is not None for name in ANGLES)
-        numbers = [name for name in (*POSITION, *(() if is_turned else ORIENTATION)) if name in state.stored]
-        lost = [short(name) for name in numbers if state.value(individual, name) is None]
+        turn = _find_missing(state, individual, ORIENTATION)
+        lost = _find_missing(state, individual, POSITION) + (turn if len(turn) < len(ORIENTATION) else [])
         if lost:
-            message = f"{short(individual)} has a {short(BASE_FRAME_ID)} and no {', '.join(lost)}"
-            cure = "write all of its position and orientation; for no turn write `skillc:yaw 0.0`"
+            message = f"{short(individual)} has a {short(BASE_FRAME_ID)} and no {', '.join(map(short, lost))}"
+            cure = "write all of its position, and of its quaternion if it has one"
             yield SceneViolation(individual, BASE_FRAME_ID, "partial-pose", message, cure)
+
+
+def _find_missing(state: WorldState, individual: str, names: Sequence[str]) -> list[str]:
+    return [name for name in names if name in state.stored and state.value(individual, name) is None]
 
 
 def _unplaced(state: WorldState, parents: Mapping[str, str]) -> Iterator[SceneViolation]:

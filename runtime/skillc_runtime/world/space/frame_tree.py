@@ -198,7 +198,7 @@ class FrameTree:
         return contact_pose(
             self._extent(support, optional=is_place and not corner and face == "top"),
             self._extent(individual, optional=True),
-            self._rotation(individual, default=np.eye(3)),
+            self._rotation(individual),
             Spot(str(face), corner, (x, y, z)),
         )
 
@@ -209,14 +209,11 @@ class FrameTree:
         half = np.array([self.number(individual, name) for name in SIZE]) / 2
         return LocalBox.of(half, self._classes.get(individual))
 
-    def _rotation(self, individual: str, default: Array | None = None) -> Array:
-        """Return the rotation of an object in its parent frame, from its quaternion or its angles in degrees."""
-        stated = {name for name in (*ORIENTATION, *ANGLES) if self._values[name].get(individual) is not None}
-        if stated.isdisjoint(ORIENTATION) and not stated.isdisjoint(ANGLES):
+    def _rotation(self, individual: str) -> Array:
+        """Return the rotation of an object in its parent frame, from its quaternion or else its angles in degrees."""
+        if all(self._values[name].get(individual) is None for name in ORIENTATION):
             roll, pitch, yaw = (radians(self._number_or(individual, name, 0.0)) for name in ANGLES)
             return rotation_from_angles(roll, pitch, yaw)
-        if not stated and default is not None:
-            return default
         quaternion = [self.number(individual, name) for name in ORIENTATION]
         if not any(quaternion):
             raise FrameError(f"the orientation of {self._short(individual)} is no rotation: all of it is 0")

@@ -177,12 +177,36 @@ def _best(
 
 
 def _hands(support: Support, load: Load) -> Iterator[Pose]:
-    """Yield the hand poses in the frame of a support whose load stands within its edges, from its middle outwards."""
+    """Yield the hand poses in the frame of a support whose load stands within its edges.
+
+    Between walls first in rows, so that many things fit; then, and without walls at once, from the middle outwards.
+    """
+    if support.rim_m > 0.0:
+        yield from _rows(support, load)
     turns = [(rotation, *_room(support, load, rotation)) for rotation in QUARTERS]
     for x, y in _grid(support.half):
         for rotation, height_m, low, high in turns:
             if (np.array([x, y]) + low >= -support.half).all() and (np.array([x, y]) + high <= support.half).all():
                 yield Pose(np.array([x, y, height_m]), rotation)
+
+
+def _rows(support: Support, load: Load) -> Iterator[Pose]:
+    """Yield the hand poses in which things of the size of the load fill a support evenly, with room for the fingers."""
+    filled = []
+    for rotation in QUARTERS:
+        height_m, low, high = _room(support, load, rotation)
+        least, most = _extent(load.fingers, rotation)
+        low, high = np.minimum(low - GAP_M / 2, least[:2]), np.maximum(high + GAP_M / 2, most[:2])
+        counts = np.floor(2.0 * support.half / (high - low)).astype(int)
+        pitch = 2.0 * support.half / np.maximum(counts, 1)
+        middle = -support.half - (low + high) / 2.0
+        filled.append(
+            [
+                Pose(np.array([*(middle + pitch * (np.array(cell) + 0.5)), height_m]), rotation)
+                for cell in np.ndindex(*counts)
+            ]
+        )
+    yield from (hand for hands in sorted(filled, key=len, reverse=True) for hand in hands)
 
 
 def _room(support: Support, load: Load, rotation: Array) -> tuple[float, Array, Array]:
