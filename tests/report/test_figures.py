@@ -8,8 +8,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from skillc_runtime.evaluation.report.figure_files import render_figure
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
-from skillc_runtime.evaluation.report.wiping_figure import draw_figure, render_figure
+from skillc_runtime.evaluation.report.wiping_figure import draw_figure
 
 TIME = np.linspace(0.0, 10.0, 200)
 WAY = np.column_stack([np.linspace(-150.0, 150.0, 200), np.zeros(200)])
@@ -64,12 +65,12 @@ def test_what_was_not_wiped_has_no_shade_and_columns_share_the_scale() -> None:
 
 
 def test_the_same_drawing_gives_the_same_files() -> None:
-    drawn = render_figure([wiped()])
-    assert drawn == render_figure([wiped()])
+    drawn = render_figure(lambda: draw_figure([wiped()]))
+    assert drawn == render_figure(lambda: draw_figure([wiped()]))
     assert drawn.png.startswith(b"\x89PNG")
     assert ElementTree.fromstring(drawn.svg).tag.endswith("svg")
 
 
 def test_there_is_no_figure_of_nothing() -> None:
     with pytest.raises(ValueError, match="no wiping"):
-        render_figure([])
+        draw_figure([])

@@ -13,8 +13,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc.services.top_view import convex_hull
 from skillc_runtime.film import rendering
+from skillc_runtime.world.space.outlines import convex_hull
 
 CELL = """\
 # A table, two things on it.

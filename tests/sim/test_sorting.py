@@ -8,6 +8,10 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc.services.library_files import SHIPPED
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.hand_trace import HandTrace
+from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
+from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import pose, size
@@ -17,7 +21,7 @@ from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
 pytestmark = pytest.mark.sim
 
 PLACED_MM = 10.0
-"""How far from its believed place, in the plane, a part may really lie."""
+"""How far, in the plane, a part may really lie from its believed place, and from where it should be."""
 
 
 @pytest.mark.parametrize(
@@ -34,9 +38,17 @@ def test_all_parts_lie_in_their_boxes_and_where_they_are_believed_to_be(
     compiled = library("sorting")
     prepared = prepare(compiled, task, SHIPPED / "sorting" / scene)
     cell = SimulatedCell(WorldModel(prepared.assignment.state), seed=1)
-    execution = execute_task(prepared, compiled, cell)
+    choices, trace = ChoiceListener(), HandTrace(cell)
+    execution = execute_task(prepared, compiled, cell, [choices], trace.sample)
     assert (execution.status, execution.verified) == ("succeeded", verified), execution.failure
     cell.advance(0.5)
+    handlings = find_handlings([each.tree for each in execution.attempts], choices, cell.world.snapshot())
+    placements = measure_placements(cell.world, cell.ground_truth, find_targets(handlings))
+    assert [each.missed_m is not None and 1e3 * each.missed_m <= PLACED_MM for each in placements] == [True] * parts
+    for handling in handlings:
+        held = trace.path(handling.gripper).between(handling.grasped_s + 0.2, handling.grasped_s + 1.0)
+        assert held.finger_force == pytest.approx(30.0, abs=1.5)
+        assert held.measured_opening == pytest.approx(held.opening, abs=2e-3)
     state, truth = cell.world.snapshot(), cell.ground_truth
     moved = sorted(state.instances(MANIPULATABLE))
     assert len(moved) == parts

@@ -13,6 +13,9 @@ from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.hand_trace import HandTrace
+from skillc_runtime.evaluation.report.handling_drawing import make_handling_drawings
+from skillc_runtime.evaluation.report.handlings import find_handlings
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
@@ -39,16 +42,30 @@ class RunResult:
     written: bool = True
 
 
-def make_film(simulation: Simulation, looks: str) -> Film:
-    """Return a film to sample, with the meshes of that name. ServiceError if there are none."""
-    return Film(simulation, None if looks == PRIMITIVE_LOOKS else _model_with_meshes(simulation, looks))
+@dataclass(frozen=True, slots=True)
+class RunSamples:
+    """What is sampled during a run for its report: the pictures of the film, and what hands do."""
+
+    film: Film
+    hands: HandTrace
+
+    def sample(self) -> None:
+        """Sample what is due; called in every tick."""
+        self.film.sample()
+        self.hands.sample()
+
+
+def make_samples(simulation: Simulation, looks: str) -> RunSamples:
+    """Return what to sample, the film with the meshes of that name. ServiceError if there are none."""
+    film = Film(simulation, None if looks == PRIMITIVE_LOOKS else _model_with_meshes(simulation, looks))
+    return RunSamples(film, HandTrace(simulation))
 
 
 def report_run(
     execution: Execution[Simulation],
     choices: ChoiceListener,
     library: SkillLibrary,
-    film: Film | None,
+    samples: RunSamples | None,
     folder: Path | None,
     reporter: Reporter,
 ) -> RunResult:
@@ -58,14 +75,16 @@ def report_run(
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
     wipings = find_wipings(trees, choices, state)
     result = summarise_run(execution, choices, library, wipings, simulation)
-    if folder is None or film is None:
+    if folder is None or samples is None:
         return RunResult(result)
     drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in wipings)
     try:
         with writing_to(folder):
             write_result(folder, result)
-            filmed = _write_film(film, folder, find_moments(wipings, trees, choices, state, truth), reporter)
-            write_report(folder, result, trees, drawings, filmed)
+            filmed = _write_film(samples.film, folder, find_moments(wipings, trees, choices, state, truth), reporter)
+            handlings = find_handlings(trees, choices, state)
+            handled = make_handling_drawings(handlings, samples.hands, state, truth)
+            write_report(folder, result, trees, drawings, filmed, handled)
     except ServiceError as error:
         reporter.say(f"error: {error}")
         return RunResult(result, drawings, written=False)

@@ -14,7 +14,7 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
-from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, make_film, report_run
+from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, RunSamples, make_samples, report_run
 from skillc.services.store_polling import StorePoller
 from skillc.services.task_loading import LoadedTask
 from skillc.services.unstarted_runs import end_unstarted
@@ -29,7 +29,6 @@ from skillc_runtime.execution.execute import describe_execution, prepare_after
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.tree.gate import Gate
-from skillc_runtime.film.film import Film
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.recording.run_settings import RunSettings
@@ -83,13 +82,13 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
         try:
             monitor.say("planning, and building the simulation")
             cell = make_backend(options.backend, task.world, options.seed)
-            film = None if options.out is None else make_film(cell, options.looks)
+            samples = None if options.out is None else make_samples(cell, options.looks)
         except (SheetError, FrameError, StoreError) as error:
             return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)
         except KeyboardInterrupt as interrupt:
             return end_unstarted(task, options.out, options.seed, "stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
-            return _Run(task, options, cell, film, gate, monitor, reporter).carry_out(planning)
+            return _Run(task, options, cell, samples, gate, monitor, reporter).carry_out(planning)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +98,7 @@ class _Run:
     task: LoadedTask
     options: RunOptions
     cell: Simulation
-    film: Film | None
+    samples: RunSamples | None
     gate: Gate
     monitor: RunMonitor
     reporter: Reporter
@@ -119,14 +118,14 @@ class _Run:
             recorded.watchdog.disarm()
             execution = describe_execution(run, cell, perf_counter() - began)
             self.monitor.say("writing the report" if options.out is not None else "finished")
-            return report_run(execution, choices, task.library, self.film, options.out, self.reporter)
+            return report_run(execution, choices, task.library, self.samples, options.out, self.reporter)
 
     def _make_loop(self, planning: PlanningJob) -> CellLoop:
         def plan_again(assignment: Assignment, failures: FailedSteps) -> PlanningJob:
             return _start_planning(self.task, assignment, failures, self.options, self.cell.clock.now)
 
         poller = StorePoller(self.cell.cell.world, self.reporter)
-        hooks = (poller.poll,) if self.film is None else (poller.poll, self.film.sample)
+        hooks = (poller.poll,) if self.samples is None else (poller.poll, self.samples.sample)
         preparation = prepare_after(planning, plan_again)
         origin = CellOrigin(self.task.scene, self.options.seed, self.options.backend)
         return CellLoop(self.cell, self.task.library, preparation, origin, hooks)

@@ -11,23 +11,23 @@ import numpy as np
 
 from skillc.services.files import writing_to
 from skillc.services.scenes import OpenScene
-from skillc.services.top_view import Outline, convex_hull, draw_top_view
+from skillc.services.top_view import Outline, draw_top_view
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.variation import exact_variation
 from skillc_runtime.film.picture_files import write_picture
 from skillc_runtime.film.props import make_props
 from skillc_runtime.film.rendering import CameraView, Renderer, RenderingError
-from skillc_runtime.motion.pose import Array, angles_from_rotation
+from skillc_runtime.motion.pose import angles_from_rotation
 from skillc_runtime.world.space.bodies import read_body
 from skillc_runtime.world.space.bounding_boxes import bounding_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose, size, states_own_pose
+from skillc_runtime.world.space.outlines import convex_hull, outline_points
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
     ON,
-    SHAPE,
     SIZE,
     SURFACE,
     TRANSFORMATION_POSE,
@@ -41,9 +41,6 @@ AZIMUTH_DEG, ELEVATION_DEG = 130.0, -30.0
 
 AWAY = 1.4
 """The distance of the camera from the middle of the scene, as a multiple of the scene's diagonal."""
-
-ROUND = {"cylinder", "sphere", "capsule"}
-CIRCLE = np.array([(np.cos(turn), np.sin(turn)) for turn in np.linspace(0.0, 2 * np.pi, 24, endpoint=False)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,18 +122,9 @@ def _outlines(scene: OpenScene) -> list[Outline]:
             continue
         with suppress(FrameError):
             box = bounding_box(state, each)
-            polygon = convex_hull(_points(state, each)[:, :2])
+            polygon = convex_hull(outline_points(state, each, pose(state, each))[:, :2])
             found.append(Outline(state.vocabulary.short(each), polygon, _colour(state, each), box.corners[:, 2].max()))
     return found
-
-
-def _points(state: WorldState, thing: str) -> Array:
-    """Return points (n, 3) in m of the world whose hull is the thing's."""
-    box = bounding_box(state, thing)
-    if state.value(thing, SHAPE) not in ROUND:
-        return box.corners
-    rings = [np.column_stack([CIRCLE, np.full(len(CIRCLE), end)]) for end in (-1.0, 1.0)]
-    return np.asarray(np.vstack(rings) * box.half @ box.middle.rotation.T + box.middle.position)
 
 
 def _colour(state: WorldState, thing: str) -> str:
@@ -165,7 +153,7 @@ def _camera(scene: OpenScene) -> CameraView:
     points = [np.zeros((1, 3))]
     for each in sorted(scene.individuals):
         with suppress(FrameError):
-            points.append(_points(scene.state, each))
+            points.append(outline_points(scene.state, each, pose(scene.state, each)))
     every = np.vstack(points[1:] or points)
     low, high = every.min(axis=0), every.max(axis=0)
     return CameraView((low + high) / 2, float(AWAY * np.linalg.norm(high - low) + 0.5), AZIMUTH_DEG, ELEVATION_DEG)

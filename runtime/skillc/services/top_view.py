@@ -39,14 +39,6 @@ class Outline:
     top_m: float
 
 
-def convex_hull(points: Array) -> Array:
-    """Return the corners (k, 2) of the convex hull of points (n, 2), counter-clockwise. Andrew's monotone chain."""
-    ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points.tolist()})
-    if len(ordered) < 3:
-        return np.array(ordered)
-    return np.array([*_half_hull(ordered)[:-1], *_half_hull(ordered[::-1])[:-1]])
-
-
 def draw_top_view(outlines: Sequence[Outline], title: str) -> str:
     """Return the drawing as an SVG document; the same outlines give the same bytes."""
     every = np.vstack([each.polygon for each in outlines]) if outlines else np.zeros((1, 2))
@@ -110,15 +102,3 @@ def _shape(view: _View, each: Outline) -> str:
 def _label(view: _View, each: Outline) -> str:
     x, y = view.at(*each.polygon.max(axis=0).tolist())
     return f'<text x="{x + 3:.1f}" y="{y + LABEL:.1f}">{escape(each.name.rpartition(":")[2])}</text>'
-
-
-def _half_hull(ordered: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    hull: list[tuple[float, float]] = []
-    for x, y in ordered:
-        while len(hull) > 1:
-            (a, b), (c, d) = hull[-2:]
-            if (c - a) * (y - b) - (d - b) * (x - a) > 0:
-                break
-            hull.pop()
-        hull.append((x, y))
-    return hull

@@ -117,6 +117,21 @@ class Touching:
     peak_force_n: float | None
 
 
+@dataclass(frozen=True, slots=True)
+class HandSample:
+    """A gripper at one instant: its tool centre point (3,) in m in the world, and how far its fingers are apart in m.
+
+    finger_force_n: N, with which each finger presses; while something is held, that with which it was grasped. None
+    where forces are not computed. measured_m: the opening that skills read last, with the errors of the sensor; None
+    before the first reading.
+    """
+
+    position: Array
+    opening_m: float
+    finger_force_n: float | None
+    measured_m: float | None
+
+
 class GroundTruth(Protocol):
     """The true state of a cell; objects are named by IRI. `Cell` does not offer it, so primitives have no access."""
 
@@ -164,6 +179,10 @@ class GroundTruth(Protocol):
 
     def carried_by(self, gripper: str) -> str | None:
         """Return what is really in a gripper, None if nothing is; KeyError if the cell has no such gripper."""
+        ...
+
+    def hand(self, gripper: str) -> HandSample:
+        """Return where a gripper really is and how it grips; KeyError if the cell has no such gripper."""
         ...
 
     def pressing(self, button: str) -> Array:

@@ -42,6 +42,10 @@ class KinematicGripper(ModelledGripper):
         """The true distance between the fingers in m."""
         return self._opening
 
+    @property
+    def _finger_force_n(self) -> None:
+        """Forces are not computed."""
+
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m, limited to that of the gripper; the force in N has no effect."""
         self._goal = min(max(opening_m, 0.0), self._facts.max_opening_m)

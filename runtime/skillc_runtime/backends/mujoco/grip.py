@@ -24,7 +24,9 @@ SIDES = 2
 
 @dataclass(slots=True)
 class Grip:
-    """A grasp: the direction (3,) in which fingers press, in the palm's axes, and the friction `bears_n` across it.
+    """A grasp: the direction (3,) in which fingers press, in the palm's axes, each with `force_n`.
+
+    `bears_n` is the friction across it.
 
     equality: the weld; palm: its body; overloaded_from: s, start of the present overload; next_check: s, of the next
     check.
@@ -33,6 +35,7 @@ class Grip:
     equality: int
     palm: int
     pressing: Array
+    force_n: float
     bears_n: float
     overloaded_from: float = np.inf
     next_check: float = 0.0
@@ -62,4 +65,4 @@ class Grip:
 def make_grip(data: Any, equality: int, palm: int, normals: list[Array], friction: float, force_n: float) -> Grip:
     """Return the grip of fingers that press with `force_n` each along normals (3,) in the world."""
     pressing = data.xmat[palm].reshape(3, 3).T @ normals[0]
-    return Grip(equality, palm, pressing, SIDES * friction * force_n)
+    return Grip(equality, palm, pressing, force_n, SIDES * friction * force_n)

@@ -46,6 +46,12 @@ class SimulatedGripper(ModelledGripper):
         """The true distance between the fingers in m."""
         return float(self._length[0])
 
+    @property
+    def _finger_force_n(self) -> float:
+        """The force in N of the closing motor; of what the weld holds, that with which it was grasped."""
+        motor = max(0.0, -float(self._data.actuator_force[self._actuator]))
+        return motor if self._grip is None else self._grip.force_n
+
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""
         force = min(force_n, self._facts.max_force_n)

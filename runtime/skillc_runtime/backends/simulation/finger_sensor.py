@@ -18,24 +18,25 @@ NOISE_DEVIATIONS = 3.0
 class FingerSensor:
     """Measures an opening once a period, at the first request in it, and returns that value until the period ends.
 
-    imperfections: none for an exact sensor; greatest_error_m: of a sample, in m.
+    imperfections: none for an exact sensor; greatest_error_m: of a sample, in m. last_m: the
+    last value that was read, in m; None before the first.
     """
 
     period_s: float = 0.0
     imperfections: tuple[Imperfection, ...] = ()
     greatest_error_m: float = 0.0
-    _value: float = field(default=0.0, init=False)
+    last_m: float | None = field(default=None, init=False)
     _next: float = field(default=-np.inf, init=False)
 
     def read(self, now: float, opening_m: float) -> float:
         """Return the measured opening in m, at least 0, of the true one at `now` in s."""
         if not self.imperfections:
-            return opening_m
-        if now >= self._next:
+            self.last_m = opening_m
+        elif now >= self._next:
             sample = distort(np.array([opening_m]), self.imperfections)
-            self._value = self._value if sample is None else max(0.0, float(sample[0]))
+            self.last_m = self.last_m if sample is None else max(0.0, float(sample[0]))
             self._next = now + self.period_s
-        return self._value
+        return self.last_m or 0.0
 
 
 def make_finger_sensor(gripper: GripperSpec, seed: int) -> FingerSensor:

@@ -11,6 +11,7 @@ from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
+from skillc_runtime.devices.ground_truth import HandSample
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.bodies import RigidBody
@@ -47,6 +48,7 @@ class ModelledGripper(ABC):
         self._name = names[facts.individual]
         self._actuator = model.actuator(part_name(self._name, "opening")).id
         self._palm = model.body(part_name(self._name, "palm")).id
+        self._tool_centre = model.site(part_name(self._name, "tcp")).id
         self.pads = frozenset(_pads(model, self._name))
         self._holding, self._held_at_m, self._carried = "", 0.0, ""
         self._idle, self._goal = True, facts.first_opening_m
@@ -102,6 +104,11 @@ class ModelledGripper(ABC):
     def carries(self) -> str | None:
         """The IRI of the object that really moves with the palm."""
         return self._carried or None
+
+    def sample(self) -> HandSample:
+        """Return where the gripper really is and how it grips; the sensor of the fingers is not read."""
+        position = self._data.site_xpos[self._tool_centre].copy()
+        return HandSample(position, self._true_opening_m, self._finger_force_n, self._sensor.last_m)
 
     @abstractmethod
     def move(self, opening_m: float, force_n: float) -> None:
@@ -180,6 +187,11 @@ class ModelledGripper(ABC):
     @abstractmethod
     def _true_opening_m(self) -> float:
         """The true distance between the fingers in m."""
+
+    @property
+    @abstractmethod
+    def _finger_force_n(self) -> float | None:
+        """The force in N with which each finger presses, or pressed when it grasped; None if it is not computed."""
 
     @abstractmethod
     def _is_at_force_limit(self) -> bool:

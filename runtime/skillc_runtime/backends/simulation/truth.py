@@ -16,7 +16,7 @@ from skillc_runtime.backends.simulation.person import SimulatedPerson
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
-from skillc_runtime.devices.ground_truth import Guidance, Recording, Touching
+from skillc_runtime.devices.ground_truth import Guidance, HandSample, Recording, Touching
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -90,6 +90,10 @@ class SimulatedTruth:
     def carried_by(self, gripper: str) -> str | None:
         """Return what is really in a gripper, None if nothing is; KeyError if the cell has no such gripper."""
         return self.grippers[gripper].carries
+
+    def hand(self, gripper: str) -> HandSample:
+        """Return where a gripper really is and how it grips; KeyError if the cell has no such gripper."""
+        return self.grippers[gripper].sample()
 
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if it had switched, else 0."""

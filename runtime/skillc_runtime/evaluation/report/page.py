@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Sequence
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from skillc_runtime.evaluation.report.figure_files import NamedFigure
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.table import format_choice_reason, list_failure_details, list_table_rows
-from skillc_runtime.evaluation.report.wiping_figure import FigureFiles
+from skillc_runtime.evaluation.report.table import (
+    format_choice_reason,
+    list_failure_details,
+    list_table_rows,
+    split_placement,
+)
 from skillc_runtime.film.film import SPEED_UP, FilmFiles
 from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
 from skillc_runtime.recording.node_outcome import NodeOutcome
@@ -17,7 +21,10 @@ from skillc_runtime.world.state.labelled_text import format_value
 
 
 def render_page(
-    result: TaskResult, trees: Sequence[NodeOutcome], figure: FigureFiles | None = None, filmed: FilmFiles | None = None
+    result: TaskResult,
+    trees: Sequence[NodeOutcome],
+    figures: Sequence[NamedFigure] = (),
+    filmed: FilmFiles | None = None,
 ) -> str:
     """Return the page; `trees` are those of all attempts; the files of `filmed` are in the same folder."""
     environment = Environment(
@@ -37,7 +44,8 @@ def render_page(
         format_value=format_value,
         format_unverified=format_unverified,
         trees=trees,
-        figure=b64encode(figure.svg).decode() if figure else "",
+        split_placement=split_placement,
+        figures=figures,
         filmed=filmed,
         speed_up=SPEED_UP,
         reason=_reason,

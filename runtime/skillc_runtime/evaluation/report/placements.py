@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from math import degrees
+from collections.abc import Mapping
+from math import degrees, hypot
+from types import MappingProxyType
 
 import numpy as np
 
@@ -17,12 +19,21 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, MANIPULATABLE, POSITION
 from skillc_runtime.world.state.world_state import WorldState
 
+NO_TARGETS: Mapping[str, tuple[float, float]] = MappingProxyType({})
 
-def measure_placements(world: WorldModel, truth: GroundTruth) -> tuple[PlacementResult, ...]:
-    """Return where each thing that was moved is believed to be and really is, in order of IRI."""
+
+def measure_placements(
+    world: WorldModel, truth: GroundTruth, targets: Mapping[str, tuple[float, float]] = NO_TARGETS
+) -> tuple[PlacementResult, ...]:
+    """Return where each thing that was moved is believed to be and really is, in order of IRI.
+
+    `targets` are the places (x, y) in m in the world where things should be, by IRI.
+    """
     state = world.snapshot()
     written = ((thing, world.deciding_write(PropertyFact(thing, POSITION[0]))) for thing in _movable(state))
-    return tuple(_measure(world, state, truth, thing, write) for thing, write in written if write is not None)
+    return tuple(
+        _measure(world, state, truth, thing, write, targets.get(thing)) for thing, write in written if write is not None
+    )
 
 
 def _movable(state: WorldState) -> list[str]:
@@ -30,22 +41,31 @@ def _movable(state: WorldState) -> list[str]:
 
 
 def _measure(
-    world: WorldModel, state: WorldState, truth: GroundTruth, thing: str, write: DecidingWrite
+    world: WorldModel,
+    state: WorldState,
+    truth: GroundTruth,
+    thing: str,
+    write: DecidingWrite,
+    target: tuple[float, float] | None,
 ) -> PlacementResult:
     holder = min(state.subjects(CONTAIN, thing), default=None)
     short, believed, true = state.vocabulary.short, _believed(state, thing), _true(truth, thing)
     contained = None if holder is None else world.deciding_write(RelationFact(holder, CONTAIN, thing))
     off = None if believed is None or true is None else believed.inverse() @ true
+    is_held = holder is not None and state.is_a(holder, END_EFFECTOR)
+    intended = None if is_held else target
     return PlacementResult(
         thing=short(thing),
         holder=None if holder is None else short(holder),
-        is_held=holder is not None and state.is_a(holder, END_EFFECTOR),
+        is_held=is_held,
         holder_known=describe_evidence(contained) if holder is not None else "",
         believed_m=None if believed is None else _numbers(believed),
         true_m=None if true is None else _numbers(true),
         known=describe_evidence(write),
         error_m=None if off is None else float(np.linalg.norm(off.position)),
         turned_deg=None if off is None else degrees(float(np.linalg.norm(log(off.rotation)))),
+        intended_m=intended,
+        missed_m=None if intended is None or true is None else _distance_in_plane(intended, true),
     )
 
 
@@ -61,6 +81,10 @@ def _true(truth: GroundTruth, thing: str) -> Pose | None:
         return truth.body_pose(thing)
     except KeyError:
         return None
+
+
+def _distance_in_plane(intended: tuple[float, float], true: Pose) -> float:
+    return hypot(intended[0] - float(true.position[0]), intended[1] - float(true.position[1]))
 
 
 def _numbers(at: Pose) -> tuple[float, float, float]:

@@ -63,7 +63,9 @@ class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
 
     `holder` is what is believed to contain it, None for nothing; it is held if that is a gripper. `holder_known` and
     `known` are the evidence for that and for the believed place. `error_m` and `turned_deg` are how far the true pose
-    is from the believed one. What is not known is None: a held thing is believed to be where the hand is.
+    is from the believed one. `intended_m` is where (x, y) its middle should be, to which it was last carried, and
+    `missed_m` how far from there it really is in the plane. What is not known is None: a held thing is believed to be
+    where the hand is.
     """
 
     thing: str
@@ -75,6 +77,8 @@ class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
     true_m: tuple[float, float, float] | None
     error_m: float | None
     turned_deg: float | None
+    intended_m: tuple[float, float] | None = None
+    missed_m: float | None = None
 
 
 class TouchResult(msgspec.Struct, frozen=True, kw_only=True):

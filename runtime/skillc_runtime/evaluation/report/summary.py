@@ -10,6 +10,7 @@ from msgspec import structs
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
 from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import ChoiceResult, FailedCall, StepResult, TaskResult, TouchResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
@@ -46,6 +47,7 @@ def summarise_run(
 ) -> TaskResult:
     """Return the result of a task for reports, tables and JSON; `wipings` are those that were found in it."""
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
+    handlings = find_handlings((each.tree for each in execution.attempts), choices, state)
     judged = tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
     now, wall = simulation.clock.now, execution.wall_time_s
     result = structs.replace(
@@ -58,7 +60,7 @@ def summarise_run(
         real_time_factor=now / wall if wall else 0.0,
         wiping=judged[0] if judged else None,
         wipings=judged,
-        placements=measure_placements(simulation.cell.world, truth),
+        placements=measure_placements(simulation.cell.world, truth, find_targets(handlings)),
         touches=tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=describe_failure(execution.failure) if execution.failure else None,

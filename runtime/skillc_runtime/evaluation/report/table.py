@@ -106,7 +106,24 @@ def format_placement(placed: PlacementResult) -> str:
     if placed.holder_known not in ("", placed.known):
         parts.append(placed.holder_known)
     parts.append(f"at {' '.join(f'{each:.3f}' for each in placed.believed_m)} m, {placed.known}")
-    return f"{', '.join(parts)}; really {placed.error_m * 1e3:.0f} mm and {placed.turned_deg:.0f} deg from there"
+    really = f"really {placed.error_m * 1e3:.0f} mm and {placed.turned_deg:.0f} deg from there"
+    missed = "" if placed.missed_m is None else f", {placed.missed_m * 1e3:.0f} mm from where it should be"
+    return f"{', '.join(parts)}; {really}{missed}"
+
+
+def split_placement(placed: PlacementResult) -> tuple[str, ...]:
+    """Return where a thing should be, is believed to be, how that is known, where it is, and both errors, as text."""
+    where = "" if placed.holder is None else f"{'held by' if placed.is_held else 'in'} {placed.holder}"
+    believed = ", ".join(part for part in (where, _millimetres(placed.believed_m)) if part)
+    known = ", ".join(dict.fromkeys(part for part in (placed.holder_known, placed.known) if part))
+    error, turned = placed.error_m, placed.turned_deg
+    off = "not known" if error is None or turned is None else f"{error * 1e3:.1f} mm, {turned:.1f} deg"
+    missed = "not known" if placed.missed_m is None else f"{placed.missed_m * 1e3:.1f} mm"
+    return (_millimetres(placed.intended_m) or "not stated", believed, known, _millimetres(placed.true_m), off, missed)
+
+
+def _millimetres(place: tuple[float, ...] | None) -> str:
+    return "" if place is None else " ".join(f"{each * 1e3:.0f}" for each in place)
 
 
 def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, str]]:

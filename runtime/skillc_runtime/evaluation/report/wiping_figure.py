@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from io import BytesIO
 
 import matplotlib as mpl
 import numpy as np
@@ -17,7 +15,7 @@ LANES, TOOL, TARGET, WIPING, PAUSED = "#000000", "#d55e00", "#0072b2", "#e8e8e8"
 """Colours that people with colour blindness can distinguish; they also differ in lightness."""
 
 UNWIPED, DOSE, DOSE_ALPHA = "#ffffff", "cividis_r", 0.7
-COLUMN_IN, HEIGHT_IN, DOTS_PER_INCH = 6.2, 8.6, 120
+COLUMN_IN, HEIGHT_IN = 6.2, 8.6
 
 COMPACT: Mapping[str, float] = {"handlelength": 1.5, "columnspacing": 1.2}
 
@@ -26,23 +24,6 @@ BEFORE_CONTACT_S = 1.0
 
 MARGIN_MM = 10.0
 """How much is shown around a surface."""
-
-
-@dataclass(frozen=True, slots=True)
-class FigureFiles:
-    """A figure in two formats, the same bytes for the same drawings."""
-
-    png: bytes
-    svg: bytes
-
-
-def render_figure(drawings: Sequence[WipingDrawing]) -> FigureFiles:
-    """Draw wipings side by side, with contact times on the same scale; ValueError if there are none."""
-    with mpl.rc_context({"font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "svg.hashsalt": "skillc"}):
-        figure = draw_figure(drawings)
-        png = _save(figure, "png", {"Software": ""})
-        figure.set_layout_engine("none")
-        return FigureFiles(png, _save(figure, "svg", {"Date": None, "Creator": None}))
 
 
 def draw_figure(drawings: Sequence[WipingDrawing]) -> Figure:
@@ -120,9 +101,3 @@ def _set_title(axes: Axes, title: str) -> None:
     """Place the title and the legend above the axes."""
     axes.set_title(title, loc="left")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, frameon=False, borderaxespad=0.2, **COMPACT)
-
-
-def _save(figure: Figure, form: str, metadata: dict[str, str | None]) -> bytes:
-    buffer = BytesIO()
-    figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=metadata)
-    return buffer.getvalue()

@@ -8,15 +8,19 @@ from pathlib import Path
 import msgspec
 
 from skillc_runtime.evaluation.report import page
+from skillc_runtime.evaluation.report.figure_files import FigureFiles, NamedFigure, render_figure
+from skillc_runtime.evaluation.report.grip_figure import draw_grips
+from skillc_runtime.evaluation.report.handling_drawing import HandlingDrawing
+from skillc_runtime.evaluation.report.path_figure import draw_path
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
-from skillc_runtime.evaluation.report.wiping_figure import FigureFiles, render_figure
+from skillc_runtime.evaluation.report.wiping_figure import draw_figure
 from skillc_runtime.film.film import FilmFiles
 from skillc_runtime.recording.node_outcome import NodeOutcome
 
 RESULT, REPORT = "result.json", "report.html"
-FIGURE = "wiping"
-"""The name of the figure's files without suffix."""
+WIPING, PATH, GRIPS = "wiping", "path", "grips"
+"""The names of the figures' files without suffix; a number follows if several hands held something."""
 
 
 def write_result(directory: Path, result: TaskResult) -> None:
@@ -30,13 +34,16 @@ def write_report(
     trees: Sequence[NodeOutcome],
     drawings: Sequence[WipingDrawing] = (),
     filmed: FilmFiles | None = None,
+    handlings: Sequence[HandlingDrawing] = (),
 ) -> None:
-    """Write report.html and the figure of wiping; OSError if the folder cannot be written to.
+    """Write report.html and the figures; OSError if the folder cannot be written to.
 
     `trees` are those of all attempts.
     """
-    figure = write_figure(directory, drawings)
-    _write_atomically(directory / REPORT, page.render_page(result, trees, figure, filmed).encode())
+    wiping = write_figure(directory, drawings)
+    figures: tuple[NamedFigure, ...] = () if wiping is None else (NamedFigure(WIPING, "", wiping),)
+    figures += tuple(each for drawing in _number(handlings) for each in _write_handling(directory, *drawing))
+    _write_atomically(directory / REPORT, page.render_page(result, trees, figures, filmed).encode())
 
 
 def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFiles | None:
@@ -46,10 +53,27 @@ def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFi
     """
     if not drawings:
         return None
-    figure = render_figure(drawings)
-    _write_atomically(directory / f"{FIGURE}.png", figure.png)
-    _write_atomically(directory / f"{FIGURE}.svg", figure.svg)
+    figure = render_figure(lambda: draw_figure(drawings))
+    _write_files(directory, WIPING, figure)
     return figure
+
+
+def _number(handlings: Sequence[HandlingDrawing]) -> list[tuple[HandlingDrawing, str]]:
+    """Return drawings with what is added to the names of their files: nothing if there is only one."""
+    return [(each, f"-{number}" if len(handlings) > 1 else "") for number, each in enumerate(handlings, 1)]
+
+
+def _write_handling(directory: Path, drawing: HandlingDrawing, number: str) -> tuple[NamedFigure, ...]:
+    """Write the figures of what one hand did."""
+    path, grips = render_figure(lambda: draw_path(drawing)), render_figure(lambda: draw_grips(drawing))
+    _write_files(directory, PATH + number, path)
+    _write_files(directory, GRIPS + number, grips)
+    return NamedFigure(PATH, drawing.hand, path), NamedFigure(GRIPS, drawing.hand, grips)
+
+
+def _write_files(directory: Path, name: str, figure: FigureFiles) -> None:
+    _write_atomically(directory / f"{name}.png", figure.png)
+    _write_atomically(directory / f"{name}.svg", figure.svg)
 
 
 def _write_atomically(path: Path, content: bytes) -> None:
