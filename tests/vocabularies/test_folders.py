@@ -94,7 +94,7 @@ def test_the_environment_names_folders_too_and_the_option_leaves_no_trace(
 
 def test_a_contradiction_stops_every_command_at_its_line(library: Path) -> None:
     with (library / "plant.ttl").open("a") as file:
-        file.write("plant:Cart a owl:Class ; rdfs:subClassOf skiros:Location, skiros:Product .\n")
+        file.write("plant:Cart a owl:Class ; rdfs:subClassOf skiros:PlacingPose, skiros:Product .\n")
     result = run("check", library, "--ontology", "stock", "--format", "json")
     assert errors(result) == [("impossible-class", "lib/plant.ttl", 6)] and result.exit_code == 1
     assert run("compile", library, "--ontology", "stock", "-o", "out").exit_code == 1

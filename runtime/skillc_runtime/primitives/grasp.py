@@ -10,7 +10,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
-from skillc_runtime.world.space.frames import pose, relocation_changes, size
+from skillc_runtime.world.space.frames import pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasps import width_between
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
 from skillc_runtime.world.state.data_sheet import number_of
@@ -176,7 +176,7 @@ class Release(Primitive):
         world.commit([RemoveRelation(self._hand, CONTAIN, self._object)], "Release", "sensed")
         world.commit(
             (
-                *relocation_changes(world.snapshot(), self._object, left_at),
+                *put_down_changes(world.snapshot(), self._object, left_at, self._to),
                 AddRelation(self._to, CONTAIN, self._object),
             ),
             "Release",

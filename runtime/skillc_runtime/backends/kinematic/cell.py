@@ -8,6 +8,7 @@ import mujoco
 
 from skillc_runtime.backends.kinematic.arm import KinematicArm
 from skillc_runtime.backends.kinematic.gripper import KinematicGripper
+from skillc_runtime.backends.kinematic.riders import Riders
 from skillc_runtime.backends.kinematic.touch import Touch
 from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, SimulatedCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
@@ -84,6 +85,7 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         return {c.individual: SimulatedPoseCamera(c, names, self.model, self.data, None) for c in self.scene.cameras}
 
     def _prepare(self) -> None:
+        self._riders = {arm: Riders(self.scene, self.model, self.data) for arm in self._hands}
         self._touch = Touch(self.scene, list(self.arms.values()), self.model, self.data)
         self._compute_state()
 
@@ -111,15 +113,18 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         mujoco.mj_sensorVel(model, data)
 
     def _place_held(self) -> bool:
-        """Place what arms hold in their hands; tell whether they hold anything."""
+        """Place what arms hold in their hands, with what stands on it; tell whether they hold anything."""
         found = False
         for number, (individual, arm) in enumerate(self.arms.items()):
             gripper = self._hands.get(individual)
-            self._touch.hold(number, None if gripper is None else gripper.carries)
-            if gripper is not None and gripper.carries is not None:
+            if gripper is None:
+                continue
+            if gripper.carries is not None:
                 twist, centre = arm.motion
                 gripper.move_held(centre, twist)
                 found = True
+            riders = self._riders[individual].follow(gripper.carries)
+            self._touch.hold(number, gripper.carries, riders)
         return found
 
     def _observe(self, now: float) -> None:

@@ -21,7 +21,7 @@ FINGERS, TOOL = 0, 1
 """The carriers of arm i, 2 i + this: its fingers, and the tool that they hold."""
 
 FIXED, FREE = -1, -2
-"""Marks geoms that no arm carries: those that are touched, and free tools, which are gripped, but not touched."""
+"""Marks geoms that no arm carries: those that all touch, and things that lie free, which fingers only grip."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +150,9 @@ def compute_contacts(forces: Forces, points: Points, motion: Motion, carrier: Ve
         first, second = int(points.geoms[n, 0]), int(points.geoms[n, 1])
         ours, theirs, sign = (first, second, -1.0) if carrier[first] >= 0.0 else (second, first, 1.0)
         who, place = int(carrier[ours]), points.place[n]
-        if points.distance[n] >= 0.0 or who < 0 or carrier[theirs] != FIXED:
+        if points.distance[n] >= 0.0 or who < 0 or carrier[theirs] >= 0.0:
+            continue
+        if who % 2 == FINGERS and carrier[theirs] != FIXED:
             continue
         for i in range(3):
             normal[i] = sign * points.normal[n, i]

@@ -31,7 +31,7 @@ PAD_POINTS = 8
 
 
 class Touch:
-    """All contacts of a cell, updated once a step. Tools and bodies that nobody holds touch only fingers."""
+    """All contacts of a cell, updated once a step. What nobody holds touches fingers and what is held."""
 
     def __init__(self, scene: SceneSpec, arms: Sequence[KinematicArm], model: Any, data: Any) -> None:
         names, parts, count = scene.names, YieldingParts(scene, model, data), len(arms)
@@ -39,6 +39,7 @@ class Touch:
         self._geoms = {each.individual: geoms_of(model, names[each.individual]) for each in scene.graspable}
         self._bits = model.geom_contype.copy(), model.geom_conaffinity.copy()
         self._held: list[str | None] = [None] * count
+        self._carried: list[tuple[str, ...]] = [()] * count
         self._pads = {each.individual: each for each in scene.tools if not each.rigid}
         self._stiffness: OutVector = np.full(2 * count, RIGID_N_M)
         self._carrier: OutVector = np.full(model.ngeom, float(FIXED))
@@ -55,15 +56,17 @@ class Touch:
         self._forces, self._touched = make_forces(count, model.ngeom, parts.count), False
         self._sensors = ContactSensors(scene, self._forces, model, data)
 
-    def hold(self, number: int, tool: str | None) -> None:
-        """Let the arm of a number carry a tool from now on, or none."""
+    def hold(self, number: int, tool: str | None, riders: Sequence[str] = ()) -> None:
+        """Let the arm of a number carry a tool, with what stands on it, from now on, or none."""
         before, self._held[number] = self._held[number], tool
         if before == tool:
             return
-        if before is not None:
-            self._set_carrier(before, FREE)
+        for each in self._carried[number]:
+            self._set_carrier(each, FREE)
+        self._carried[number] = () if tool is None else (tool, *riders)
+        for each in self._carried[number]:
+            self._set_carrier(each, 2 * number + TOOL)
         if tool is not None:
-            self._set_carrier(tool, 2 * number + TOOL)
             pad = self._pads.get(tool)
             stiffness = RIGID_N_M if pad is None else pad.sheet.number("padStiffness") / PAD_POINTS
             self._stiffness[2 * number + TOOL] = stiffness

@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import mujoco
-import numpy as np
-
-from skillc_runtime.backends.simulation.contact_bits import CARRIES, HANDLE, WORKS
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.standing import find_standing
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
-
-STANDS_M = 0.003
-"""Things at most this far from a base, or from what stands on it, stand on it."""
 
 
 class Cargo:
@@ -38,7 +32,7 @@ class Cargo:
             self._loaded = None
             return
         if self._loaded is None:
-            self._loaded = self._find_standing()
+            self._loaded = find_standing(self._model, self._data, self._base, self._free_blocks())
         for hand in self._own:
             hand.move_with_base(motion)
         for block in self._loaded:
@@ -55,25 +49,3 @@ class Cargo:
         """Return the numbers of the bodies of things that no hand carries."""
         carried = {hand.carries for hand in self._all}
         return [block for each, block in self._blocks.items() if each not in carried]
-
-    def _find_standing(self) -> list[int]:
-        """Return the bodies of things that stand on the base or on each other."""
-        left = {block: self._geoms(block) for block in self._free_blocks()}
-        touching, found = self._geoms(self._base), list[int]()
-        while near := [block for block, geoms in left.items() if self._is_near(geoms, touching)]:
-            found += near
-            touching = [geom for block in near for geom in left.pop(block)]
-        return found
-
-    def _geoms(self, root: int) -> list[int]:
-        """Return the geoms of a body and of all that is attached to it, but for links of arms."""
-        kinds, roots = self._model.geom_contype, self._model.body_rootid[self._model.geom_bodyid]
-        return [int(g) for g in np.flatnonzero((roots == root) & (kinds & (CARRIES | WORKS | HANDLE) > 0))]
-
-    def _is_near(self, ones: list[int], others: list[int]) -> bool:
-        model, data, none = self._model, self._data, np.zeros(6)
-        return any(
-            mujoco.mj_geomDistance(model, data, one, other, 2 * STANDS_M, none) < STANDS_M
-            for one in ones
-            for other in others
-        )

@@ -15,6 +15,8 @@ from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
     FACE,
     FRAME_ID,
+    MANIPULATABLE,
+    MOBILE_ROBOT,
     OFFSET,
     ON,
     OPENING,
@@ -107,6 +109,28 @@ def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[Chan
         short = state.vocabulary.short
         raise FrameError(f"{short(carrier)} moves with {short(thing)}, so it cannot carry it")
     return relocation_changes(state, thing, relative_pose(state, carrier, thing), _frame(state, carrier))
+
+
+def put_down_changes(state: WorldState, thing: str, at: Pose, place: str) -> list[Change]:
+    """Return the changes that place an object at a pose in the world, on or in a place that now contains it.
+
+    It moves with a place that can move: a thing to handle, such as a tray, a drawer, or what a mobile robot carries.
+    """
+    if not _can_move(state, place):
+        return relocation_changes(state, thing, at)
+    frame = state.value(place, FRAME_ID)
+    named = [] if isinstance(frame, str) else [SetProperty(place, FRAME_ID, state.vocabulary.short(place))]
+    in_place = pose(state, place).inverse() @ at
+    return [*named, *relocation_changes(state, thing, in_place, str(frame or state.vocabulary.short(place)))]
+
+
+def _can_move(state: WorldState, place: str) -> bool:
+    try:
+        robots = [each for each in state.instances(MOBILE_ROBOT) if moves_with(state, place, each)]
+    except FrameError:
+        return False
+    slides = TRAVEL in state.stored and state.value(place, TRAVEL) is not None
+    return bool(robots) or slides or state.is_a(place, MANIPULATABLE)
 
 
 def normal(state: WorldState, surface: str) -> Array:
