@@ -45,9 +45,9 @@ CHOICES = {
 def test_what_was_waited_for_is_seen_when_it_came() -> None:
     tree = call(1, "success", 0.0, 9.0, call(2, "success", 3.0, 4.0), call(3, "success", 5.0, 6.0))
     assert find_moments((), [tree], CHOICES, STATE, TRUTH) == (
-        Moment("lab:Button pressed", 4.0, "http://lab#Arm"),
-        Moment("lab:Hole found", 5.0, "http://lab#Arm"),
-        Moment("lab:Hole filled", 6.0, "http://lab#Arm"),
+        Moment("Button pressed", 4.0, "http://lab#Arm"),
+        Moment("Hole found", 5.0, "http://lab#Arm"),
+        Moment("Hole filled", 6.0, "http://lab#Arm"),
     )
 
 

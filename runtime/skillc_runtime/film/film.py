@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.devices.simulation import Drawing, Posture, Simulation
+from skillc_runtime.film.overlay import Overlay, Overlays
 from skillc_runtime.film.picture_files import FilmError, write_film, write_picture
 from skillc_runtime.film.props import make_props
 from skillc_runtime.film.rendering import CameraView, Picture, Quality, Renderer
@@ -87,7 +88,8 @@ class Film:
         """Film a cell; `drawn` is the model to render, with the same joints, if it is not that of the cell."""
         self._clock, self._drawing = simulation.clock, simulation.drawing
         self._drawn = self._drawing.model if drawn is None else drawn
-        self._frames: list[Posture] = []
+        self._frames: list[tuple[Posture, Overlay]] = []
+        self._overlays = Overlays(simulation)
         state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
         self._arms = {arm: _camera_target(self._drawing, state, arm) for arm in sorted(state.instances(ARM_DEVICE))}
         present = filter(truth.is_present, sorted(state.instances(SURFACE)))
@@ -98,7 +100,7 @@ class Film:
     def sample(self) -> None:
         """Sample a frame if one is due."""
         if self._clock.now * FRAMES_PER_S / SPEED_UP >= len(self._frames):
-            self._frames.append(self._drawing.posture())
+            self._frames.append((self._drawing.posture(), self._overlays.sample()))
 
     def write(self, directory: Path, moments: Sequence[Moment] = ()) -> FilmFiles:
         """Render all frames to film.mp4, and stills of some moments to PNG.
@@ -120,10 +122,12 @@ class Film:
     def pictures(self) -> Iterator[Picture]:
         """Render the frames, each (HEIGHT, WIDTH times the number of arms, 3)."""
         with self._renderer(WIDTH, HEIGHT, "film") as (renderer, data):
-            for frame in self._frames:
-                self._show(data, frame)
+            for posture, overlay in self._frames:
+                self._show(data, posture)
+                ghosts = replace(overlay, labels=())
                 pictures = [
-                    renderer.picture(data, (_arm_view(data, arm), _hand_view(data, arm))) for arm in self._arms.values()
+                    renderer.picture(data, (_arm_view(data, arm), _hand_view(data, arm)), ghosts)
+                    for arm in self._arms.values()
                 ]
                 yield np.concatenate(pictures, axis=1)
 
@@ -134,8 +138,9 @@ class Film:
         with self._renderer(STILL_WIDTH, STILL_HEIGHT, "still") as (renderer, data):
             for moment in moments:
                 at = min(round(moment.time * FRAMES_PER_S / SPEED_UP), len(self._frames) - 1)
-                self._show(data, self._frames[at])
-                yield renderer.picture(data, (_hand_view(data, self._arms[moment.arm], CLOSER_M),))
+                posture, overlay = self._frames[at]
+                self._show(data, posture)
+                yield renderer.picture(data, (_hand_view(data, self._arms[moment.arm], CLOSER_M),), overlay)
 
     @contextmanager
     def _renderer(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:

@@ -1,4 +1,4 @@
-"""Boxes that pictures show in addition to the model: a wall behind an upright surface, legs under a horizontal one."""
+"""Solids that pictures show in addition to the model: a wall behind an upright surface, legs under a horizontal one."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from itertools import product
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.solids import Kind
 
 UPRIGHT = 0.7
 """A surface is upright if the vertical component of its normal is smaller."""
@@ -21,11 +22,12 @@ LEG_RGBA, WALL_RGBA = (0.45, 0.47, 0.5, 1.0), (0.72, 0.76, 0.8, 1.0)
 
 @dataclass(frozen=True, slots=True)
 class Prop:
-    """A box in the world: the pose of its centre, its size (3,) in m, its colour."""
+    """A solid in the world: the pose of its centre, the size (3,) in m of its box, its colour, its shape."""
 
     pose: Pose
     size: Array
     rgba: tuple[float, float, float, float]
+    kind: Kind = "box"
 
 
 def make_props(surface: Pose, size: Array) -> tuple[Prop, ...]:

@@ -10,7 +10,6 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.report.hand_trace import HandPath, HandTrace
 from skillc_runtime.evaluation.report.handlings import Handling
@@ -19,6 +18,7 @@ from skillc_runtime.world.space.bodies import read_bodies, read_body
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.outlines import outline_points
+from skillc_runtime.world.state.labelled import name_in_words
 from skillc_runtime.world.state.terms import CONTAINER, TOOL
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -77,11 +77,6 @@ def make_handling_drawings(
     return tuple(
         _draw([each for each in drawn if each.gripper == gripper], gripper, trace, state, truth) for gripper in grippers
     )
-
-
-def name_in_words(iri: str) -> str:
-    """Return the name of an individual as words: `Box A` for `lab:Box-A`."""
-    return local_name(iri).replace("-", " ").replace("_", " ")
 
 
 def _draw(

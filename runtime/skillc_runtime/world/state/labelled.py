@@ -151,6 +151,11 @@ def label(iri: str, vocabulary: Vocabulary) -> LabelledIri:
     return LabelledIri(iri, vocabulary.short(iri))
 
 
+def name_in_words(iri: str) -> str:
+    """Return the name of an individual as words, for titles: `Box A` for `lab:Box-A`."""
+    return local(iri).replace("-", " ").replace("_", " ")
+
+
 def label_term(iri: str) -> LabelledIri:
     """Return a relation or a property with its local name, as in conditions."""
     return LabelledIri(iri, local(iri))

@@ -1,0 +1,78 @@
+"""What pictures show besides the simulation: names of things, and ghosts where things are only believed to be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.film.props import Prop
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.bodies import RigidBody, read_bodies
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.labelled import name_in_words
+from skillc_runtime.world.state.terms import CONTAINER
+
+ELSEWHERE_M = 0.005
+"""There is a ghost if a thing is believed to be farther than this from where it is."""
+
+GHOST_RGBA = (0.1, 0.75, 0.95, 0.45)
+
+ABOVE_M = 0.012
+"""Distance of a name above the thing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A text at a point (3,) in m of the world."""
+
+    text: str
+    point: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Overlay:
+    """The ghosts and names of one frame."""
+
+    ghosts: tuple[Prop, ...] = ()
+    labels: tuple[Label, ...] = ()
+
+
+class Overlays:
+    """Makes the overlay of each frame: ghosts of the things that a skill can move, names of those and of containers."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._world, self._truth = simulation.cell.world, simulation.ground_truth
+        state = self._world.snapshot()
+        bodies = read_bodies(state)
+        self._movable = tuple(each for each in bodies if each.movable)
+        self._fixed = tuple(
+            _label(each, each.pose) for each in bodies if not each.movable and state.is_a(each.individual, CONTAINER)
+        )
+
+    def sample(self) -> Overlay:
+        """Return the overlay of the present instant."""
+        state = self._world.snapshot()
+        ghosts, labels = list[Prop](), list(self._fixed)
+        for body in self._movable:
+            really = self._truth.body_pose(body.individual)
+            labels.append(_label(body, really))
+            with suppress(FrameError):
+                believed = pose(state, body.individual)
+                if np.linalg.norm(believed.position - really.position) > ELSEWHERE_M:
+                    ghosts += _ghost(body, believed)
+        return Overlay(tuple(ghosts), tuple(labels))
+
+
+def _ghost(body: RigidBody, at: Pose) -> Iterator[Prop]:
+    for solid in body.solids:
+        yield Prop(at @ solid.place, 2.0 * np.array(solid.half), GHOST_RGBA, solid.kind)
+
+
+def _label(body: RigidBody, at: Pose) -> Label:
+    above = float(np.abs(at.rotation[2]) @ body.size) / 2 + ABOVE_M
+    return Label(name_in_words(body.individual), at.position + np.array([0.0, 0.0, above]))
