@@ -16,7 +16,8 @@ from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import ARM_DEVICE
-from tree.stage import DEVICE, DEVICES, FLAGS, ON, THE_FLAG, Library, Script, Stage, act, call, here, is_on, world
+from tree.library import DEVICE, DEVICES, FLAGS, ON, THE_FLAG, Library, act, call, here, is_on, world
+from tree.stage import Script, Stage
 
 THE_ARM = Parameter(name="arm", direction="in", type=ClassType(DEVICE), source=here())
 TOO_MUCH = Measures("force", ">", Literal(25.0))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from skillc_runtime.control.guarded_push import Pressing, advance_approach, advance_pressing, begin_approach
-from skillc_runtime.devices.arm_driver import Contact, GuardedPush, Standstill, Travel
+from skillc_runtime.devices.guarded_push import Contact, GuardedPush, Standstill, Travel
 
 PUSH = GuardedPush(np.array([0.0, 0.0, 1.0]), 10.0, approach_m_s=0.05, travel=Travel(0.12))
 

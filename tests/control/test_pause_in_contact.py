@@ -5,7 +5,7 @@ import pytest
 from rig import GAINS, Bench
 
 from skillc_runtime.control.compliance_control import LIFT_M
-from skillc_runtime.devices.arm_driver import GuardedPush, Travel
+from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits

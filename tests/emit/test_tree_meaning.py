@@ -20,7 +20,8 @@ from skillc_model.traversal import walk
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.changes import SetProperty
-from tree.stage import ON, PERIOD_S, Script, here, world
+from tree.library import ON, here, world
+from tree.stage import PERIOD_S, Script
 from tree.strategies import Play, plays
 from tree.test_against_reference import TICKS, by_reference
 

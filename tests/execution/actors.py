@@ -20,7 +20,8 @@ from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import AddIndividual, SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
-from tree.stage import DEVICE, DEVICES, FLAG, FLAGS, ON, VOCABULARY, Script
+from tree.library import DEVICE, DEVICES, FLAG, FLAGS, ON, VOCABULARY
+from tree.stage import Script
 
 SCENE = "iiwa_table"
 KINDS = ("MoveLinear", "MoveJoints", "ReleaseAxis", "Pushing", "OverlayCircle", "ThreeFingerGripper")

@@ -21,7 +21,8 @@ from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Event, StateChanged, TaskEnded
 from skillc_runtime.recording.run_settings import RunSettings
-from tree.stage import Library, Script, Stage, world
+from tree.library import Library, world
+from tree.stage import Script, Stage
 
 E = TypeVar("E", bound=Event)
 B = TypeVar("B", bound=Backend)

@@ -26,7 +26,7 @@ from skillc_runtime.recording.events import Event, NodeEnded, Requested, StateCh
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
-from tree.stage import FLAGS, ON
+from tree.library import FLAGS, ON
 from tree.strategies import Play, plays
 
 MOST_TICKS = 400

@@ -13,7 +13,8 @@ from plans.depot import iri
 from skillc_runtime.execution.cell_loop import MAX_REQUESTS, TooManyRequests
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import PlanArrived, Requested, StateChanged, TaskEnded
-from tree.stage import Script, act
+from tree.library import act
+from tree.stage import Script
 
 
 def two_robots() -> Yard:

@@ -14,7 +14,7 @@ from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import NodeEnded, Note, TaskEnded
 from skillc_runtime.world.state.python_calls import EvaluationError, call_python, load_python
-from tree.stage import Library, act, seq, with_
+from tree.library import Library, act, seq, with_
 
 
 class PanicError(BaseException):

@@ -12,7 +12,7 @@ from skillc_runtime.execution.tree.gate import AtSkill, Gate
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Paused, Resumed
-from tree.stage import Library, act, call, here, par, seq, with_
+from tree.library import Library, act, call, here, par, seq, with_
 
 
 def test_pause_holds_everything_until_it_is_resumed() -> None:

@@ -26,7 +26,8 @@ from skillc_runtime.recording.events import Note, Requested, TaskEnded, WorldCha
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty, LabelledRelation
-from tree.stage import FLAGS, ON, Library, Script, act, call, with_
+from tree.library import FLAGS, ON, Library, act, call, with_
+from tree.stage import Script
 
 
 @dataclass(frozen=True)

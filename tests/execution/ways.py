@@ -12,7 +12,8 @@ from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
-from tree.stage import ON, Library, Script, act, call, here
+from tree.library import ON, Library, act, call, here
+from tree.stage import Script
 
 LONG = Script(ticks=500)
 SHORT = Script(ticks=5)

@@ -42,7 +42,7 @@ from skillc_runtime.world.state.terms import (
     WEIGHT,
 )
 from skillc_runtime.world.state.world_state import WorldState
-from tree.stage import Library, call, par, with_
+from tree.library import Library, call, par, with_
 
 EYE = LAB + "Eye-1"
 GRIPPER_EFFECTOR, WORKSTATION = RPARTS + "GripperEffector", SKILLC + "Workstation"

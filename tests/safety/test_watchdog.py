@@ -15,7 +15,7 @@ from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event
-from tree.stage import call
+from tree.library import call
 
 
 def moving(scene: str) -> tuple[object, TreeRun, list[Event]]:

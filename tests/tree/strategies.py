@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from skillc_model import tree
 from skillc_model.conditions import Compare, Condition, Individual, Literal, PropertyOf
 from skillc_model.skills import SkillLibrary
-from tree.stage import DEVICES, ON, PERIOD_S, SCRIPTED, Library, Script, call, here, par, sel, seq, with_
-from tree.stage import FLAGS as ALL_FLAGS
+from tree.library import DEVICES, ON, SCRIPTED, Library, call, here, par, sel, seq, with_
+from tree.library import FLAGS as ALL_FLAGS
+from tree.stage import PERIOD_S, Script
 
 FLAGS = ALL_FLAGS[:2]
 """Few, so that switches often matter."""

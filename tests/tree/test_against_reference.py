@@ -10,9 +10,10 @@ from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.changes import SetProperty
+from tree.library import FLAGS, ON, world
 from tree.reference import run, unwind
 from tree.reference_model import Model, Result, Scope
-from tree.stage import FLAGS, ON, PERIOD_S, Stage, world
+from tree.stage import PERIOD_S, Stage
 from tree.strategies import Play, plays
 
 TICKS = 40

@@ -15,7 +15,7 @@ from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.world.state.changes import SetProperty
-from tree.stage import (
+from tree.library import (
     FLAG,
     FLAGS,
     NAME,
@@ -25,8 +25,6 @@ from tree.stage import (
     VALUE,
     WRITTEN,
     Library,
-    Script,
-    Stage,
     act,
     call,
     here,
@@ -36,6 +34,7 @@ from tree.stage import (
     seq,
     world,
 )
+from tree.stage import Script, Stage
 
 OUT = parameter("word", TEXT, "out")
 

@@ -11,7 +11,8 @@ from skillc_model.skills import KEEP_S, Compound, PausePolicy, Skill
 from skillc_runtime.execution.tree.gate import AtLine, AtSkill, Breakpoint, Gate, StepKind, keep_s
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from tree.stage import PERIOD_S, Library, Script, Stage, act, call, here, par, seq, world
+from tree.library import Library, act, call, here, par, seq, world
+from tree.stage import PERIOD_S, Script, Stage
 
 
 @dataclass

@@ -12,24 +12,8 @@ from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
-from tree.stage import (
-    DEVICES,
-    FLAGS,
-    ON,
-    PERIOD_S,
-    Library,
-    Script,
-    Scripted,
-    Stage,
-    act,
-    call,
-    here,
-    par,
-    seq,
-    stage,
-    with_,
-    world,
-)
+from tree.library import DEVICES, FLAGS, ON, Library, act, call, here, par, seq, with_, world
+from tree.stage import PERIOD_S, Script, Scripted, Stage, stage
 
 LONG = Script(ticks=1000)
 

@@ -14,7 +14,8 @@ from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.execution.tree.run_cell import RunCell
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, Listener, Paused, Resumed
-from tree.stage import PERIOD_S, Library, Script, Scripted, Stage, act, here, par, seq, stage, with_, world
+from tree.library import Library, act, here, par, seq, with_, world
+from tree.stage import PERIOD_S, Script, Scripted, Stage, stage
 
 LONG = Script(ticks=1000)
 

@@ -7,7 +7,8 @@ from skillc_model.conditions import Individual
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.changes import SetProperty
-from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, check, here, is_on, par, sel, seq, world
+from tree.library import FLAGS, ON, Library, act, call, check, here, is_on, par, sel, seq, world
+from tree.stage import Script, Stage
 
 IS_ON = is_on(Individual(FLAGS[0]))
 LONG = Script(ticks=1000)

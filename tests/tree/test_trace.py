@@ -47,7 +47,8 @@ from skillc_runtime.world.state.labelled import (
     Quantity,
     ValueList,
 )
-from tree.stage import FLAGS, ON, Library, Script, Stage, act, call, sel, seq, world
+from tree.library import FLAGS, ON, Library, act, call, sel, seq, world
+from tree.stage import Script, Stage
 
 
 def heard(body: object, cell: Stage) -> tuple[TreeRun, list[Event]]:

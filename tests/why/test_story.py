@@ -29,7 +29,8 @@ from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.node_records import AttemptRecord, NodeRecords
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri
-from tree.stage import FLAGS, ON, PERIOD_S, Library, Script, Stage, act, check, here, par, seq, world
+from tree.library import FLAGS, ON, Library, act, check, here, par, seq, world
+from tree.stage import PERIOD_S, Script, Stage
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of
 

@@ -10,7 +10,7 @@ import numpy as np
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.guarded_push import FALL_SHARE, ActivePush, GivenUp
 from skillc_runtime.devices.arm import ArmState
-from skillc_runtime.devices.arm_driver import GuardedPush, PushProgress
+from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
 from skillc_runtime.motion.pose import Array
 
 LIFT_M = 0.02

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias, assert_never
 
 from skillc_runtime.devices.arm import ArmState
-from skillc_runtime.devices.arm_driver import Contact, GuardedPush, Standstill, StopCondition, Travel
+from skillc_runtime.devices.guarded_push import Contact, GuardedPush, Standstill, StopCondition, Travel
 from skillc_runtime.motion.pose import Array
 
 STEADY_SHARE, STEADY_S = (2 / 3, 3 / 2), 0.02

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from skillc_runtime.devices.arm_driver import GuardedPush, PushProgress, Travel
+from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress, Travel
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.known_limits import find_excess

@@ -13,6 +13,7 @@ from skillc_runtime.backends.simulation.base import SimulatedBase
 from skillc_runtime.backends.simulation.button import SimulatedButton, make_buttons
 from skillc_runtime.backends.simulation.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cargo import Cargo
+from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
@@ -74,6 +75,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._prepare()
         drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
         self._drivers = DeviceMap("arm", drivers, names)
+        self._stopper = DeviceStopper(self._drivers, self._grippers, self._bases, names)
         poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
         self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
         self._observers = {
@@ -123,10 +125,7 @@ class ModelledCell(ABC, Generic[A, G]):
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices, all if None, neither move nor push; nothing moves once the cell is broken."""
-        if self._broken is not None:
-            return True
-        moving: dict[str, CompliantArmDriver | SimulatedBase] = {**self._drivers, **self._bases}
-        return all(each.at_rest for name, each in moving.items() if devices is None or name in devices)
+        return self._broken is not None or self._stopper.at_rest(devices)
 
     @property
     def period_s(self) -> float:
@@ -180,7 +179,7 @@ class ModelledCell(ABC, Generic[A, G]):
 
     def hold_period(self) -> None:
         """Let a control period pass without commands: arms hold still by themselves, grippers and bases stop."""
-        self._stop_devices()
+        self._stopper.stop()
         for _ in range(self._steps_per_command):
             self._move_devices(self.data.time)
 
@@ -192,25 +191,14 @@ class ModelledCell(ABC, Generic[A, G]):
 
     def stop_all(self, reason: str) -> None:
         """Stop all devices; arms report the reason as a fault."""
-        for arm in self._drivers.values():
-            arm.abort(reason)
-        self._stop_devices()
+        self._stopper.abort(reason)
 
     def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
         """Stop devices, all if None, and pushes, and restore releases; return what was not in order.
 
         For the end of a run, however it ended; the result is empty after a regular end.
         """
-        names, found = self.scene.names, []
-        for individual, arm in self._drivers.items():
-            if devices is not None and individual not in devices:
-                continue
-            if (fault := arm.take_fault()) is not None:
-                found.append(f"{names[individual]} had stopped: {fault}")
-            if arm.secure():
-                found.append(f"{names[individual]} was left yielding; it is held stiff again")
-        self._stop_devices(devices)
-        return tuple(found)
+        return self._stopper.secure(devices)
 
     def push_hand(self, arm: str, force_n: Array) -> None:
         """Push the hand of an arm with a force (3,) in N in the world from now on; 0 ends it. KeyError without hand."""
@@ -300,12 +288,3 @@ class ModelledCell(ABC, Generic[A, G]):
         finally:
             if worked and arm.broken is not None:
                 self._report([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken)
-
-    def _stop_devices(self, devices: Collection[str] | None = None) -> None:
-        """Stop grippers and bases, all if None."""
-        for name, gripper in self._grippers.items():
-            if gripper.moving and (devices is None or name in devices):
-                gripper.stop()
-        for name, base in self._bases.items():
-            if not base.at_rest and (devices is None or name in devices):
-                base.stop()

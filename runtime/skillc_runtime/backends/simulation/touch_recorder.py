@@ -47,8 +47,8 @@ class TouchRecorder:
         self._robots = {scene.names[arm.individual] for arm in scene.arms} | self._grippers
         tools = {scene.names[tool.individual] for tool in scene.tools}
         self._parts = [_part(model, geom) for geom in range(model.ngeom)]
-        self._watched = np.array([owner in self._robots | tools for owner, _ in self._parts])
-        self._watched &= model.geom_contype & LINK > 0
+        solid, owners = np.flatnonzero(model.geom_contype & LINK).tolist(), self._robots | tools
+        self._watched = frozenset(geom for geom in solid if self._parts[geom][0] in owners)
         self._found: defaultdict[tuple[str, str], list[OngoingTouch]] = defaultdict(list)
         self._steps, self._count, self._touched = 0, 0, False
 
@@ -67,7 +67,8 @@ class TouchRecorder:
         self._steps += 1
         if self._touched or self._data.ncon != self._count or self._steps == STEPS_PER_LOOK:
             self._steps, self._count = 0, self._data.ncon
-            self._touched = bool(self._watched[self._data.contact.geom].any()) and self._measure(now)
+            touching = self._data.contact.geom.ravel().tolist()
+            self._touched = not self._watched.isdisjoint(touching) and self._measure(now)
 
     def add(self, part: str, other: str, now: float, force_n: float | None) -> None:
         """Add a contact of two parts at `now` s with a force in N, None if it is not known."""

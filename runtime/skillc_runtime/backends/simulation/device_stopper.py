@@ -1,0 +1,55 @@
+"""Brings the devices of a simulated cell to rest, and tells whether they are."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+from skillc_runtime.backends.simulation.base import SimulatedBase
+from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.control.driver import CompliantArmDriver
+
+
+class DeviceStopper:
+    """Stops arms, grippers and bases, each given by IRI; where `devices` is None, all are meant."""
+
+    def __init__(
+        self,
+        arms: Mapping[str, CompliantArmDriver],
+        grippers: Mapping[str, ModelledGripper],
+        bases: Mapping[str, SimulatedBase],
+        names: Mapping[str, str],
+    ) -> None:
+        self._arms, self._grippers, self._bases, self._names = arms, grippers, bases, names
+
+    def at_rest(self, devices: Collection[str] | None = None) -> bool:
+        """Tell whether arms and bases neither move nor push."""
+        moving: dict[str, CompliantArmDriver | SimulatedBase] = {**self._arms, **self._bases}
+        return all(each.at_rest for name, each in moving.items() if devices is None or name in devices)
+
+    def abort(self, reason: str) -> None:
+        """Stop all devices; arms report the reason as a fault."""
+        for arm in self._arms.values():
+            arm.abort(reason)
+        self.stop()
+
+    def stop(self, devices: Collection[str] | None = None) -> None:
+        """Stop grippers and bases."""
+        for name, gripper in self._grippers.items():
+            if gripper.moving and (devices is None or name in devices):
+                gripper.stop()
+        for name, base in self._bases.items():
+            if not base.at_rest and (devices is None or name in devices):
+                base.stop()
+
+    def secure(self, devices: Collection[str] | None = None) -> tuple[str, ...]:
+        """Stop devices and pushes, and restore releases; return what was not in order."""
+        found = []
+        for individual, arm in self._arms.items():
+            if devices is not None and individual not in devices:
+                continue
+            if (fault := arm.take_fault()) is not None:
+                found.append(f"{self._names[individual]} had stopped: {fault}")
+            if arm.secure():
+                found.append(f"{self._names[individual]} was left yielding; it is held stiff again")
+        self.stop(devices)
+        return tuple(found)
