@@ -12,7 +12,7 @@ from skillc_model.properties import Property
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
-FORMAT = 3
+FORMAT = 4
 KEEP_S = 2.0
 """How long a paused tool goes on pressing, in s, if no running skill states it."""
 
@@ -140,12 +140,14 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
 class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
     """A compiled library: the content of library.json, which is all that the runtime loads.
 
-    `format` increases with every change to the meaning of the JSON; `implementations` is keyed by `Skill.name`; `hash`
-    is the hash of the sources; `names` maps each PDDL name to its IRI or skill.
+    `format` increases with every change to the meaning of the JSON; `namespace` is that of the terms it declares;
+    `implementations` is keyed by `Skill.name`; `hash` is the hash of the sources; `names` maps each PDDL name to its
+    IRI or skill.
     """
 
     format: int = FORMAT
     name: str
+    namespace: str
     hash: str
     vocabulary: Vocabulary
     skills: dict[str, Skill] = {}

@@ -11,6 +11,7 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc.services import library_checks
+from skillc.services.checking import CheckRequest, check_paths
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.manual import Page, load_pages, page_names, parse_page
@@ -61,6 +62,8 @@ def problems(page: Page, text: str) -> list[str]:
         case "goal":
             boards = {iri: classes for iri, classes in SCENE.items() if "board" in iri}
             return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]
+        case "project":
+            return in_project(text)
         case _:
             return in_skill_file(page.name, text)
 
@@ -74,6 +77,17 @@ def in_skill_file(name: str, text: str) -> list[str]:
     terms = with_shop() if "shop" in text else vocabulary()
     outcome = compile([Source("example.skill", text)], terms, shelf(), "example", {"rest": SCENE})
     return [d.name for d in outcome.diagnostics]
+
+
+def in_project(text: str) -> list[str]:
+    """Return the names of the problems of a `skillc.toml`, beside a library `grasping` and a lock file."""
+    with TemporaryDirectory() as folder:
+        Path(folder, "example.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
+        Path(folder, "skillc.toml").write_text(text, "utf-8")
+        Path(folder, "skillc.lock").write_text("", "utf-8")
+        Path(folder, "grasping").mkdir()
+        Path(folder, "grasping/skillc.toml").write_text('name = "grasping"\n', "utf-8")
+        return [d.name for d in check_paths(CheckRequest((Path(folder),))).diagnostics]
 
 
 @cache

@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc.lsp.files import importable_files
 from skillc.services.libraries import load_vocabulary
-from skillc.services.library_files import SHIPPED
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.ide import highlighting, outline
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
 from skillc_compiler.ide.calls import find_signature
@@ -38,7 +37,8 @@ def broken(text: str, chance: random.Random) -> str:
 def understood(text: str) -> Analysis:
     """Analyse a text as the only file of a library."""
     return analyse(
-        Library("l", {"a.skill": Source("a.skill", text)}, importable_files(), load_vocabulary()), remembered
+        Library("l", {"a.skill": Source("a.skill", text)}, find_library(SHIPPED / "std").importable, load_vocabulary()),
+        remembered,
     )
 
 

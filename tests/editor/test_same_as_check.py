@@ -108,3 +108,25 @@ def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:
     shown = libraries.view(file.as_uri()).analysis.problems
     assert shown
     assert [(each.name, each.span.line) for each in shown] == [(each.name, each.span.line) for each in checked]
+
+
+def test_a_project_is_what_it_is_for_check(tmp_path: Path) -> None:
+    (tmp_path / "parts/sub").mkdir(parents=True)
+    (tmp_path / "parts/skillc.toml").write_text('name = "parts"\n', "utf-8")
+    (tmp_path / "parts/terms.skill").write_text("use skiros\nclass Bolt < Product\n", "utf-8")
+    manifest = tmp_path / "skillc.toml"
+    manifest.write_text('name = "mine"\n[dependencies]\nparts = { path = "parts" }\n', "utf-8")
+    file = tmp_path / "nuts.skill"
+    file.write_text('import "parts/terms.skill"\nclass Nut < Bolt\nclass Wheel < Bold\n', "utf-8")
+    libraries = Libraries(())
+    libraries.write(file.as_uri(), file.read_text("utf-8"))
+    (problem,) = libraries.view(file.as_uri()).analysis.problems
+    assert (problem.name, problem.span.line) == ("unknown-class", 3)
+    assert (
+        "https://w3id.org/skillc/library/mine#Nut" in libraries.view(file.as_uri()).analysis.program.vocabulary.classes
+    )
+    manifest.write_text('name = "mine"\n[dependencys]\n', "utf-8")
+    libraries.forget(manifest)
+    root = libraries.view(file.as_uri()).root
+    told = diagnostics_by_uri(libraries, root, libraries.analysis(root), "utf-16")
+    assert [(each.code, each.range.start.line) for each in told[manifest.as_uri()]] == [("unknown-key", 1)]

@@ -8,7 +8,7 @@ from pygls.exceptions import JsonRpcException
 
 from editor.desk import Desk
 from editor.texts import MOTION, PRESS, marked, replaced
-from skillc_compiler.resolve.declarations import LIBRARY_NAMESPACE
+from skillc_compiler.resolve.files import library_namespace
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
@@ -91,7 +91,7 @@ async def test_renaming_what_a_shorthand_means_spells_it_out(desk: Desk) -> None
 
 async def test_a_class_that_a_scene_uses_is_not_renamed_behind_its_back(desk: Desk) -> None:
     desk.library(motion=MOTION)
-    prefixes = f"@prefix lab: <http://example.org/lab#> .\n@prefix own: <{LIBRARY_NAMESPACE}{desk.folder.name}#> .\n"
+    prefixes = f"@prefix lab: <http://example.org/lab#> .\n@prefix own: <{library_namespace(desk.folder.name)}> .\n"
     (desk.folder / "cell.ttl").write_text(f"{prefixes}lab:Recipe-1 a own:Recipe .\n")
     task = 'task go {\n    scene "cell.ttl"\n    goal  lab:Recipe-1 is Recipe\n}\n'
     text = f"prefix lab: <http://example.org/lab#>\nclass Recipe < Thing\n{task}"

@@ -239,6 +239,7 @@ def library(*skills: Skill, implementations: tuple[Implementation, ...] = ()) ->
     )
     bare = SkillLibrary(
         name="sample",
+        namespace="https://w3id.org/skillc/library/sample#",
         hash="0123abcd",
         vocabulary=vocabulary(),
         skills={each.name: each for each in skills},

@@ -15,7 +15,6 @@ import pytest
 from emit.reasoner import classified, needs_java
 from emit.test_shipped import wiping
 from skillc_compiler.emit import owl
-from skillc_compiler.emit.owl.words import library_base
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
 from skillc_model.skills import Implementation, SkillLibrary
@@ -130,7 +129,7 @@ def test_subsumption_is_specificity(number: int) -> None:
     library, seen = libraries()[number], 0
     for skill in library.skills.values():
         ways = library.implementations_of(skill.name)
-        found = {each.name: world(number)[f"{library_base(library)}{skill.name}.{each.name}"] for each in ways}
+        found = {each.name: world(number)[f"{library.namespace}{skill.name}.{each.name}"] for each in ways}
         for one, other in permutations(ways, 2):
             if alike(one, other):
                 continue
@@ -145,7 +144,7 @@ def test_nothing_less_specific_is_tried_first(number: int) -> None:
     library, seen = libraries()[number], 0
     for skill in library.skills.values():
         ways = library.implementations_of(skill.name)
-        found = [world(number)[f"{library_base(library)}{skill.name}.{each.name}"] for each in ways]
+        found = [world(number)[f"{library.namespace}{skill.name}.{each.name}"] for each in ways]
         for rank, earlier in enumerate(found):
             for later in found[rank + 1 :]:
                 equal = earlier in later.ancestors() and later in earlier.ancestors()

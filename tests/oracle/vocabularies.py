@@ -94,6 +94,7 @@ class Author:
         ways = [way for each in skills for way in self._implementations(each)]
         plain = SkillLibrary(
             name="random",
+            namespace="https://w3id.org/skillc/library/random#",
             hash="",
             vocabulary=self.vocabulary,
             skills={each.name: each for each in skills},

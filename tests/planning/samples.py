@@ -64,6 +64,7 @@ def library(*skills: Skill, vocabulary: Vocabulary = VOCABULARY) -> SkillLibrary
     """Return a library of skills that each have one implementation."""
     plain = SkillLibrary(
         name="sample",
+        namespace="https://w3id.org/skillc/library/sample#",
         hash="",
         vocabulary=vocabulary,
         skills={each.name: each for each in skills},

@@ -169,6 +169,7 @@ def library(*more: Implementation) -> SkillLibrary:
     }
     return SkillLibrary(
         name="work",
+        namespace="https://w3id.org/skillc/library/work#",
         hash="",
         vocabulary=VOCABULARY,
         skills=skills,

@@ -148,6 +148,7 @@ class Library:
         """Return the library."""
         return SkillLibrary(
             name="stage",
+            namespace="https://w3id.org/skillc/library/stage#",
             hash="",
             vocabulary=VOCABULARY,
             skills=dict(self._skills),

@@ -30,7 +30,9 @@ def library(effect: Assert | Retract) -> SkillLibrary:
     post = Post(label="post", condition=condition, effects=(effect,), sensed=False, text="", source=HERE)
     body = Primitive("skillc_runtime.primitives.stand_in:StandIn")
     implementation = Implementation(name="one", skill="Put", post=(post,), body=body, source=HERE)
-    return SkillLibrary(name="own", hash="", vocabulary=VOCABULARY, implementations={"Put.one": implementation})
+    return SkillLibrary(
+        name="own", namespace="", hash="", vocabulary=VOCABULARY, implementations={"Put.one": implementation}
+    )
 
 
 def test_inverses_stand_for_each_other_and_symmetric_relations_hold_both_ways() -> None:

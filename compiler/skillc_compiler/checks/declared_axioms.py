@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from skillc_compiler.program.typed import Program
-from skillc_compiler.resolve.declarations import library_namespace
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
@@ -21,7 +20,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for declaration in unit.file.declarations:
             match declaration:
                 case s.ClassDeclaration():
-                    iri = _iri(program, unit.library, declaration.name.text)
+                    iri = _iri(program, unit.namespace, declaration.name.text)
                     yield from _class(program.vocabulary, declaration, iri, reported)
                 case s.RelationDeclaration(traits=traits):
                     yield from _relation(declaration, {trait.kind: trait for trait in traits})
@@ -29,13 +28,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
                     pass
 
 
-def _iri(program: Program, library: str, name: str) -> str:
+def _iri(program: Program, namespace: str, name: str) -> str:
     """Return the IRI of a declared class: of the library, or of the vocabulary whose class is extended."""
     before, _, local = name.rpartition(":")
     if before:
         iri = program.vocabulary.prefixes.get(before, "") + local
         return program.vocabulary.aliases.get(iri, iri)
-    own = library_namespace(library) + name
+    own = namespace + name
     return (
         own
         if own in program.vocabulary.classes

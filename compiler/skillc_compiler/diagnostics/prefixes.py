@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from skillc_compiler.program.typed import ParsedFile, Program
-from skillc_compiler.resolve.declarations import LIBRARY_NAMESPACE
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.parsing.reserved import NAME
-from skillc_rdf.vocabulary.types import Vocabulary, local_name
+from skillc_rdf.vocabulary.types import local_name
 
 
 def with_prefix(problem: Diagnostic, program: Program) -> Diagnostic:
@@ -25,17 +24,18 @@ def with_prefix(problem: Diagnostic, program: Program) -> Diagnostic:
     if len(found) != 1:
         return problem
     base = found[0].removesuffix(word)
-    prefix = _prefix_of(base, unit.file, program.vocabulary)
+    prefix = _prefix_of(base, unit.file, program)
     if prefix:
         return replace(problem, help="", fix=Fix(problem.span, f"{prefix}:{word}", f"write `{prefix}:{word}`"))
     return replace(problem, help=f"add `prefix own: <{base}>` at the top of the file and write `own:{word}`")
 
 
-def _prefix_of(base: str, file: s.File, vocabulary: Vocabulary) -> str | None:
+def _prefix_of(base: str, file: s.File, program: Program) -> str | None:
     """Return a prefix for a namespace that the file can use."""
     declared = {line.iri: line.name.text for line in file.header if isinstance(line, s.Prefix)}
-    of_vocabularies = {} if base.startswith(LIBRARY_NAMESPACE) else {i: name for name, i in vocabulary.prefixes.items()}
-    return declared.get(base) or of_vocabularies.get(base)
+    if base in {unit.namespace for unit in program.files}:
+        return declared.get(base)
+    return declared.get(base) or next((name for name, iri in program.vocabulary.prefixes.items() if iri == base), None)
 
 
 def _text_at(unit: ParsedFile, problem: Diagnostic) -> str:

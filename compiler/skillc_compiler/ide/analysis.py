@@ -12,7 +12,7 @@ from skillc_compiler.pipeline import NO_SCENES, find_problems, lower_and_report
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.types import Type
 from skillc_compiler.program.walk import all_values
-from skillc_compiler.resolve.files import Parser, read_sources
+from skillc_compiler.resolve.files import NO_NAMESPACES, Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -26,7 +26,8 @@ from skillc_rdf.vocabulary.types import Vocabulary
 class Library:
     """The input of an analysis: the sources of a library, the importable files, the ontology, the scenes of its tasks.
 
-    `sources` are keyed by path relative to the library, `importable` by the name written in the import.
+    `sources` are keyed by path relative to the library, `importable` by the name written in the import, `namespaces` by
+    library.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Library:
     importable: Mapping[str, Source]
     vocabulary: Vocabulary
     scenes: Mapping[str, Individuals] = field(default_factory=lambda: dict(NO_SCENES))
+    namespaces: Mapping[str, str] = field(default_factory=lambda: dict(NO_NAMESPACES))
 
 
 @dataclass(frozen=True)
@@ -97,7 +99,7 @@ class Analysis:
 
 def analyse(library: Library, parsed_by: Parser = parse) -> Analysis:
     """Parse and resolve a library; `parsed_by` is the parser, which may cache its results."""
-    files = read_sources(_ordered(library), library.importable, library.name, parsed_by)
+    files = read_sources(_ordered(library), library.importable, library.name, parsed_by, library.namespaces)
     program = resolve_program(files.value, library.vocabulary, library.name, library.scenes)
     return Analysis(library, files, program, parsed_by)
 

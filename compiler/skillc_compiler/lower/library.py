@@ -13,6 +13,7 @@ from skillc_compiler.lower import declarations as flattening
 from skillc_compiler.program.spans import SpanIndex
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, TypedNode
 from skillc_compiler.program.walk import calls_in
+from skillc_compiler.resolve.files import library_namespace
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model import skills as library
 from skillc_model.pddl.names import assign_names
@@ -31,6 +32,7 @@ def lower_program(program: Program, problems: Sequence[Diagnostic]) -> SkillLibr
     order = {name: rank_implementations(program.vocabulary, by_skill[name]) for name in skills}
     unnamed = SkillLibrary(
         name=program.name,
+        namespace=_namespace(program),
         hash=_hash(program.files),
         vocabulary=program.vocabulary,
         skills={name: flattening.lower_skill(s, [i.name for i in order[name]]) for name, s in skills.items()},
@@ -42,6 +44,12 @@ def lower_program(program: Program, problems: Sequence[Diagnostic]) -> SkillLibr
         },
     )
     return msgspec.structs.replace(unnamed, names=assign_names(unnamed))
+
+
+def _namespace(program: Program) -> str:
+    """Return the namespace of the terms that the library itself declares."""
+    own = (unit.namespace for unit in program.files if unit.library == program.name)
+    return next(own, library_namespace(program.name))
 
 
 def _implementation(typed: Implementation) -> library.Implementation:

@@ -33,14 +33,14 @@ from types import MappingProxyType
 
 FAMILIES = (
     *("text", "quantities", "scenes", "properties", "implementations", "data flow", "planning", "ontology", "names"),
-    "logic",
+    *("logic", "projects"),
 )
-FINDERS = ("compiler", "vocabulary", "scene", "check", "formatter", "goal")
+FINDERS = ("compiler", "vocabulary", "scene", "check", "formatter", "goal", "project")
 _FOLDER = Path(__file__).parent
 _PAGE = re.compile(
     r"---\nfamily: (?P<family>.+)\nfound-by: (?P<found_by>.+)\n---\n\n"
     r"# (?P<name>[a-z-]+)\n\n(?P<title>.+)\.\n\n(?P<prose>(?:(?!```).*\n)*?(?!```).+)\n\n"
-    r"```(?P<language>skill|turtle) bad\n(?P<bad>(?:(?!```).*\n)+)```\n\n"
+    r"```(?P<language>skill|turtle|toml) bad\n(?P<bad>(?:(?!```).*\n)+)```\n\n"
     r"```(?P=language) good\n(?P<good>(?:(?!```).*\n)+)```\n"
 )
 
@@ -50,9 +50,9 @@ class Page:
     """The explanation of a diagnostic.
 
     `family` is the heading under which it is listed; `found_by` is the part that reports it: the compiler, the loaders
-    of vocabularies and scenes, `skillc check` of a library with its scenes, the formatter, or the parser of goals from
-    the command line. `title` is a sentence without its full stop, `prose` is Markdown. `bad` is a whole file with this
-    problem and no other, `good` a file without problems; both are in `language`.
+    of vocabularies and scenes, `skillc check` of a library with its scenes, the formatter, the parser of goals from the
+    command line, or the reader of projects. `title` is a sentence without its full stop, `prose` is Markdown. `bad` is
+    a whole file with this problem and no other, `good` a file without problems; both are in `language`.
     """
 
     name: str

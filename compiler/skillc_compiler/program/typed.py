@@ -224,13 +224,14 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class ParsedFile:
-    """A parsed file, the library it belongs to, and the files it imports.
+    """A parsed file, the library it belongs to with the namespace of its terms, and the files it imports.
 
     `imports` pairs each import that was found with the path of its file.
     """
 
     file: s.File
     library: str
+    namespace: str
     text: str
     imports: tuple[tuple[s.Import, str], ...] = ()
 

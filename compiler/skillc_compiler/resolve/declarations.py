@@ -14,7 +14,6 @@ from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
 from skillc_rdf.vocabulary.types import Vocabulary
 
-LIBRARY_NAMESPACE = "https://w3id.org/skillc/library/"
 TermDeclaration: TypeAlias = s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration
 Bare: TypeAlias = dict[Kind, dict[str, tuple[str, ...]]]
 
@@ -43,15 +42,10 @@ def term_kind(declaration: TermDeclaration) -> Kind:
             return "property"
 
 
-def library_namespace(library: str) -> str:
-    """Return the namespace of the terms that a library declares."""
-    return f"{LIBRARY_NAMESPACE}{library}#"
-
-
-def library_prefix(library: str, taken: Mapping[str, str]) -> str:
+def library_prefix(library: str, namespace: str, taken: Mapping[str, str]) -> str:
     """Return the prefix of a library's namespace: its name, unless another namespace has that prefix."""
     name = re.sub(r"\W", "_", library)
-    return name if taken.get(name, library_namespace(library)) == library_namespace(library) else f"{name}_library"
+    return name if taken.get(name, namespace) == namespace else f"{name}_library"
 
 
 def collect_declarations(files: Sequence[ParsedFile], vocabulary: Vocabulary) -> dict[str, FileDeclarations]:
@@ -118,7 +112,7 @@ def _declarations_in(
                     declared.terms[kind][name] = vocabulary.aliases.get(iri, iri)
                 else:
                     existing = known[kind].get(local, ())
-                    iri = existing[0] if existing else library_namespace(unit.library) + local
+                    iri = existing[0] if existing else unit.namespace + local
                     declared.terms[kind] |= {name: iri, local: iri}
             case s.FunctionDeclaration():
                 declared.functions.add(declaration.name.text)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import TypeAlias
 
 from skillc_compiler.program.typed import ParsedFile
@@ -15,21 +16,33 @@ from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
 STANDARD_LIBRARY = "std"
+LIBRARY_NAMESPACE = "https://w3id.org/skillc/library/"
+NO_NAMESPACES: Mapping[str, str] = MappingProxyType({})
 Parser: TypeAlias = Callable[[Source], Outcome[s.File]]
 
 
 def read_sources(
-    sources: Sequence[Source], importable: Mapping[str, Source], name: str, parsed_by: Parser = parse
+    sources: Sequence[Source],
+    importable: Mapping[str, Source],
+    name: str,
+    parsed_by: Parser = parse,
+    namespaces: Mapping[str, str] = NO_NAMESPACES,
 ) -> Outcome[tuple[ParsedFile, ...]]:
     """Parse the sources and what they import; `importable` is keyed by file name, `name` is the library's.
 
-    Importable files belong to the library `std` if their path begins with it, else to this one. `parsed_by` is the
-    parser, which may cache its results.
+    `namespaces` are those of the terms that libraries declare, by the name of the library, where they are not the
+    usual ones. Importable files belong to the library whose name their path begins with, `std` or one of these, else
+    to this one. `parsed_by` is the parser, which may cache its results.
     """
-    reader = _Reader({source.path: source for source in sources}, importable, name, parsed_by)
+    reader = _Reader({source.path: source for source in sources}, importable, name, parsed_by, namespaces)
     for path in sorted(reader.own):
         reader.read(reader.own[path], name, ())
     return Outcome(tuple(reader.files.values()), tuple(reader.problems))
+
+
+def library_namespace(library: str) -> str:
+    """Return the usual namespace of the terms that a library declares."""
+    return f"{LIBRARY_NAMESPACE}{library}#"
 
 
 @dataclass
@@ -38,6 +51,7 @@ class _Reader:
     importable: Mapping[str, Source]
     name: str
     parse: Parser
+    namespaces: Mapping[str, str]
     files: dict[str, ParsedFile] = field(default_factory=dict)
     problems: list[Diagnostic] = field(default_factory=list)
 
@@ -48,7 +62,8 @@ class _Reader:
         parsed = self.parse(source)
         self.problems.extend(parsed.diagnostics)
         imports = tuple(self._imports(parsed.value, library, (*importing, source.path)))
-        self.files[source.path] = ParsedFile(parsed.value, library, source.text, imports)
+        namespace = self.namespaces.get(library) or library_namespace(library)
+        self.files[source.path] = ParsedFile(parsed.value, library, namespace, source.text, imports)
 
     def _imports(self, file: s.File, library: str, chain: tuple[str, ...]) -> Iterable[tuple[s.Import, str]]:
         for line in (h for h in file.header if isinstance(h, s.Import)):
@@ -71,7 +86,8 @@ class _Reader:
 
     def _importable(self, wanted: str) -> tuple[Source, str]:
         found = self.importable[wanted]
-        return found, STANDARD_LIBRARY if found.path.startswith(f"{STANDARD_LIBRARY}/") else self.name
+        first, inside, _ = found.path.partition("/")
+        return found, first if inside and first in {STANDARD_LIBRARY, *self.namespaces} else self.name
 
     def _meant(self, file: s.File, line: s.Import, library: str) -> tuple[Source, str] | None:
         """Report a missing file; return the one that is meant, if its name is close to that of one file only."""
@@ -84,12 +100,21 @@ class _Reader:
             Diagnostic(
                 "unknown-import",
                 line.path.span,
-                f'there is no file "{wrong}" in this library or in `std`',
+                f'there is no file "{wrong}" in {self._searched()}',
                 help=did_you_mean(wrong, candidates),
                 fix=near and replace(near, text=f'"{near.text}"'),
             )
         )
         return self._find(file.path, near.text, library) if near else None
+
+    def _searched(self) -> str:
+        """Return where imports are looked up."""
+        others = sorted(self.namespaces.keys() - {self.name})
+        return (
+            f"this library, in `std`, or in {', '.join(f'`{name}`' for name in others)}"
+            if others
+            else ("this library or in `std`")
+        )
 
     def _cycle(self, line: s.Import, chain: Sequence[str]) -> None:
         way = " imports ".join((*chain, chain[0]))

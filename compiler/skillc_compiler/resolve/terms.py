@@ -8,7 +8,7 @@ from typing import TypeVar
 import msgspec
 
 from skillc_compiler.program.typed import ParsedFile, start_position
-from skillc_compiler.resolve.declarations import FileDeclarations, library_namespace, library_prefix, term_kind
+from skillc_compiler.resolve.declarations import FileDeclarations, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.type_names import BUILT_IN, resolve_type
 from skillc_dsl import syntax as s
@@ -178,8 +178,8 @@ def _prefixes(
     prefixes = dict(vocabulary.prefixes)
     for unit in files:
         terms = declared[unit.file.path].terms.values()
-        if any(iri.startswith(library_namespace(unit.library)) for table in terms for iri in table.values()):
-            prefixes[library_prefix(unit.library, vocabulary.prefixes)] = library_namespace(unit.library)
+        if any(iri.startswith(unit.namespace) for table in terms for iri in table.values()):
+            prefixes[library_prefix(unit.library, unit.namespace, vocabulary.prefixes)] = unit.namespace
         for line in unit.file.header:
             if isinstance(line, s.Prefix):
                 prefixes.setdefault(line.name.text, line.iri)

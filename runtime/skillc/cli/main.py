@@ -14,6 +14,7 @@ from typing import Any
 import click
 
 from skillc.cli import streams
+from skillc.cli.defaults import WITH_DEFAULTS, read_defaults
 from skillc.cli.interrupts import Interrupted, raising_on_signals
 from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
 from skillc.services import crash_reports
@@ -74,6 +75,8 @@ class Commands(click.Group):
             near = get_close_matches(args[0], self.list_commands(ctx), n=1)
             hint = f"did you mean '{near[0]}'?" if near else f"the commands are {', '.join(self.list_commands(ctx))}"
             ctx.fail(f"there is no command '{args[0]}'; {hint}")
+        if args and args[0] in WITH_DEFAULTS:
+            ctx.default_map = {args[0]: read_defaults(args[0])}
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

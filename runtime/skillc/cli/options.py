@@ -119,12 +119,13 @@ def _set_folders(context: click.Context, _option: click.Parameter, value: tuple[
     before = os.environ.get(catalogue.VARIABLE)
     if value:
         os.environ[catalogue.VARIABLE] = os.pathsep.join([*map(str, value), *([before] if before else [])])
-        context.call_on_close(lambda: _restore(before))
+        context.call_on_close(lambda: restore_variable(catalogue.VARIABLE, before))
     return value
 
 
-def _restore(before: str | None) -> None:
+def restore_variable(name: str, before: str | None) -> None:
+    """Give an environment variable its former value, None if it had none."""
     if before is None:
-        os.environ.pop(catalogue.VARIABLE, None)
+        os.environ.pop(name, None)
     else:
-        os.environ[catalogue.VARIABLE] = before
+        os.environ[name] = before

@@ -9,7 +9,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
 
 from skillc.lsp import diagnostics as problems
-from skillc.lsp.files import Root, find_file, is_turtle
+from skillc.lsp.files import Root, is_turtle
 from skillc.lsp.libraries import FileView, parse
 from skillc.lsp.positions import PositionConverter
 from skillc.lsp.scenes import read_scene_texts
@@ -95,7 +95,7 @@ def _in_turtle(session: Session, params: types.CodeActionParams) -> list[types.C
     libraries, file = session.libraries, session.file(params.text_document.uri)
     for root, analysis in libraries.known():
         around = libraries.problems_around(root)
-        here = [problem for problem in around if find_file(problem.span.path, root) == file]
+        here = [problem for problem in around if libraries.find_file(root, problem.span.path) == file]
         if here:
             lines = PositionConverter(
                 {**analysis.texts, **read_scene_texts(around, libraries.buffers)}, session.encoding

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
+from skillc.services import library_files
+from skillc.services.errors import DiagnosticsError
 from skillc.services.library_files import (
     SHIPPED,
     LibraryFiles,
     find_library,
-    is_vocabulary,
     read_vocabularies,
     user_vocabularies,
 )
+from skillc.services.project import project as projects
+from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 
 _NOT_ENTERED = ("node_modules", "build", "dist", "out")
@@ -38,8 +41,11 @@ class Root:
 def find_root(file: Path, folders: Sequence[Path]) -> Root:
     """Return the root of a file's library: the highest folder up to which every folder has a `.skill` file.
 
-    The search stops at `folders`, those open in the editor.
+    The search stops at `folders`, those open in the editor. In a project it is the project's folder.
     """
+    project = projects.find_root(file.parent)
+    if project is not None:
+        return Root(project, True)
     around = [folder for folder in folders if folder == file.parent or folder in file.parents]
     folder = file.parent
     while around and folder not in around and any(folder.parent.glob("*.skill")):
@@ -59,25 +65,37 @@ def is_turtle(file: Path) -> bool:
     return file.suffix in catalogue.ENDINGS
 
 
-def read_own_vocabularies(root: Root) -> tuple[Source, ...]:
-    """Return the vocabularies in a library's folder, and those in the user's ontology folders."""
+def read_own_vocabularies(root: Root, around: LibraryFiles) -> tuple[Source, ...]:
+    """Return the vocabularies in a library's folder, in the user's ontology folders, and those `around` the library."""
     candidates = _below(root) if root.whole else root.folder.glob("*")
-    own = sorted(file for file in candidates if is_vocabulary(file))
-    return read_vocabularies(sorted({**user_vocabularies(), **{_relative(file, root): file for file in own}}.items()))
+    own = sorted(file for file in candidates if library_files.is_vocabulary_beside(file, around.project))
+    read = read_vocabularies(sorted({**user_vocabularies(), **{_relative(file, root): file for file in own}}.items()))
+    known = {each.path for each in read}
+    return (*read, *(each for each in around.vocabularies if each.path not in known))
 
 
-def find_file(path: str, root: Root) -> Path:
-    """Return the file of a diagnostic's path: in the library, in a shipped library, or in the ontology."""
-    shipped = _shipped().places
-    if (root.folder / path).exists() or path not in shipped:
+def find_file(path: str, root: Root, places: Mapping[str, Path]) -> Path:
+    """Return the file of a diagnostic's path: in the library, at one of the `places` of others, or in the ontology."""
+    if (root.folder / path).exists() or path not in places:
         ontology = catalogue.ROOT / path
         return ontology if ontology.is_file() and not (root.folder / path).exists() else root.folder / path
-    return shipped[path]
+    return places[path]
 
 
-def importable_files() -> Mapping[str, Source]:
-    """Return the shipped files that every library may import."""
-    return _shipped().importable
+def read_surroundings(root: Root) -> Outcome[LibraryFiles]:
+    """Return what the files of a library may import, and its name; with the diagnostics of a broken manifest."""
+    try:
+        project = projects.find_project(root.folder)
+    except DiagnosticsError as error:
+        found = [replace(each, span=_absolute(each.span)) for each in error.diagnostics]
+        return Outcome(replace(_shipped(), name=root.folder.name), tuple(found))
+    if project is None:
+        return Outcome(replace(_shipped(), name=root.folder.name))
+    return Outcome(library_files.read_surroundings(project))
+
+
+def _absolute(span: Span) -> Span:
+    return replace(span, path=str(Path(span.path).absolute()))
 
 
 @cache
@@ -93,8 +111,11 @@ def _on_disk(root: Root) -> Iterator[Path]:
 
 
 def _below(root: Root) -> Iterator[Path]:
+    in_project = (root.folder / projects.MANIFEST).is_file()
     for folder, folders, names in os.walk(root.folder):
         folders[:] = [name for name in folders if not name.startswith(".") and name not in _NOT_ENTERED]
+        if in_project:
+            folders[:] = [name for name in folders if not projects.is_nested_project(Path(folder, name))]
         yield from (Path(folder, name) for name in names)
 
 

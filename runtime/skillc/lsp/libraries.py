@@ -15,8 +15,9 @@ from skillc.lsp import files
 from skillc.lsp.files import Root
 from skillc.lsp.scenes import SceneCache, find_problems
 from skillc.services.libraries import load_vocabulary_with
+from skillc.services.library_files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing import parser
 from skillc_dsl.source import Source
@@ -49,6 +50,7 @@ class Libraries:
     _analyses: dict[Root, Analysis] = field(default_factory=dict)
     _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
     _vocabularies: dict[Root, tuple[Source, ...]] = field(default_factory=dict)
+    _surroundings: dict[Root, Outcome[LibraryFiles]] = field(default_factory=dict)
     _scene_cache: SceneCache = field(default_factory=SceneCache)
     _scenes: dict[Root, TaskScenes | None] = field(default_factory=dict)
 
@@ -79,6 +81,7 @@ class Libraries:
         for root in [root for root in self._sources if root.holds(file) or file.suffix != ".skill"]:
             self._sources.pop(root)
             self._analyses.pop(root, None)
+            self._surroundings.pop(root, None)
 
     def file(self, uri: str) -> Path:
         """Return the path of a URI; an unsaved text gets a path of its own."""
@@ -90,8 +93,12 @@ class Libraries:
 
     def uri(self, root: Root, path: str) -> str:
         """Return the URI of a span's path, as the editor writes it if the editor has sent it."""
-        file = files.find_file(path, root)
+        file = self.find_file(root, path)
         return self._uris.get(file) or from_fs_path(str(file)) or ""
+
+    def find_file(self, root: Root, path: str) -> Path:
+        """Return the file of a span's path."""
+        return files.find_file(path, root, self._around(root).value.places)
 
     def view(self, uri: str) -> FileView:
         """Return a file with the current analysis of its library."""
@@ -139,18 +146,27 @@ class Libraries:
 
     def problems_around(self, root: Root) -> tuple[Diagnostic, ...]:
         """Return the diagnostics of the vocabularies and scenes of a library."""
-        return (*self.problems_of_vocabularies(root), *self.problems_of_scenes(root))
+        of_scenes = self.problems_of_scenes(root)
+        return (*self.problems_of_vocabularies(root), *of_scenes, *self._around(root).diagnostics)
+
+    def _around(self, root: Root) -> Outcome[LibraryFiles]:
+        """Return what a library may import, with the diagnostics of its manifest."""
+        if root not in self._surroundings:
+            self._surroundings[root] = files.read_surroundings(root)
+        return self._surroundings[root]
 
     def _analyse(self, root: Root) -> Analysis:
         """Analyse a library; again if the individuals in its tasks' scenes have changed since the last analysis."""
         if root not in self._sources:
             self._sources[root] = files.read_sources(root, self.buffers)
-            self._vocabularies[root] = files.read_own_vocabularies(root)
+            self._vocabularies[root] = files.read_own_vocabularies(root, self._around(root).value)
         before = _individuals(self._scenes.get(root))
         terms = load_vocabulary_with(self._vocabularies[root]).value
-        library = Library(root.folder.name, dict(self._sources[root]), files.importable_files(), terms, before)
+        around = self._around(root).value
+        sources = dict(self._sources[root])
+        library = Library(around.name, sources, around.importable, terms, before, around.namespaces)
         found = analyse(library, parse)
-        scenes = self._scene_cache.read(found.program, library.vocabulary, root.folder, self.buffers)
+        scenes = self._scene_cache.read(found.program, library.vocabulary, around, root.folder, self.buffers)
         self._scenes[root] = scenes
         now = _individuals(scenes)
         return found if now == before else analyse(replace(library, scenes=now), parse)

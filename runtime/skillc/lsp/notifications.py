@@ -6,7 +6,7 @@ from lsprotocol import types
 
 from skillc.lsp.session import Session
 
-_WATCHED = ("**/*.skill", "**/*.ttl")
+_WATCHED = ("**/*.skill", "**/*.ttl", "**/skillc.toml")
 
 
 def on_initialized(session: Session, params: types.InitializedParams) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from skillc.services.library_checks import check_with_scenes
+from skillc.services.library_files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -27,12 +28,16 @@ class SceneCache:
 
     _read: dict[tuple[Path, int | str, bytes], Outcome[Scene | None]] = field(default_factory=dict)
 
-    def read(self, program: Program, base: Vocabulary, folder: Path, buffers: Mapping[Path, str]) -> TaskScenes | None:
+    def read(
+        self, program: Program, base: Vocabulary, around: LibraryFiles, folder: Path, buffers: Mapping[Path, str]
+    ) -> TaskScenes | None:
         """Return the scenes of a program's tasks, None if no task has one; `buffers` replace files on disk."""
-        if not any(task.scene for task in program.tasks):
+        by_default = around.project is not None and around.project.manifest.scene is not None
+        if not any(task.scene or by_default for task in program.tasks):
             return None
-        from skillc.services.task_scenes import SceneTexts, read_scene, read_task_scenes
+        from skillc.services.task_scenes import SceneTexts, default_scene, read_scene, read_task_scenes
 
+        default = default_scene(around.project) if around.project else None
         terms = _own_terms(program.vocabulary, base)
 
         def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
@@ -43,7 +48,7 @@ class SceneCache:
                 self._read[key] = read_scene(path, vocabulary, text)
             return self._read[key]
 
-        return read_task_scenes(program, SceneTexts(folder.joinpath, str), read=read)
+        return read_task_scenes(program, SceneTexts(folder.joinpath, str, default), read=read)
 
 
 def find_problems(scenes: TaskScenes | None, analysis: Analysis) -> tuple[Diagnostic, ...]:
@@ -54,9 +59,9 @@ def find_problems(scenes: TaskScenes | None, analysis: Analysis) -> tuple[Diagno
 
 
 def read_scene_texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
-    """Return the texts of the scenes that diagnostics point into, by the diagnostics' paths."""
+    """Return the texts of the scenes and manifests that diagnostics point into, by the diagnostics' paths."""
     paths = {span.path for each in found for span in (each.span, *(label.span for label in each.labels))}
-    wanted = sorted(path for path in paths if path.endswith(".ttl") and Path(path).is_file())
+    wanted = sorted(path for path in paths if path.endswith((".ttl", ".toml")) and Path(path).is_file())
     return {path: _text(Path(path), buffers) for path in wanted}
 
 

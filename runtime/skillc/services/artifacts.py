@@ -46,7 +46,7 @@ def compile_and_report(files: LibraryFiles, reporter: Reporter) -> SkillLibrary:
 
 def parse_files(files: LibraryFiles) -> tuple[ParsedFile, ...]:
     """Return the parsed files of a library and of its imports."""
-    return read_sources(files.sources, files.importable, files.name).value
+    return read_sources(files.sources, files.importable, files.name, namespaces=files.namespaces).value
 
 
 def _write(texts: Mapping[str, str], output: Path, is_own: Callable[[str], bool] = is_generated) -> tuple[Path, ...]:

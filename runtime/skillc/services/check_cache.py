@@ -95,6 +95,9 @@ def named_scenes(library: LibraryFiles) -> Iterator[Path]:
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
     """Yield everything that a check depends on other than the installation."""
     yield from (os.getcwd(), library.name, str(library.root))  # noqa: PTH109
+    yield from (f"{name} {namespace}" for name, namespace in sorted(library.namespaces.items()))
+    if library.project:
+        yield library.project.source.text
     for source in (*library.sources, *library.importable.values()):
         yield from (source.path, str(library.places[source.path]), source.text)
     for source in library.vocabularies:

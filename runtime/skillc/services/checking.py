@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from skillc.services.check_cache import CheckCacheEntry
-from skillc.services.errors import RequestError
+from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import LibraryFiles, find_library, read_single_file, source_texts
 from skillc.services.reporting import find_texts, sort_diagnostics
 from skillc_dsl.diagnostics import Diagnostic
@@ -57,7 +57,7 @@ def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles]) -> C
     found: list[Diagnostic] = []
     texts: dict[str, Source] = {}
     for library in libraries:
-        own = check_with_cache(request, library)
+        own = (*check_with_cache(request, library), *_problems_of_project(library))
         found += own
         texts |= source_texts(library) if own else {}
     ordered = sort_diagnostics(found)
@@ -76,6 +76,23 @@ def check_with_cache(request: CheckRequest, library: LibraryFiles) -> tuple[Diag
     if entry:
         entry.store(found)
     return found
+
+
+def check_paths(request: CheckRequest) -> CheckResult:
+    """Read the libraries at the paths and return their diagnostics, or those of a manifest that has errors."""
+    try:
+        libraries = read_libraries(request)
+    except DiagnosticsError as error:
+        return CheckResult(tuple(error.diagnostics), dict(error.texts))
+    return check_sources(request, libraries)
+
+
+def _problems_of_project(library: LibraryFiles) -> tuple[Diagnostic, ...]:
+    if library.project is None:
+        return ()
+    from skillc.services.project.checks import check_project
+
+    return tuple(check_project(library.project, library))
 
 
 def _from_stdin(stdin: StdinFile | None) -> LibraryFiles:

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache, lru_cache
-from pathlib import Path
 from typing import TypeAlias
 
 from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import (
-    SHIPPED,
     LibraryFiles,
-    find_library,
     read_vocabularies,
     source_texts,
     user_vocabularies,
@@ -44,7 +41,7 @@ def compile_library(library: LibraryFiles, find_individuals: IndividualsByTask |
     """
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
-        files = read_sources(library.sources, library.importable, library.name, _parse)
+        files = read_sources(library.sources, library.importable, library.name, _parse, library.namespaces)
         program = resolve_program(files.value, known.value, library.name, pipeline.NO_SCENES)
         individuals = find_individuals(program.value) if find_individuals else {}
         if individuals:
@@ -81,17 +78,11 @@ def _shipped() -> tuple[Source, ...]:
     return tuple(Source(path, text) for path, text in catalogue.vocabulary_files())
 
 
-def split_reference(reference: str) -> tuple[LibraryFiles, str]:
-    """Split `LIBRARY:NAME` into the library and the name of a task; without LIBRARY it is the wiping library."""
-    path, colon, name = reference.rpartition(":")
-    return find_library(Path(path) if colon else SHIPPED / "wiping"), name
-
-
 def find_task(library: SkillLibrary, name: str) -> Task:
     """Return a task; RequestError lists those that exist."""
     if name not in library.tasks:
         hint = did_you_mean(name, library.tasks) or "it has none"
-        elsewhere = "a task of another library is written LIBRARY:NAME"
+        elsewhere = "a task of another library is written LIBRARY:NAME; `skillc tasks` lists all"
         raise RequestError(f"there is no task `{name}` in {library.name}: {hint}; {elsewhere}")
     return library.tasks[name]
 

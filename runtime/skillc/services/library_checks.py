@@ -27,7 +27,16 @@ def check_library(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic
     assert found.program is not None, "a compiled library has a program"
     sources = [Source(library.display_path(each.path), each.text) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources)
-    return sort_diagnostics((*outcome.diagnostics, *around))
+    return sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome)))
+
+
+def _named_goals(library: LibraryFiles, compiled: Outcome[SkillLibrary]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of the goals that the manifest names; none if the library has errors."""
+    if library.project is None or not library.project.manifest.tasks or not compiled.ok:
+        return ()
+    from skillc.services.named_goals import check_named_goals
+
+    return tuple(check_named_goals(library.project, compiled.value))
 
 
 def check_with_scenes(
@@ -65,7 +74,8 @@ class _SceneReader:
     def individuals(self, program: Program) -> Mapping[str, Mapping[str, Sequence[str]]]:
         """Read the scenes; return the individuals that each task may name, with their classes."""
         self.program = program
-        if not self._others and not any(task.scene for task in program.tasks):
+        by_default = self._library.project is not None and self._library.project.manifest.scene is not None
+        if not self._others and not any(task.scene or by_default for task in program.tasks):
             return {}
         from skillc.services import task_scenes
 

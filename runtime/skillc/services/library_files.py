@@ -5,18 +5,19 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
-import skillc_skills
 from skillc.services.errors import RequestError
 from skillc.services.files import inspect_path
+from skillc.services.project import project as projects
+from skillc.services.project.project import Project
 from skillc_compiler.emit.headers import is_generated
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 
-SHIPPED = Path(skillc_skills.__path__[0])
+SHIPPED = projects.SHIPPED
 _STDIN = Path("stdin.skill")
 _VOCABULARY = re.compile(r"^[^#\n]*(?:owl:Ontology\b|owl#Ontology[>\"])", re.MULTILINE)
 
@@ -26,7 +27,8 @@ class LibraryFiles:
     """The texts of a library: `sources` with paths relative to `root`; `importable`, other files to import, by name.
 
     `vocabularies` are the user's ontologies: those in the library's folder and those in the user's ontology folders.
-    `places` are the files on disk of all these texts, by path.
+    `places` are the files on disk of all these texts, by path. `namespaces` are those of the terms of libraries with
+    a `skillc.toml`, by name; `project` is the library's own, None without one.
     """
 
     name: str
@@ -35,6 +37,8 @@ class LibraryFiles:
     importable: dict[str, Source]
     places: dict[str, Path]
     vocabularies: tuple[Source, ...] = ()
+    namespaces: Mapping[str, str] = field(default_factory=dict)
+    project: Project | None = None
 
     def display_path(self, path: str) -> str:
         """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""
@@ -43,28 +47,45 @@ class LibraryFiles:
 
 
 def find_library(path: Path) -> LibraryFiles:
-    """Read the library in the folder `path`, the single file at `path`, or the shipped library of that name.
+    """Read the library in the folder `path`, the single file at `path`, or the library of that name.
 
-    RequestError for a path that is none of these, cannot be read, or has no `.skill` file.
+    A folder in a project stands for the project. A name is that of a library on which the project in the current
+    folder depends, or of a shipped one. RequestError for a path that is none of these, cannot be read, or has no
+    `.skill` file; DiagnosticsError for a project whose manifest has errors.
     """
     found = inspect_path(path)
-    if found.kind == "missing" and inspect_path(SHIPPED / path).kind == "folder":
-        path, found = SHIPPED / path, inspect_path(SHIPPED / path)
     if found.kind == "missing":
-        raise RequestError(f"there is no file or folder {path}")
+        path = _find_by_name(path)
+        found = inspect_path(path)
     if found.kind == "unusable":
         raise RequestError(f"{path} {found.is_what}")
     if found.kind == "folder":
-        files = {file.relative_to(path).as_posix(): file for file in sorted(_files_below(path))}
-        sources = {shown: file for shown, file in files.items() if shown.endswith(".skill")}
-        if not sources:
-            raise RequestError(f"there is no .skill file in {path}")
-        texts = tuple(_read(file, shown) for shown, file in sources.items())
-        beside = {shown: file for shown, file in files.items() if is_vocabulary(file)}
-        return _library(path.resolve().name, path, texts, sources, {}, beside)
+        return _read_folder(path)
     if path.suffix != ".skill":
         raise RequestError(f"{path} is not a .skill file")
     return read_single_file(path, _bytes(path))
+
+
+def _find_by_name(name: Path) -> Path:
+    """Return the folder of a dependency or of a shipped library; RequestError if there is none of that name."""
+    here = projects.find_project(Path())
+    root = next((each.root for each in (here.others() if here else ()) if each.name == str(name)), SHIPPED / name)
+    if inspect_path(root).kind == "missing":
+        raise RequestError(f"there is no file or folder {name}")
+    return root
+
+
+def _read_folder(folder: Path) -> LibraryFiles:
+    project = projects.find_project(folder)
+    root = project.root if project else folder
+    files = {file.relative_to(root).as_posix(): file for file in sorted(_files_below(root, whole=project is None))}
+    sources = {shown: file for shown, file in files.items() if shown.endswith(".skill")}
+    if not sources:
+        raise RequestError(f"there is no .skill file in {root}")
+    texts = tuple(_read(file, shown) for shown, file in sources.items())
+    beside = {shown: file for shown, file in files.items() if is_vocabulary_beside(file, project)}
+    name = project.name if project else root.resolve().name
+    return _library(Home(name, root, project), texts, sources, {}, beside)
 
 
 def read_single_file(path: Path | None, content: bytes) -> LibraryFiles:
@@ -73,8 +94,17 @@ def read_single_file(path: Path | None, content: bytes) -> LibraryFiles:
     others = (file for file in sorted(path.parent.glob("*.skill")) if file.name != path.name and file.is_file())
     neighbours = {file.name: (file.name, file) for file in others}
     source = decode(path.name, content)
-    beside = {file.name: file for file in sorted(path.parent.glob("*")) if is_vocabulary(file)}
-    return _library(path.resolve().parent.name, path.parent, (source,), {path.name: path}, neighbours, beside)
+    project = projects.find_project(path.parent)
+    files = _files_below(project.root, whole=False) if project else path.parent.glob("*")
+    above = project.root if project else path.parent
+    beside = {_below(file, above): file for file in sorted(files) if is_vocabulary_beside(file, project)}
+    home = Home(project.name if project else path.resolve().parent.name, path.parent, project)
+    return _library(home, (source,), {path.name: path}, neighbours, beside)
+
+
+def read_surroundings(project: Project) -> LibraryFiles:
+    """Return the library of a project without its own files: what they may import, and the namespaces."""
+    return _library(Home(project.name, project.root, project), (), {}, {}, {})
 
 
 def source_texts(library: LibraryFiles) -> dict[str, Source]:
@@ -84,10 +114,13 @@ def source_texts(library: LibraryFiles) -> dict[str, Source]:
 
 
 def find_scene(scene: Path) -> Path:
-    """Return a scene file: the path itself, or a shipped scene of that name."""
+    """Return a scene file: the path itself, or relative to the project here, or a shipped scene of that name."""
     found = inspect_path(scene)
     if found.kind == "file":
         return scene
+    root = projects.find_root(Path())
+    if root is not None and inspect_path(root / scene).kind == "file":
+        return Path(os.path.relpath(root / scene))
     try:
         return catalogue.scene_path(str(scene))
     except FileNotFoundError as error:
@@ -125,19 +158,79 @@ def read_vocabularies(files: Iterable[tuple[str, Path]]) -> tuple[Source, ...]:
     return tuple(decode(shown, _bytes(path, most=-1)) for shown, path in files)
 
 
+@dataclass(frozen=True, slots=True)
+class Home:
+    """The name of a library, its folder, and its project if it has one."""
+
+    name: str
+    root: Path
+    project: Project | None
+
+    def others(self) -> tuple[Project, ...]:
+        """Return the libraries that it depends on."""
+        return self.project.others() if self.project else ()
+
+
 def _library(
-    name: str,
-    root: Path,
+    home: Home,
     sources: tuple[Source, ...],
     places: Mapping[str, Path],
     neighbours: Mapping[str, tuple[str, Path]],
     beside: Mapping[str, Path],
 ) -> LibraryFiles:
-    importable = {**_shipped(), **neighbours}
+    if home.project:
+        use_ontologies(home.project)
+    importable = {**_shipped(), **_of_dependencies(home.others()), **neighbours}
     texts = {wanted: _read(file, shown) for wanted, (shown, file) in sorted(importable.items())}
-    vocabularies = {**user_vocabularies(), **beside}
+    vocabularies = {**user_vocabularies(), **_vocabularies_of(home.others()), **beside}
     read = read_vocabularies(sorted(vocabularies.items()))
-    return LibraryFiles(name, root, sources, texts, {**vocabularies, **dict(importable.values()), **places}, read)
+    located = {**vocabularies, **dict(importable.values()), **places}
+    namespaces = {each.name: each.namespace for each in (*home.others(), *([home.project] if home.project else []))}
+    return LibraryFiles(home.name, home.root, sources, texts, located, read, namespaces, home.project)
+
+
+def use_ontologies(project: Project) -> None:
+    """Add the ontology folders of a project and of what it depends on to SKILLC_ONTOLOGY, for this process.
+
+    Processes that it starts inherit them. A command restores the variable when it ends.
+    """
+    known = set(map(Path.resolve, catalogue.user_folders()))
+    folders = [folder for each in (project, *project.others()) for folder in each.ontologies if folder.is_dir()]
+    own = [str(folder.resolve()) for folder in dict.fromkeys(folders) if folder.resolve() not in known]
+    before = os.environ.get(catalogue.VARIABLE)
+    if own:
+        os.environ[catalogue.VARIABLE] = os.pathsep.join([*own, *([before] if before else [])])
+
+
+def _of_dependencies(others: Iterable[Project]) -> dict[str, tuple[str, Path]]:
+    """Return the skill files of other libraries by the name that imports them, with their displayed paths."""
+    found = {}
+    for each in others:
+        for file in sorted(_files_below(each.root, whole=False)):
+            if file.suffix == ".skill":
+                shown = f"{each.name}/{_below(file, each.root)}"
+                found[shown] = (shown, file)
+    return found
+
+
+def _vocabularies_of(others: Iterable[Project]) -> dict[str, Path]:
+    """Return the vocabularies beside the skill files of other libraries, by displayed path."""
+    return {
+        f"{each.name}/{_below(file, each.root)}": file
+        for each in others
+        for file in sorted(_files_below(each.root, whole=False))
+        if is_vocabulary_beside(file, each)
+    }
+
+
+def is_vocabulary_beside(file: Path, project: Project | None) -> bool:
+    """Whether a file is a vocabulary that is not in an ontology folder of the project, whose files are read anyway."""
+    folders = project.ontologies if project else ()
+    return is_vocabulary(file) and not any(file.is_relative_to(folder) for folder in folders)
+
+
+def _below(file: Path, folder: Path) -> str:
+    return file.relative_to(folder).as_posix()
 
 
 def _shipped() -> dict[str, tuple[str, Path]]:
@@ -147,10 +240,14 @@ def _shipped() -> dict[str, tuple[str, Path]]:
     return {file.name if file.parent.name == "std" else shown: (shown, file) for file, shown in named}
 
 
-def _files_below(folder: Path) -> Iterator[Path]:
-    """Yield the files below a folder; hidden folders and links to folders are not entered."""
+def _files_below(folder: Path, whole: bool = True) -> Iterator[Path]:
+    """Yield the files below a folder; hidden folders and links to folders are not entered.
+
+    Unless `whole`, other projects and virtual environments below it are not entered either.
+    """
     for place, folders, names in os.walk(folder, onerror=_unreadable):
-        folders[:] = [name for name in folders if not name.startswith(".")]
+        inner = (name for name in folders if not name.startswith("."))
+        folders[:] = [name for name in inner if whole or not projects.is_nested_project(Path(place, name))]
         yield from (Path(place, name) for name in names)
 
 

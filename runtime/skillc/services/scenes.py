@@ -15,9 +15,12 @@ import pyoxigraph as ox
 from skillc.services import scene_picture
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.libraries import compile_valid
-from skillc.services.library_files import SHIPPED, find_library, find_scene
+from skillc.services.library_files import find_library, find_scene
+from skillc.services.project.project import find_project, find_root
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, load_world, open_world
+from skillc.services.task_list import default_library
+from skillc.services.task_scenes import default_scene
 from skillc_compiler.emit.picture import svg
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -87,10 +90,9 @@ def open_scene(
     The terms are those of `library`, else of the library in the scene's folder, else of the shipped library. With
     `everything`, the individuals of the shipped data sheets are listed too.
     """
-    if scene is None and store.place is None:
-        raise RequestError("name a SCENE, or the world in a store with --store")
-    path = None if scene is None else find_scene(scene)
-    compiled = compile_valid(find_library(library or _library_beside(path) or SHIPPED / "wiping"))
+    path = find_scene(scene) if scene is not None else None if store.place else _scene_here()
+    named = library or _library_beside(path)
+    compiled = compile_valid(find_library(named) if named else default_library())
     with open_world(store, path, compiled.vocabulary, reporter) as world:
         state = world.snapshot()
         document = Document.read(path) if path and not store.place else _stored_document(store.name, state)
@@ -167,9 +169,20 @@ def draw_scene(scene: OpenScene, file: Path) -> None:
         raise ServiceError(f"cannot write {file}: {error.strerror}") from error
 
 
+def _scene_here() -> Path:
+    """Return the default scene of the project here; RequestError if there is none."""
+    project = find_project(Path())
+    scene = default_scene(project) if project else None
+    if scene is None:
+        raise RequestError("name a SCENE, or the world in a store with --store")
+    return scene
+
+
 def _library_beside(scene: Path | None) -> Path | None:
-    """Return the folder of a scene if it is a library, else None."""
-    return scene.parent if scene is not None and any(scene.parent.glob("*.skill")) else None
+    """Return the folder of a scene if it is a library or in a project, else None."""
+    if scene is None:
+        return None
+    return scene.parent if any(scene.parent.glob("*.skill")) or find_root(scene.parent) else None
 
 
 def _stored_document(place: str, state: WorldState) -> Document:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from skillc.services import task_scenes
 from skillc.services.errors import DiagnosticsError, RequestError
-from skillc.services.libraries import compile_valid, find_task, split_reference
-from skillc.services.library_files import SHIPPED, find_library, find_scene
+from skillc.services.libraries import compile_valid, find_task
+from skillc.services.library_files import LibraryFiles, find_library, find_scene
+from skillc.services.named_goals import make_named_task, named_scene
+from skillc.services.project.project import find_project
 from skillc.services.reporting import Reporter
 from skillc.services.stores import NO_STORE, StoreChoice, open_world
+from skillc.services.task_list import choose_task, default_library, split_reference
 from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
@@ -26,7 +31,7 @@ from skillc_runtime.world.state.model import WorldModel
 class TaskRequest:
     """The task `LIBRARY:NAME`, or a goal or a skill call in a scene or in a stored world.
 
-    The library of a goal or call is the shipped one unless `library` is given.
+    The library of a goal or call is that of the project here, or the shipped one, unless `library` is given.
     """
 
     task: str | None = None
@@ -35,6 +40,16 @@ class TaskRequest:
     call: str | None = None
     library: Path | None = None
     store: StoreChoice = NO_STORE
+
+    def with_defaults(self) -> TaskRequest:
+        """Return the request with the task or the scene of the project here, if it names none."""
+        if self.task is not None or self.store.place is not None:
+            return self
+        if (self.scene, self.goal, self.call, self.library) == (None, None, None, None):
+            return replace(self, task=choose_task(None))
+        project = find_project(Path()) if self.scene is None else None
+        scene = task_scenes.default_scene(project) if project else None
+        return replace(self, scene=self.scene or scene)
 
     def check(self, calls: bool = True) -> None:
         """Raise RequestError if options conflict or are missing; `calls`: whether a call is possible too."""
@@ -65,19 +80,35 @@ def load_task(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
 
 
 def find_task_in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
-    """Find and compile the task `LIBRARY:NAME`, or the shipped task of that name; return it with its scene file."""
+    """Find and compile the task `LIBRARY:NAME`, or that of the project here or shipped; return it with its scene file.
+
+    A goal or call that a `skillc.toml` names becomes a task of the library.
+    """
     files, name = split_reference(reference)
     library = compile_valid(files)
+    if name not in library.tasks and files.project and name in files.project.manifest.tasks:
+        scene = named_scene(files.project, name)
+        task = make_named_task(files.project, name, library, scene)
+        return msgspec.structs.replace(library, tasks={**library.tasks, name: task}), task, scene
     task = find_task(library, name)
+    if task.goal is None and task.body is None:
+        raise RequestError(f"the task `{name}` has neither a goal nor a body")
+    return library, task, _find_scene(task, files)
+
+
+def _find_scene(task: Task, files: LibraryFiles) -> Path:
+    """Return the file of a task's scene, or of the default one of its project. RequestError if there is none."""
     if task.scene is None:
-        raise RequestError(f"the task `{name}` has no scene; run it with --scene FILE and --goal or --skill")
+        default = task_scenes.default_scene(files.project) if files.project else None
+        if default is None:
+            how = "run it with --scene FILE and --goal or --skill"
+            raise RequestError(f"the task `{task.name}` has no scene; {how}")
+        return default
     path = task_scenes.find_task_scene(task, files)
     if path is None:
         why = task_scenes.why_missing(task.scene, files.places[task.source.path].parent)
-        raise RequestError(f'the scene "{task.scene}" of `{name}` {why}')
-    if task.goal is None and task.body is None:
-        raise RequestError(f"the task `{name}` has neither a goal nor a body")
-    return library, task, path
+        raise RequestError(f'the scene "{task.scene}" of `{task.name}` {why}')
+    return path
 
 
 @contextmanager
@@ -94,7 +125,7 @@ def _load_named(reference: str, request: TaskRequest, reporter: Reporter) -> Ite
 
 @contextmanager
 def _load_goal(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
-    library = compile_valid(find_library(request.library or SHIPPED / "wiping"))
+    library = compile_valid(find_library(request.library) if request.library else default_library())
     scene = find_scene(request.scene) if request.scene else None
     with open_world(request.store, scene, library.vocabulary, reporter) as world:
         state = world.snapshot()

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from skillc.services import scene_diagnostics
 from skillc.services.files import inspect_path
 from skillc.services.library_files import LibraryFiles
+from skillc.services.project.project import Project
 from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
@@ -28,15 +29,17 @@ ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
 
 @dataclass(frozen=True, slots=True)
 class SceneTexts:
-    """Maps the paths of a library to files on disk and to displayable paths."""
+    """Maps the paths of a library to files on disk and to displayable paths; the scene of tasks that name none."""
 
     place: Callable[[str], Path]
     shown: Callable[[str], str]
+    default: Path | None = None
 
     @staticmethod
     def of(files: LibraryFiles) -> SceneTexts:
         """Return those of a library on disk."""
-        return SceneTexts(files.places.__getitem__, files.display_path)
+        default = default_scene(files.project) if files.project else None
+        return SceneTexts(files.places.__getitem__, files.display_path, default)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,13 +72,20 @@ def read_task_scenes(
     written = list(_written(program))
     found = {task: resolve_scene(text.value, texts.place(text.span.path).parent) for task, text in written}
     files = {task: path for task, path in found.items() if path is not None}
+    if texts.default is not None:
+        files |= dict.fromkeys(_without_scene(program), texts.default)
     scenes = {path: read(path, program.vocabulary) for path in sorted({*files.values(), *others})}
     valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
     known = {path: classes_by_individual(scene.state, program.vocabulary) for path, scene in valid.items()}
-    missing = (_missing(text, texts) for task, text in written if task not in files)
+    missing = (_missing(text, texts) for task, text in written if found[task] is None)
     wrong = (problem for scene in scenes.values() for problem in scene.diagnostics)
     individuals = {task: known[path] for task, path in files.items() if path in known}
     return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))))
+
+
+def default_scene(project: Project) -> Path | None:
+    """Return the file of a project's default scene, None if it names none or the file does not exist."""
+    return resolve_scene(project.manifest.scene, project.root) if project.manifest.scene else None
 
 
 def find_task_scene(task: Task, files: LibraryFiles) -> Path | None:
@@ -102,6 +112,14 @@ def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individu
         iri: sorted({each for cls in state.types(iri) for each in ({cls} if cls in known else above[cls] & known)})
         for iri in state.individuals
     }
+
+
+def _without_scene(program: Program) -> Iterator[str]:
+    """Yield the names of the library's own tasks that name no scene."""
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.TaskDeclaration) and not declaration.scene and unit.library == program.name:
+                yield declaration.name.text
 
 
 def _written(program: Program) -> Iterator[tuple[str, s.Text]]:

@@ -11,11 +11,11 @@ from typing import NoReturn, TypeAlias
 
 from skillc.services.check_cache import named_scenes
 from skillc.services.checking import CheckRequest, CheckResult, check_sources, read_libraries
-from skillc.services.errors import RequestError
+from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles
 from skillc.services.reporting import Reporter
 
-_ENDINGS = (".skill", ".ttl", ".py")
+_ENDINGS = (".skill", ".ttl", ".py", ".toml", ".lock")
 _PAUSE_MS = 300
 """How often folders are polled for their existence, in ms."""
 Folders: TypeAlias = frozenset[tuple[Path, int]]
@@ -89,6 +89,9 @@ def _check(request: CheckRequest, show: Show, reporter: Reporter) -> tuple[Path,
     try:
         libraries = read_libraries(request)
         result = check_sources(request, libraries)
+    except DiagnosticsError as error:
+        show(CheckResult(tuple(error.diagnostics), dict(error.texts)))
+        return ()
     except RequestError as error:
         reporter.say(f"error: {error}")
         return ()

@@ -12,7 +12,6 @@ from markupsafe import Markup
 from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.linking import LinkWriter, make_anchor
 from skillc_compiler.emit.docs.mentions import find_terms
-from skillc_compiler.resolve.declarations import library_namespace
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm, Vocabulary, local_name
 
@@ -36,7 +35,7 @@ def shown_terms(library: SkillLibrary) -> frozenset[str]:
     """Return the library's own terms and those it mentions, with the classes that these refer to."""
     vocabulary = library.vocabulary
     known = {*vocabulary.classes, *vocabulary.relations, *vocabulary.properties, *vocabulary.functions}
-    found = {name for name in known if name.startswith(library_namespace(library.name))}
+    found = {name for name in known if name.startswith(library.namespace)}
     found |= {name for each in _speakers(library) for name in find_terms(each)}
     found |= {iri for name in found for iri in _classes_of(name, vocabulary)}
     found |= {iri for name in found for iri in vocabulary.ancestors.get(name, ())}

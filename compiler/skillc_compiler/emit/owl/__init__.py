@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from skillc_compiler.emit.owl.skills import describe_implementation, describe_skill
 from skillc_compiler.emit.owl.terms import describe_terms
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, IriNode, Object, format_turtle
-from skillc_compiler.emit.owl.words import OWL, PREFIXES, RDFS, SKILLC, library_base
+from skillc_compiler.emit.owl.words import OWL, PREFIXES, RDFS, SKILLC
 from skillc_model.skills import SkillLibrary
 
 REPEATED = (
@@ -23,7 +23,7 @@ REPEATED = (
 
 def emit(library: SkillLibrary) -> dict[str, str]:
     """Return the ontology of the library's skills."""
-    base = library_base(library)
+    base = library.namespace
     ours = {**PREFIXES, "": base}
     theirs = {prefix: iri for prefix, iri in library.vocabulary.prefixes.items() if iri not in ours.values()}
     prefixes = {**theirs, **ours}
@@ -31,7 +31,7 @@ def emit(library: SkillLibrary) -> dict[str, str]:
 
 
 def _statements(library: SkillLibrary) -> Iterator[tuple[str, str, Object]]:
-    ontology = library_base(library).removesuffix("#")
+    ontology = library.namespace.removesuffix("#")
     yield ontology, RDF_TYPE, IriNode(f"{OWL}Ontology")
     yield ontology, f"{RDFS}label", library.name
     yield ontology, f"{RDFS}comment", REPEATED

@@ -17,7 +17,6 @@ from skillc_compiler.emit.owl.words import (
     RDFS,
     SKILLC,
     SKIROS,
-    library_base,
 )
 from skillc_model.conditions import (
     Compare,
@@ -53,7 +52,7 @@ KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"
 
 def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     """Yield the statements of a description: a class of capabilities, an individual with parameters and conditions."""
-    iri = f"{library_base(library)}{skill.name}"
+    iri = f"{library.namespace}{skill.name}"
     yield iri, RDF_TYPE, IriNode(f"{OWL}Class")
     yield iri, RDF_TYPE, IriNode(f"{SKIROS}Skill")
     yield iri, f"{RDFS}subClassOf", IriNode(CAPABILITY)
@@ -75,7 +74,7 @@ def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
 
 def describe_implementation(each: Implementation, skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     """Yield the statements of an implementation: the class of invocations with arguments of its refined types."""
-    base = f"{library_base(library)}{skill.name}"
+    base = f"{library.namespace}{skill.name}"
     iri = f"{base}.{each.name}"
     yield iri, RDF_TYPE, IriNode(f"{OWL}Class")
     yield iri, f"{OWL}equivalentClass", _invocations(base, each.parameters)

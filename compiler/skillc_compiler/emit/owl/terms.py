@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, AnonymousNode, IriNode, ListNode, Object
-from skillc_compiler.emit.owl.words import DATATYPES, OWL, RDFS, SKILLC, XSD, declare_frame, library_base
+from skillc_compiler.emit.owl.words import DATATYPES, OWL, RDFS, SKILLC, XSD, declare_frame
 from skillc_model.conditions import IsA
 from skillc_model.format_type import SI_UNITS
 from skillc_model.read_write import terms_read
@@ -50,7 +50,7 @@ def describe_terms(library: SkillLibrary) -> Iterator[Statement]:
 
 
 def _mentioned(library: SkillLibrary) -> set[str]:
-    base = library_base(library)
+    base = library.namespace
     vocabulary = library.vocabulary
     terms = (*vocabulary.classes, *vocabulary.relations, *vocabulary.properties)
     found = {iri for iri in terms if iri.startswith(base)}

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, IriNode, Object
-from skillc_model.skills import SkillLibrary
 
 OWL = "http://www.w3.org/2002/07/owl#"
 RDFS = "http://www.w3.org/2000/01/rdf-schema#"
@@ -57,11 +56,6 @@ _NOTES = """
     unit
 """
 ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())
-
-
-def library_base(library: SkillLibrary) -> str:
-    """Return the namespace of the terms of a library."""
-    return f"https://w3id.org/skillc/library/{library.name}#"
 
 
 def declare_frame() -> Iterator[tuple[str, str, Object]]:

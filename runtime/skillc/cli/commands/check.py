@@ -12,7 +12,15 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.diagnostics_output import FORMS, exit_code, print_diagnostics
 from skillc.cli.options import PATH
-from skillc.services.checking import STDIN, CheckRequest, CheckResult, StdinFile, check_sources, read_libraries
+from skillc.services.checking import (
+    STDIN,
+    CheckRequest,
+    CheckResult,
+    StdinFile,
+    check_paths,
+    check_sources,
+    read_libraries,
+)
 
 
 @click.command(cls=Command)
@@ -38,7 +46,7 @@ def command(
     stdin_filename: Path | None,
     cache: bool,
 ) -> int:
-    """Check the libraries or files at PATHS, by default in the current folder. `-` reads a file from stdin."""
+    """Check the libraries or files at PATHS, by default the project or folder here. `-` reads a file from stdin."""
     from skillc.cli.console import read_stdin
     from skillc.services.library_files import find_scene
 
@@ -56,7 +64,7 @@ def command(
         return _watch(request, form)
     if diff:
         return _show_fixes(request, unsafe_fixes)
-    return _fix(request, unsafe_fixes, form) if fix else _show(check_sources(request, read_libraries(request)), form)
+    return _fix(request, unsafe_fixes, form) if fix else _show(check_paths(request), form)
 
 
 def _show(result: CheckResult, form: str) -> int:

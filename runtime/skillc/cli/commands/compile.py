@@ -14,10 +14,10 @@ from skillc.cli.options import FOLDER, PATH
 
 
 @click.command(cls=Command)
-@click.argument("path", type=PATH)
+@click.argument("path", type=PATH, default=Path())
 @click.option("-o", "--output", required=True, type=FOLDER, help="The folder to write to.")
 def command(path: Path, output: Path) -> None:
-    """Compile the library at PATH into the folder OUTPUT."""
+    """Compile the library at PATH, by default the project or folder here, into the folder OUTPUT."""
     from skillc.cli.console import Terminal
     from skillc.services.artifacts import write_artifacts
 

@@ -15,10 +15,10 @@ from skillc.cli.options import FOLDER, PATH
 
 
 @click.command(cls=Command)
-@click.argument("path", type=PATH)
+@click.argument("path", type=PATH, default=Path())
 @click.option("-o", "--output", required=True, type=FOLDER, help="The folder to write to.")
 def command(path: Path, output: Path) -> None:
-    """Write the HTML reference of the library at PATH into the folder OUTPUT."""
+    """Write the HTML reference of the library at PATH, by default the project or folder here, into OUTPUT."""
     from skillc.cli.console import Terminal
     from skillc.services.artifacts import write_reference
 

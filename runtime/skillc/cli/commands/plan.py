@@ -53,7 +53,7 @@ def command(
     deadline: float,
     as_json: bool,
 ) -> int:
-    """Plan for TASK (`LIBRARY:NAME`, or a shipped task), or for --goal in --scene."""
+    """Plan for TASK (`LIBRARY:NAME`, or one of the project here, or a shipped one), or for --goal in --scene."""
     from skillc.cli.console import Terminal
     from skillc.cli.plan_output import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
@@ -62,7 +62,7 @@ def command(
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
 
-    request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset))
+    request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset)).with_defaults()
     request.check(calls=False)
     if prove and minimise != "work":
         raise click.UsageError("--prove requires --minimise work; for makespan the answer always has a lower bound")

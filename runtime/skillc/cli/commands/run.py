@@ -86,7 +86,7 @@ def command(
     verbose: bool,
     as_json: bool,
 ) -> int:
-    """Run TASK (`LIBRARY:NAME`, or a shipped task), or --goal or --skill in --scene, in simulation."""
+    """Run TASK (`LIBRARY:NAME`, or one of the project here, or a shipped one) in simulation, or --goal or --skill."""
     from skillc.cli.console import Terminal, print_json
     from skillc.cli.run_output import check_operable, print_results, run_with_progress
     from skillc.services import task_loading
@@ -95,7 +95,7 @@ def command(
     from skillc.services.running import RunOptions
     from skillc.services.stores import StoreChoice
 
-    request = task_loading.TaskRequest(task, scene, goal, skill, library, StoreChoice(store, reset))
+    request = task_loading.TaskRequest(task, scene, goal, skill, library, StoreChoice(store, reset)).with_defaults()
     request.check()
     options = RunOptions(
         out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json, deadline, step, pause_at, backend

@@ -13,13 +13,14 @@ from skillc.cli.options import PATH
 @click.command(cls=Command)
 @click.argument("path", required=False, type=PATH)
 def command(path: Path | None) -> None:
-    """Print SHACL shapes, in Turtle, of the vocabulary of the library at PATH (by default the shipped one).
+    """Print SHACL shapes, in Turtle, of the vocabulary of the library at PATH.
 
-    Other tools can check scenes with them.
+    By default it is that of the project here, or else the shipped one. Other tools can check scenes with them.
     """
     from skillc.services.libraries import compile_valid
-    from skillc.services.library_files import SHIPPED, find_library
+    from skillc.services.library_files import find_library
+    from skillc.services.task_list import default_library
     from skillc_runtime.scene.shapes import format_shapes
 
-    library = compile_valid(find_library(path or SHIPPED / "wiping"))
+    library = compile_valid(find_library(path) if path else default_library())
     click.echo(format_shapes(library.vocabulary), nl=False)

@@ -17,7 +17,7 @@ from skillc_runtime.evaluation.trials.trial import Disturbance
 
 
 @click.command(cls=Command)
-@click.argument("task")
+@click.argument("task", required=False)
 @click.option("-n", "--number", type=click.IntRange(min=1), default=50, show_default=True, help="The number of trials.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="The seed of the first trial.")
 @click.option("--jobs", type=click.IntRange(min=1), help="The number of parallel trials.  [default: one per core]")
@@ -40,7 +40,7 @@ from skillc_runtime.evaluation.trials.trial import Disturbance
 )
 @json_option
 def command(
-    task: str,
+    task: str | None,
     number: int,
     seed: int,
     jobs: int | None,
@@ -49,12 +49,13 @@ def command(
     deadline: float,
     as_json: bool,
 ) -> int:
-    """Run TASK (`LIBRARY:NAME`, or a shipped task) in simulation with -n successive seeds, starting at --seed.
+    """Run TASK, as `skillc run` does, in simulation with -n successive seeds, starting at --seed.
 
     Each seed draws how the simulation differs from the world model, within the ranges that the scene states.
     """
     from skillc.cli.console import Terminal, print_json, rich_console
     from skillc.cli.trial_progress import TrialProgress
+    from skillc.services.task_list import require_task
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
     from skillc_runtime.evaluation.trials.table import render_table
 
@@ -62,7 +63,7 @@ def command(
         return TrialProgress(name, disturb, number, done, quiet=as_json)
 
     at_a_time = min(jobs or os.cpu_count() or 1, number)
-    request = TrialRequest(task, disturb, range(seed, seed + number), at_a_time, out, deadline)
+    request = TrialRequest(require_task(task), disturb, range(seed, seed + number), at_a_time, out, deadline)
     result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)

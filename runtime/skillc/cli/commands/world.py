@@ -52,6 +52,8 @@ def command(
 ) -> None:
     """Show SCENE, a Turtle file or the name of a shipped scene, or the world that a store holds.
 
+    In a project, SCENE may be left out if the manifest names one, and is also looked up in the project's folder.
+
     A query sees only the statements of the scene, the data sheets and the vocabulary, without inference. To include
     subclasses, ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. (Conditions of the skill language include
     subclasses and sub-relations.)

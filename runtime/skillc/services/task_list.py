@@ -1,0 +1,136 @@
+"""Finds tasks by their names, and lists them: those of the project here, of its dependencies, and the shipped ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from skillc.services.errors import RequestError
+from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
+from skillc.services.project.project import find_project
+from skillc_dsl import syntax as s
+from skillc_dsl.parsing.parser import parse
+
+DEFAULT_LIBRARY = "wiping"
+"""The shipped library of tasks that are named without one, outside of projects."""
+
+
+@dataclass(frozen=True, slots=True)
+class TaskEntry:
+    """A task: what names it here (`name`), its library, what it does, and the scene that it is in as it is written.
+
+    `aim` is the text of its goal, or the calls of its body.
+    """
+
+    name: str
+    library: str
+    aim: str
+    scene: str
+    doc: str
+    file: str
+    is_default: bool = False
+
+
+def split_reference(reference: str) -> tuple[LibraryFiles, str]:
+    """Split `LIBRARY:NAME` into the library and the name of a task.
+
+    Without LIBRARY it is the library of the project here if that has such a task, else the shipped wiping library.
+    """
+    path, colon, name = reference.rpartition(":")
+    if colon:
+        return find_library(Path(path)), name
+    shipped = SHIPPED / DEFAULT_LIBRARY
+    if find_project(Path()) is None:
+        return find_library(shipped), name
+    here = find_library(Path())
+    if name in task_names(here):
+        return here, name
+    others = find_library(shipped)
+    return (others if name in task_names(others) else here), name
+
+
+def choose_task(task: str | None) -> str | None:
+    """Return the task that is named, or else the default one of the project here, if there is one."""
+    if task is not None:
+        return task
+    project = find_project(Path())
+    return project.manifest.task if project else None
+
+
+def require_task(task: str | None) -> str:
+    """Return the task that is named or the default one; RequestError if there is none."""
+    chosen = choose_task(task)
+    if chosen is None:
+        raise RequestError('name a TASK, or set a default one with `task = "NAME"` in skillc.toml')
+    return chosen
+
+
+def default_library() -> LibraryFiles:
+    """Return the library of the project here, or else the shipped wiping library."""
+    return find_library(Path() if find_project(Path()) else SHIPPED / DEFAULT_LIBRARY)
+
+
+def task_names(files: LibraryFiles) -> frozenset[str]:
+    """Return the names of the tasks of a library, also of those with errors."""
+    named = files.project.manifest.tasks if files.project else ()
+    return frozenset({*named, *(each.name.text for each in _declarations(files))})
+
+
+def list_tasks() -> list[TaskEntry]:
+    """Return the tasks of the project here, of the libraries that it depends on, and the shipped ones."""
+    project = find_project(Path())
+    found = list(_of_library(find_library(Path()), "")) if project else []
+    for each in project.others() if project else ():
+        found += _of_library(find_library(each.root), f"{each.name}:")
+    for folder in sorted(SHIPPED.iterdir()):
+        if any(folder.glob("*.skill")):
+            found += _of_library(find_library(folder), "" if folder.name == DEFAULT_LIBRARY else f"{folder.name}:")
+    own = {each.name for each in found if project and each.library == project.name}
+    return [each for each in found if not project or each.library == project.name or each.name not in own]
+
+
+def _of_library(files: LibraryFiles, prefix: str) -> Iterator[TaskEntry]:
+    """Yield the tasks of a library; their names begin with `prefix`."""
+    manifest = files.project.manifest if files.project else None
+    default = manifest.task if manifest and not prefix else None
+    scene = (manifest.scene if manifest else None) or ""
+    for each in _declarations(files):
+        yield TaskEntry(
+            name=f"{prefix}{each.name.text}",
+            library=files.name,
+            aim=_one_line(each.goal_text) or _calls_of(each),
+            scene=each.scene.value if each.scene else scene,
+            doc=_one_line(each.doc),
+            file=files.display_path(each.span.path),
+            is_default=each.name.text == default,
+        )
+    for name, goal in (manifest.tasks if manifest else {}).items():
+        assert files.project is not None
+        file = files.project.source.path
+        aim = _one_line(goal.goal or goal.skill or "")
+        yield TaskEntry(f"{prefix}{name}", files.name, aim, goal.scene or scene, "", file, name == default)
+
+
+def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:
+    for source in files.sources:
+        yield from (each for each in parse(source).value.declarations if isinstance(each, s.TaskDeclaration))
+
+
+def _calls_of(task: s.TaskDeclaration) -> str:
+    """Return the skills that the body of a task calls, in order."""
+    return ", ".join(dict.fromkeys(_skills_in(task.body)))
+
+
+def _skills_in(node: object) -> Iterator[str]:
+    if isinstance(node, s.CallSkill):
+        yield node.skill.text
+    fields = getattr(node, "__dataclass_fields__", None) or {}
+    inner: Iterable[object] = (getattr(node, name) for name in fields)
+    for each in inner:
+        for part in each if isinstance(each, tuple) else (each,):
+            yield from _skills_in(part)
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())

@@ -1,0 +1,1 @@
+"""Projects: `skillc.toml`, the commands in it, and libraries that others import."""
