@@ -83,7 +83,7 @@ def test_goals_and_calls_of_the_manifest_are_tasks(project: Path) -> None:
 
 def test_tasks_are_listed_here_and_shipped(project: Path) -> None:
     listed = json.loads(call(project / "notes", "tasks", "--json").stdout)
-    own = [each for each in listed if each["library"] == "sorting"]
+    own = [each for each in listed if each["origin"] == "project"]
     assert [(each["name"], each["scene"], each["is_default"]) for each in own] == [
         ("hold_eraser", "iiwa_table.ttl", True),
         ("hold_here", "iiwa_table.ttl", False),

@@ -12,6 +12,7 @@ import click
 from skillc.cli.console import has_colours, page_width
 from skillc.services.task_list import TaskEntry
 
+_ORIGINS = {"dependency": "a dependency", "shipped": "shipped with skillc"}
 _WIDEST = 100
 """The width of the list where the output has none, in cells."""
 
@@ -20,8 +21,12 @@ def print_tasks(tasks: Sequence[TaskEntry]) -> None:
     """Print the tasks, library by library; the default task of the project is marked with an asterisk."""
     width = page_width(sys.stdout) or _WIDEST
     longest = max(len(each.name) for each in tasks)
-    for library, members in groupby(tasks, key=lambda each: each.library):
-        click.secho(library, bold=True, color=has_colours(sys.stdout))
+    for (library, origin), members in groupby(tasks, key=lambda each: (each.library, each.origin)):
+        click.secho(
+            library if origin == "project" else f"{library}, {_ORIGINS[origin]}",
+            bold=True,
+            color=has_colours(sys.stdout),
+        )
         for each in members:
             for line in _lines(each, longest, width):
                 click.echo(line)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from skillc.services.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
@@ -16,14 +17,18 @@ DEFAULT_LIBRARY = "wiping"
 """The shipped library of tasks that are named without one, outside of projects."""
 
 
+Origin = Literal["project", "dependency", "shipped"]
+
+
 @dataclass(frozen=True, slots=True)
 class TaskEntry:
     """A task: what names it here (`name`), its library, what it does, and the scene that it is in as it is written.
 
-    `aim` is the text of its goal, or the calls of its body.
+    `origin` says whose library it is, `aim` is the text of its goal, or the calls of its body.
     """
 
     name: str
+    origin: Origin
     library: str
     aim: str
     scene: str
@@ -80,17 +85,18 @@ def task_names(files: LibraryFiles) -> frozenset[str]:
 def list_tasks() -> list[TaskEntry]:
     """Return the tasks of the project here, of the libraries that it depends on, and the shipped ones."""
     project = find_project(Path())
-    found = list(_of_library(find_library(Path()), "")) if project else []
+    found = list(_of_library(find_library(Path()), "project", "")) if project else []
+    own = {each.name for each in found}
     for each in project.others() if project else ():
-        found += _of_library(find_library(each.root), f"{each.name}:")
+        found += _of_library(find_library(each.root), "dependency", f"{each.name}:")
     for folder in sorted(SHIPPED.iterdir()):
         if any(folder.glob("*.skill")):
-            found += _of_library(find_library(folder), "" if folder.name == DEFAULT_LIBRARY else f"{folder.name}:")
-    own = {each.name for each in found if project and each.library == project.name}
-    return [each for each in found if not project or each.library == project.name or each.name not in own]
+            prefix = "" if folder.name == DEFAULT_LIBRARY else f"{folder.name}:"
+            found += _of_library(find_library(folder), "shipped", prefix)
+    return [each for each in found if each.origin == "project" or each.name not in own]
 
 
-def _of_library(files: LibraryFiles, prefix: str) -> Iterator[TaskEntry]:
+def _of_library(files: LibraryFiles, origin: Origin, prefix: str) -> Iterator[TaskEntry]:
     """Yield the tasks of a library; their names begin with `prefix`."""
     manifest = files.project.manifest if files.project else None
     default = manifest.task if manifest and not prefix else None
@@ -98,6 +104,7 @@ def _of_library(files: LibraryFiles, prefix: str) -> Iterator[TaskEntry]:
     for each in _declarations(files):
         yield TaskEntry(
             name=f"{prefix}{each.name.text}",
+            origin=origin,
             library=files.name,
             aim=_one_line(each.goal_text) or _calls_of(each),
             scene=each.scene.value if each.scene else scene,
@@ -109,7 +116,7 @@ def _of_library(files: LibraryFiles, prefix: str) -> Iterator[TaskEntry]:
         assert files.project is not None
         file = files.project.source.path
         aim = _one_line(goal.goal or goal.skill or "")
-        yield TaskEntry(f"{prefix}{name}", files.name, aim, goal.scene or scene, "", file, name == default)
+        yield TaskEntry(f"{prefix}{name}", origin, files.name, aim, goal.scene or scene, "", file, name == default)
 
 
 def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:
