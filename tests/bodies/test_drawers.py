@@ -35,7 +35,6 @@ DRAWER = [
 PART_IN_IT = [
     *thing("Part", size=(0.04, 0.04, 0.04), cls=PART),
     linked("Part", ON, "Drawer"),
-    SetProperty(lab("Part"), ON.replace("#on", "#atZ"), -0.096),
     AddRelation(lab("Drawer"), CONTAIN, lab("Part")),
 ]
 

@@ -19,6 +19,7 @@ from skillc_runtime.world.state.terms import (
     ANCHOR,
     ANGLES,
     BASE_FRAME_ID,
+    BOARD,
     CONTAIN,
     FACE,
     OFFSET,
@@ -36,7 +37,7 @@ Number: TypeAlias = str
 """A number as it was typed, so that 0.20 is written as 0.20."""
 
 Pairs: TypeAlias = list[tuple[str, Node]]
-_ON = (ON, *OFFSET, ANCHOR, FACE)
+_ON = (ON, *OFFSET, ANCHOR, FACE, BOARD)
 _IN_FRAME = (BASE_FRAME_ID, *POSITION)
 _POSE = (*_ON, *_IN_FRAME, *ORIENTATION, *ANGLES)
 _NUMBER = re.compile(r"[+-]?(?:\d+|\d*\.\d+)")
@@ -56,6 +57,7 @@ class PoseRequest:
     position: tuple[Number, ...] = ()
     frame: str | None = None
     angles: tuple[Number | None, Number | None, Number | None] = (None, None, None)
+    board: Number | None = None
 
     @property
     def is_stated(self) -> bool:
@@ -142,7 +144,7 @@ def _place(file: SceneFile, pose: PoseRequest) -> Pairs:
     """Return the facts of a place: what it is on with offsets, or a position in a frame."""
     offset: Pairs = [(name, _number(each)) for name, each in zip(OFFSET, pose.at, strict=False)]
     if pose.position or pose.frame is not None:
-        if pose.on or offset or pose.anchor or pose.face:
+        if pose.on or offset or pose.anchor or pose.face or pose.board:
             raise RequestError("a place is --on THING with --at, or --position in a --frame, not both")
         if not pose.position:
             raise RequestError("--frame needs --position X Y Z")
@@ -151,7 +153,8 @@ def _place(file: SceneFile, pose: PoseRequest) -> Pairs:
     on: Pairs = [(ON, ox.NamedNode(file.find_thing(pose.on)))] if pose.on else []
     face: Pairs = [(FACE, ox.Literal(pose.face))] if pose.face else []
     anchor: Pairs = [(ANCHOR, ox.Literal(pose.anchor))] if pose.anchor else []
-    return [*on, *face, *anchor, *offset]
+    board: Pairs = [(BOARD, _number(pose.board))] if pose.board else []
+    return [*on, *board, *face, *anchor, *offset]
 
 
 def _turn(pose: PoseRequest, in_frame: bool) -> Pairs:

@@ -52,6 +52,7 @@ def pose_options(function: Function) -> Function:
         click.option("--corner", "anchor", flag_value="corner", help="Count --at from the corner with the least x, y."),
         click.option("--centre", "anchor", flag_value="centre", help="Count --at from the centre (the default)."),
         click.option("--face", type=click.Choice(("top", "bottom", "front", "back", "left", "right"))),
+        click.option("--board", type=NUMBER, metavar="N", help="On which board of a shelf, from the bottom, 1 and up."),
         click.option("--position", nargs=3, type=NUMBER, metavar="X Y Z", help="A position in m, in a frame."),
         click.option("--frame", metavar="FRAME", help="The frame of --position; `map`, the world, by default."),
         click.option("--roll", type=NUMBER, metavar="DEG", help="The turn about x, in degrees, first of the three."),
@@ -71,7 +72,9 @@ def _pose(given: dict[str, Any]) -> PoseRequest:
         at = (*(at or ("0", "0")), at_z)
     angles = (given["roll"], given["pitch"], given["yaw"])
     position = given["position"] or ()
-    return PoseRequest(given["on"], at, given["anchor"], given["face"], position, given["frame"], angles)
+    return PoseRequest(
+        given["on"], at, given["anchor"], given["face"], position, given["frame"], angles, given["board"]
+    )
 
 
 @contextmanager

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_runtime.scene.violation import SceneViolation
+from skillc_runtime.world.space.shapes import SHELF_BOARDS
 from skillc_runtime.world.state.terms import (
     ANCHOR,
     ANGLES,
     BASE_FRAME_ID,
+    BOARD,
+    BOARDS,
     FACE,
     LOCATION,
     OFFSET,
@@ -16,6 +19,7 @@ from skillc_runtime.world.state.terms import (
     ORIENTATION,
     POSITION,
     SCENE,
+    SHAPE,
     SIZE,
 )
 from skillc_runtime.world.state.world_state import WorldState
@@ -31,12 +35,13 @@ def check_stated_poses(state: WorldState) -> Iterator[SceneViolation]:
     if ON not in state.facts:
         return
     supports = supports_of(state)
-    detailed = (*ANGLES, *OFFSET, ANCHOR, FACE)
+    detailed = (*ANGLES, *OFFSET, ANCHOR, FACE, BOARD)
     written = {each for name in detailed for each, value in state.stored[name].items() if value is not None}
     for individual in sorted(written | supports.keys()):
         yield from _stated_twice(state, individual, supports)
         if individual in supports:
             yield from _partial_on(state, individual)
+            yield from _no_board(state, individual, supports[individual])
             yield from _without_size(state, individual, supports)
         else:
             yield from _on_nothing(state, individual)
@@ -65,9 +70,25 @@ def _partial_on(state: WorldState, individual: str) -> Iterator[SceneViolation]:
         yield SceneViolation(individual, stated[0], "partial-pose", message, "write all four, or `skillc:yaw DEGREES`")
 
 
+def _no_board(state: WorldState, individual: str, support: str) -> Iterator[SceneViolation]:
+    """Yield a board that what a thing is on does not have."""
+    short, board = state.vocabulary.short, state.value(individual, BOARD)
+    if not isinstance(board, int):
+        return
+    stated = state.value(support, BOARDS)
+    boards = stated if isinstance(stated, int) else SHELF_BOARDS
+    what = f"{short(individual)} is on board {board} of {short(support)}, which"
+    if state.value(support, SHAPE) != "shelf":
+        cure = f'write `{short(SHAPE)} "shelf"` for it, or no `{short(BOARD)}`'
+        yield SceneViolation(individual, BOARD, "partial-pose", f"{what} is no shelf", cure)
+    elif board > boards:
+        cure = f"boards are counted from the bottom, from 1 to {boards}"
+        yield SceneViolation(individual, BOARD, "partial-pose", f"{what} has {boards}", cure)
+
+
 def _on_nothing(state: WorldState, individual: str) -> Iterator[SceneViolation]:
     """Yield an offset or an angle of a thing that is neither on another nor in a frame."""
-    short, offset = state.vocabulary.short, _stated(state, individual, (*OFFSET, ANCHOR, FACE))
+    short, offset = state.vocabulary.short, _stated(state, individual, (*OFFSET, ANCHOR, FACE, BOARD))
     angles = _stated(state, individual, ANGLES) if state.value(individual, BASE_FRAME_ID) is None else []
     for name in [*offset[:1], *angles[:1]]:
         message = f"{short(individual)} has a {short(name)} and is on nothing"

@@ -14,6 +14,10 @@ from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose, relative_pose, size
 from skillc_runtime.world.space.mesh_file import read_mesh
 from skillc_runtime.world.space.shapes import (
+    BIN_WALL_M,
+    SHELF_BOARDS,
+    SHELF_WALL_M,
+    TABLE_WALL_M,
     Bin,
     Box,
     Capsule,
@@ -71,12 +75,6 @@ FRICTION_UNLESS_STATED = 0.6
 
 DENSITY_UNLESS_STATED = 1000.0
 """Water, kg/m^3."""
-
-BIN_WALL_M, SHELF_WALL_M, TABLE_WALL_M = 0.004, 0.018, 0.03
-"""The thickness of walls and boards that is not stated."""
-
-SHELF_BOARDS = 3
-"""The number of boards of a shelf that states none."""
 
 WOOD: Final[Colour] = (0.62, 0.52, 0.4, 1.0)
 PLASTIC: Final[Colour] = (0.35, 0.5, 0.65, 1.0)

@@ -14,7 +14,9 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles, rotation_from_quaternion
 from skillc_runtime.world.space.extents import LocalBox, Spot, contact_pose
+from skillc_runtime.world.space.floors import bin_floor, shelf_board
 from skillc_runtime.world.space.oriented_box import OrientedBox
+from skillc_runtime.world.space.shapes import BIN_WALL_M, SHELF_BOARDS, SHELF_WALL_M, Bin, ShapeError, Shelf
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import (
     ANCHOR,
@@ -22,7 +24,10 @@ from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     AT,
     BASE_FRAME_ID,
+    BOARD,
+    BOARDS,
     CONTAIN,
+    CONTAINER,
     FACE,
     FRAME_ID,
     HAS_A,
@@ -33,7 +38,9 @@ from skillc_runtime.world.state.terms import (
     ORIENTATION,
     POSITION,
     SCENE,
+    SHAPE,
     SIZE,
+    WALL_THICKNESS,
 )
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.versioned import PairIndex, VersionedMap
@@ -45,7 +52,9 @@ Values: TypeAlias = "VersionedMap[str, Value | None]"
 
 _NO_VALUES: Values = VersionedMap(None)
 _NO_LINKS = PairIndex.empty()
-_VALUES = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *ANGLES, *OFFSET, ANCHOR, FACE, *SIZE, OPENING)
+_SHAPED = (SHAPE, BOARDS, WALL_THICKNESS)
+_STATED = (FRAME_ID, BASE_FRAME_ID, *POSITION, *ORIENTATION, *ANGLES, *OFFSET, ANCHOR, FACE, BOARD, OPENING)
+_VALUES = (*_STATED, *SIZE, *_SHAPED)
 _LINKS = (ON, AT, CONTAIN, HAS_A)
 
 
@@ -195,12 +204,33 @@ class FrameTree:
         face = self._values[FACE].get(individual) or "top"
         corner = self._values[ANCHOR].get(individual) == "corner"
         x, y, z = (self._number_or(individual, name, 0.0) for name in OFFSET)
+        box = self._extent(support, optional=is_place and not corner and face == "top")
         return contact_pose(
-            self._extent(support, optional=is_place and not corner and face == "top"),
+            self._inner_box(individual, support, box),
             self._extent(individual, optional=True),
             self._rotation(individual),
             Spot(str(face), corner, (x, y, z)),
         )
+
+    def _inner_box(self, individual: str, support: str, box: LocalBox) -> LocalBox:
+        """Return the box on whose face an object is: the floor of a bin, a board of a shelf, else the whole support.
+
+        FrameError if there is no such board.
+        """
+        kind = self._values[SHAPE].get(support) or ("bin" if CONTAINER in self._classes.get(support) else "box")
+        x, y, z = (2 * box.half).tolist()
+        try:
+            if self._values[BOARD].get(individual) is not None:
+                boards = int(self._number_or(support, BOARDS, SHELF_BOARDS)) if kind == "shelf" else 0
+                shelf = Shelf((x, y, z), self._number_or(support, WALL_THICKNESS, SHELF_WALL_M), boards)
+                inner = shelf_board(shelf, int(self.number(individual, BOARD)))
+            elif kind == "bin" and self._values[FACE].get(individual) is None and box.half.all():
+                inner = bin_floor(Bin((x, y, z), self._number_or(support, WALL_THICKNESS, BIN_WALL_M)))
+            else:
+                return box
+        except ShapeError as error:
+            raise FrameError(f"{self._short(individual)} is on {self._short(support)}, which {error}") from error
+        return LocalBox(inner.half, box.middle + inner.middle)
 
     def _extent(self, individual: str, *, optional: bool) -> LocalBox:
         """Return the box of an object; a point if it is optional and no size is stated, else MissingFact."""

@@ -13,6 +13,7 @@ from skillc_runtime.world.state.terms import (
     ANCHOR,
     ANGLES,
     BASE_FRAME_ID,
+    BOARD,
     FACE,
     FRAME_ID,
     MANIPULATABLE,
@@ -66,7 +67,7 @@ def relocation_changes(state: WorldState, thing: str, at: Pose, frame: str = WOR
     travel = state.value(thing, TRAVEL) if TRAVEL in state.stored else None
     if isinstance(travel, float):
         return [SetProperty(thing, OPENING, _opening_at(state, thing, travel, at, frame))]
-    stated = (name for name in (*ANGLES, *OFFSET, ANCHOR, FACE) if name in state.stored)
+    stated = (name for name in (*ANGLES, *OFFSET, ANCHOR, FACE, BOARD) if name in state.stored)
     cleared = [ClearProperty(thing, name) for name in stated if state.value(thing, name) is not None]
     supports = state.facts[ON].forward.get(thing) if ON in state.facts else ()
     left = [RemoveRelation(thing, ON, each) for each in sorted(supports)]

@@ -10,12 +10,14 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import read_shape
 from skillc_runtime.world.space.bounding_boxes import bounding_box
+from skillc_runtime.world.space.floors import shelf_board
 from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.grasps import FINGER_TIP_M
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
-from skillc_runtime.world.space.shapes import Bin, solids_of
+from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
+from skillc_runtime.world.space.shapes import Bin, Shelf, solids_of
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.terms import CONTAIN, FINGER_TIP, FURNITURE, SIZE
@@ -46,13 +48,15 @@ class PlaceError(EvaluationError):
 class Support:
     """A horizontal rectangle that carries things: its middle in the world, half its sides (2,) in m.
 
-    rim_m: how high its walls stand above it; 0 without walls. x of its frame is the side that points off an arm.
+    rim_m: how high its walls stand above it; 0 without walls. board: of a shelf, 0 for its top and for all else.
+    x of its frame is the side that points off an arm.
     """
 
     individual: str
     middle: Pose
     half: Array
     rim_m: float
+    board: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,8 +83,10 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
     others = [each for each in read_occupants(state) if each.individual != thing]
     failures = []
     for support in supports:
-        neighbours = [_in_frame(each, support) for each in others if each.individual != support.individual]
-        found = _best(state, arm, support, load, neighbours)
+        neighbours = [
+            corners for each in others if each.individual != support.individual for corners in _in_frame(each, support)
+        ]
+        found = _roof_problem(state, support, load) or _best(state, arm, support, load, neighbours)
         if isinstance(found, Pose):
             return found
         failures.append(found)
@@ -103,7 +109,7 @@ def clearance_m(state: WorldState, to: str) -> float:
 
 def _supports(state: WorldState, to: str) -> list[Support]:
     if state.value(to, SIZE[0]) is not None:
-        return [_support(state, to)]
+        return [_support(state, to), *_boards(state, to)]
     carriers = (each for each in state.objects(to, CONTAIN) if state.is_a(each, FURNITURE))
     return [_support(state, each) for each in sorted(carriers)]
 
@@ -116,6 +122,25 @@ def _support(state: WorldState, individual: str) -> Support:
         floor = box.middle @ Pose.of((0.0, 0.0, shape.wall_m - float(box.half[2])))
         return Support(individual, floor, np.array([x, y]) / 2, z)
     return Support(individual, box.middle @ Pose.of((0.0, 0.0, float(box.half[2]))), box.half[:2], 0.0)
+
+
+def _boards(state: WorldState, individual: str) -> Iterator[Support]:
+    """Yield the boards of a shelf below its top, the highest first; nothing for all else."""
+    shape = read_shape(state, individual)
+    if isinstance(shape, Shelf):
+        middle = bounding_box(state, individual).middle
+        for number in range(shape.boards - 1, 0, -1):
+            board = shelf_board(shape, number)
+            place = middle @ Pose(board.middle + np.array([0.0, 0.0, board.half[2]]), np.eye(3))
+            yield Support(individual, place, board.half[:2], 0.0, number)
+
+
+def _roof_problem(state: WorldState, support: Support, load: Load) -> str | None:
+    """Return that a hand from above does not fit between a support and what is above it; None if it does."""
+    height_m = -float(_extent(load.corners, QUARTERS[0])[0][2])
+    found = roof_problem(state, support.middle.position + np.array([0.0, 0.0, 0.001]), height_m + HAND_ABOVE_M)
+    where = f"board {support.board} of " if support.board else ""
+    return None if found is None else f"on {where}{state.vocabulary.short(support.individual)}, {found}"
 
 
 def _facing(support: Support, base: Array) -> Support:
@@ -143,11 +168,11 @@ def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
     return Load(corners, fingers)
 
 
-def _in_frame(other: Occupant, support: Support) -> tuple[Array, Array]:
-    """Return the lowest and highest corner (3,) in m of what takes up room, in the frame of a support."""
-    boxes = np.concatenate([each.corners for each in other.boxes])
-    local = (boxes - support.middle.position) @ support.middle.rotation
-    return local.min(axis=0), local.max(axis=0)
+def _in_frame(other: Occupant, support: Support) -> Iterator[tuple[Array, Array]]:
+    """Yield the lowest and highest corner (3,) in m of each solid of what takes up room, in the frame of a support."""
+    for box in other.boxes:
+        local = (box.corners - support.middle.position) @ support.middle.rotation
+        yield local.min(axis=0), local.max(axis=0)
 
 
 def _best(
@@ -235,12 +260,13 @@ def _extent(corners: Array, rotation: Array) -> tuple[Array, Array]:
 
 
 def _is_free(hand: Pose, load: Load, neighbours: list[tuple[Array, Array]]) -> bool:
-    """Whether nothing is where the load and the fingers will be, nor above them."""
+    """Whether nothing is where the load and the fingers will be, nor above them but for the hand."""
     for corners, gap_m in ((load.corners, GAP_M), (load.fingers, 0.0)):
         low, high = _extent(corners, hand.rotation)
         low, high = low + hand.position, high + hand.position
         for other_low, other_high in neighbours:
             beside = (other_low[:2] >= high[:2] + gap_m).any() or (other_high[:2] <= low[:2] - gap_m).any()
-            if not beside and other_high[2] > low[2] + 0.001:
+            above = other_low[2] > hand.position[2] + HAND_ABOVE_M
+            if not beside and not above and other_high[2] > low[2] + 0.001:
                 return False
     return True

@@ -14,6 +14,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import FRICTION_UNLESS_STATED, RigidBody, read_body
 from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
 from skillc_runtime.world.space.shapes import Capsule, Cylinder, Sphere
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -183,6 +184,11 @@ def _derive(state: WorldState, gripper: str, thing: str) -> tuple[GraspCandidate
     stated = state.value(thing, GRASP_WIDTH)
     fits = _check_width(state, gripper, thing, widths)
     height_m = _tool_height(state, gripper, body)
+    roof = roof_problem(state, _middle(body, height_m), HAND_ABOVE_M)
+    if roof is not None:
+        raise GraspError(
+            f"where {short(gripper)} would grasp {short(thing)}, {roof}", "put it where nothing is above it"
+        )
     found: list[GraspCandidate] = []
     for closing, width_m in zip(closings, widths, strict=True):
         if width_m <= fits:

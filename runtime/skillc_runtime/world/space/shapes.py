@@ -10,6 +10,12 @@ import numpy as np
 
 from skillc_runtime.world.space.solids import Hull, Kind, Size, Solid, block
 
+BIN_WALL_M, SHELF_WALL_M, TABLE_WALL_M = 0.004, 0.018, 0.03
+"""The thickness of walls and boards that is not stated."""
+
+SHELF_BOARDS = 3
+"""The number of boards of a shelf that states none."""
+
 ROUND_M = 1e-6
 """The diameters of what is round may differ by this much."""
 
