@@ -67,8 +67,8 @@ def explain_none_selected(skill: str, rejected: Sequence[Rejection]) -> str:
     if not rejected:
         return f"{skill} has no implementation"
     furthest = _order_by_stage(rejected)[0]
-    if STAGES.index(furthest.stage) > STAGES.index("pre"):
-        return as_failure(furthest, skill).message
+    if _was_selected(furthest):
+        return f"{skill}: {as_failure(furthest, skill).message}"
     if len({rejection.reason for rejection in rejected}) == 1:
         return f"{skill}: {furthest.reason}"
     each = "; ".join(f"{rejection.implementation}: {rejection.reason}" for rejection in rejected)
@@ -79,12 +79,19 @@ def combine_rejections(skill: str, rejected: Sequence[Rejection], source: Positi
     """Return the failure of the call at `source` all of whose implementations were rejected."""
     if len(rejected) == 1:
         return as_failure(rejected[0], skill)
-    message, ordered = explain_none_selected(skill, rejected), _order_by_stage(rejected)
+    ordered = _order_by_stage(rejected)
     causes = tuple(
         structs.replace(as_failure(each, skill), alternative=f"{skill}[{each.implementation}]") for each in ordered
     )
+    has_cause = ordered and _was_selected(ordered[0])
+    message = causes[0].message if has_cause else explain_none_selected(skill, rejected)
     kind = causes[0].kind if causes else "error"
     return Failure(kind=kind, message=message, source=source, skill=skill, causes=causes)
+
+
+def _was_selected(rejection: Rejection) -> bool:
+    """Whether arguments and preconditions fitted."""
+    return STAGES.index(rejection.stage) > STAGES.index("pre")
 
 
 def _order_by_stage(rejected: Sequence[Rejection]) -> list[Rejection]:
