@@ -14,7 +14,8 @@ from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import Event
+from skillc_runtime.recording.events import Event, TaskEnded
+from skillc_runtime.recording.failure_text import describe_failure
 from tree.library import call
 
 
@@ -93,5 +94,7 @@ def test_a_planner_that_is_gone_when_a_new_plan_is_wanted_ends_the_task(monkeypa
     execution = execute_task(prepared, faults.LIBRARY, there, (told.append,))
     assert execution.status == "failed"
     assert "broke at tick" in faults.reasons(told)
-    assert "no other plan was found: the planner does not start" in faults.reasons(told)
+    (ended,) = (event for event in told if isinstance(event, TaskEnded))
+    assert ended.failure is not None
+    assert describe_failure(ended.failure).endswith("no other plan was found: the planner does not start")
     is_safe(there, scene)
