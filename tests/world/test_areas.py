@@ -12,7 +12,7 @@ from skillc_runtime.scene.load import read_with_sheets
 
 VOCABULARY = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
 SCENE = catalogue.scene_path("iiwa_outlet").read_text(encoding="utf-8")
-STRAIGHT = "OrientationW 1.0 ; skiros:OrientationX 0.0 ; skiros:OrientationY 0.0 ; skiros:OrientationZ 0.0"
+STRAIGHT = "PositionX 0.02"
 PATCH = "skillc:hasPatch lab:Outlet-1 ; skillc:hasHole lab:Label-1"
 
 
@@ -29,7 +29,8 @@ def with_outlet(old: str, new: str, relation: str = "skillc:hasHole lab:Outlet-1
 
 
 def turned(w: float, x: float, y: float, z: float) -> str:
-    return f"OrientationW {w} ; skiros:OrientationX {x} ; skiros:OrientationY {y} ; skiros:OrientationZ {z}"
+    rest = f"skiros:OrientationX {x} ; skiros:OrientationY {y} ; skiros:OrientationZ {z}"
+    return f"{STRAIGHT} ; skiros:OrientationW {w} ; {rest}"
 
 
 @pytest.mark.parametrize(

@@ -27,6 +27,14 @@ def problems(tmp_path: Path, text: str) -> tuple[Diagnostic, ...]:
     return ()
 
 
+HAND = "skillc:hasGripper lab:Robotiq-1"
+
+
+def turned(w: float) -> str:
+    """Return a quaternion of which only the first part is not 0, as it is written before another fact."""
+    return f"skiros:OrientationW {w!r} ; skiros:OrientationX 0 ; skiros:OrientationY 0 ; skiros:OrientationZ 0 ; "
+
+
 MISTAKES = [
     (
         '"pedestal" ; skiros:BaseFrameId "cell"',
@@ -65,9 +73,9 @@ MISTAKES = [
         "lab:Cell and lab:Robotiq-1 and lab:Iiwa-1 and lab:Robot-1",
         "`map`",
     ),
-    ("OrientationW 1.0", "OrientationW 0.0", "no-rotation", "(0, 0, 0, 0) of lab:Iiwa-1", "1.0"),
-    ("OrientationW 1.0", "OrientationW 0.7", "no-rotation", "the length of the quaternion is 0.7 and not 1", "1.0"),
-    ("OrientationW 1.0", "OrientationW 1e200", "no-rotation", "lab:Iiwa-1", "1.0"),
+    (HAND, turned(0.0) + HAND, "no-rotation", "(0, 0, 0, 0) of lab:Iiwa-1", "1.0"),
+    (HAND, turned(0.7) + HAND, "no-rotation", "the length of the quaternion is 0.7 and not 1", "1.0"),
+    (HAND, turned(1e200) + HAND, "no-rotation", "lab:Iiwa-1", "1.0"),
     ("SizeX 0.30", "SizeX -0.30", "wrong-data-type", "lab:Pedestal.skiros:SizeX = -0.3`: it is above 0", ""),
     ("offsetRange 0.02", "offsetRange -0.02", "wrong-data-type", "offsetRange = -0.02`: it is at least 0", ""),
     ("offsetRange 0.02", "offsetRange 3", "wrong-data-type", "it is at least 0 and at most 0.5", ""),
@@ -105,7 +113,7 @@ def test_the_place_is_that_of_the_statement(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("OrientationW 1.0", "OrientationW 0.995"), ("SizeX 0.30", "SizeX 1e-3"), ("PositionX 0.4", "PositionX -0.4")],
+    [(HAND, turned(0.995) + HAND), ("SizeX 0.30", "SizeX 1e-3"), ("PositionX 0.4", "PositionX -0.4")],
 )
 def test_what_is_merely_unusual_is_accepted(tmp_path: Path, old: str, new: str) -> None:
     assert old in SCENE
