@@ -62,7 +62,8 @@ def check_tasks_in_scenes(
     cells: list[Diagnostic] = []
     for path, scene in scenes.valid.items():
         tasks = [library.tasks[name] for name, file in scenes.files.items() if file == path and name in library.tasks]
-        cells += cell_diagnostics(scene, str(path), _used_in(tasks, scene))
+        goals = [each.goal for each in tasks if each.goal is not None]
+        cells += cell_diagnostics(scene, str(path), _used_in(tasks, scene), goals)
     return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled), *cells]
 
 

@@ -18,6 +18,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 MAX_DEPTH = 4
 MAX_LISTED = 3
+NOTHING = "which nothing fulfils"
 EXPLANATION_S = 5.0
 """The time limit for an explanation; a large scene may need more, and then gets a general one."""
 
@@ -26,7 +27,7 @@ EXPLANATION_S = 5.0
 class UnsolvabilityReason:
     """Why there is no plan: how the parts of the goal depend on conditions, and what keeps these from holding.
 
-    `causes` are what reasoners say, or else which classes have no individual; empty if neither explains it.
+    `causes` are what reasoners say, else other facts that are wrong or missing; empty if none was found.
     """
 
     why: str
@@ -39,7 +40,8 @@ def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) 
     try:
         explanation = _Explanation(posed, state)
         reasons = tuple(explanation.explain_goal(goal))
-        causes = tuple(dict.fromkeys(explanation.obstacles or explanation.missing))[:MAX_LISTED]
+        found = explanation.obstacles or explanation.wrong or explanation.missing
+        causes = tuple(dict.fromkeys(found))[:MAX_LISTED]
     except Cancelled:
         reasons = ("no sequence of skills reaches the goal; the scene is too large to say why",)
     undecided = (f"not decided: {each}" for each in posed.undecided[:MAX_LISTED])
@@ -48,7 +50,11 @@ def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) 
 
 
 class _Explanation:
-    """Fills `obstacles` while it explains a goal, with what reasoners say, and `missing`, with the empty classes."""
+    """Fills three lists while it explains a goal.
+
+    `obstacles` is what reasoners say, `wrong` are facts that are not as a skill needs them, `missing` are the relations
+    that no individuals have.
+    """
 
     def __init__(self, posed: PosedProblem, state: WorldState) -> None:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
@@ -60,6 +66,7 @@ class _Explanation:
         self._grounding = Grounding(posed.problem, CancelToken(EXPLANATION_S))
         self._grounding.explore()
         self.obstacles: list[str] = []
+        self.wrong: list[str] = []
         self.missing: list[str] = []
 
     def explain_goal(self, condition: Condition) -> Iterator[str]:
@@ -85,6 +92,9 @@ class _Explanation:
         actions = self._domain.actions if isinstance(part, Atom) and depth else ()
         reasons = [reason for action in actions for reason in self._explain_action(action, part, depth)]
         if not reasons:
+            mistyped = [each for action in actions for each in self._find_mistyped(action, part)]
+            least = min(map(len, mistyped), default=0)
+            self.wrong += [text for each in mistyped if len(each) == least for text in each]
             return f"{self._nothing} makes `{shown}` true"
         return f"`{shown}` cannot be reached: " + "; ".join(dict.fromkeys(reasons))
 
@@ -96,16 +106,38 @@ class _Explanation:
                 yield f"{action.skill} {self._describe_need(action, start, depth)}"
 
     def _fits_types(self, action: Action, values: dict[str, str]) -> bool:
+        return not any(self._mistyped(action, values))
+
+    def _find_mistyped(self, action: Action, wanted: Formula) -> Iterator[tuple[str, ...]]:
+        """Yield which individuals of an atom are not of the classes that an action with this effect takes."""
+        labels = dict(zip((each.name for each in action.parameters), action.binds, strict=True))
+        for change in action.effects:
+            start = _unify(change.atom, wanted, action) if change.positive else None
+            if start is not None:
+                yield tuple(
+                    f"{self._describe_class(name)}, and {action.skill} needs a {self._formatter.format_type(cls)} as "
+                    f"`{labels[variable]}`"
+                    for variable, name, cls in self._mistyped(action, start)
+                )
+
+    def _describe_class(self, name: str) -> str:
+        types = sorted(map(self._state.vocabulary.short, self._state.types(self._iris.get(name, ""))))
+        return f"{self._formatter.format_object(name)} is a {' and a '.join(types)}"
+
+    def _mistyped(self, action: Action, values: dict[str, str]) -> Iterator[tuple[str, str, str]]:
+        """Yield the variables bound to an object of a class that the action does not take: with it, and the class."""
         types = {each.name: each.type for each in self._objects}
         wanted = {each.name: each.type for each in action.parameters}
-        return all(self._domain.is_a(types[name], wanted[variable]) for variable, name in values.items())
+        for variable, name in values.items():
+            if not self._domain.is_a(types[name], wanted[variable]):
+                yield variable, name, wanted[variable]
 
     def _describe_need(self, action: Action, start: dict[str, str], depth: int) -> str:
         """Return what an action needs: an object of a class, or the first condition that cannot hold with others."""
         for parameter, label in zip(action.parameters, action.binds, strict=True):
             if not self._domain.of_type(self._objects, parameter.type):
                 wanted = self._formatter.format_type(parameter.type)
-                self.missing.append(f"there is no {wanted}, which {action.skill} needs as `{label}`")
+                self.wrong.append(f"there is no {wanted}, which {action.skill} needs as `{label}`")
                 return f"needs a {wanted} as `{label}`, and there is none"
         conditions = conjuncts(conjunction((action.precondition, action.hold)))
         names = {each.name: f"`{label}`" for each, label in zip(action.parameters, action.binds, strict=True)}
@@ -113,8 +145,19 @@ class _Explanation:
             if next(self._grounding.find_bindings(action, conditions[: count + 1], start), None) is None:
                 shown = self._formatter.format(condition, {**names, **self._short_names(start)})
                 left = self._grounding.find_bindings(action, conditions[:count], start)
-                return f"needs {shown}, {self._explain_condition(condition, left, depth)}"
+                why = self._explain_condition(condition, left, depth)
+                if why == NOTHING:
+                    self.missing.append(self._describe_missing(action, condition, start))
+                return f"needs {shown}, {why}"
         raise AssertionError(f"{action.name} can make this true")
+
+    def _describe_missing(self, action: Action, condition: Formula, start: dict[str, str]) -> str:
+        """Return that nothing fulfils a condition, with the classes of the parameters that have no value."""
+        classes = {each.name: f"a {self._formatter.format_type(each.type)}" for each in action.parameters}
+        shown = self._formatter.format(condition, {**classes, **self._short_names(start)})
+        alone = next(self._grounding.find_bindings(action, (condition,), start), None) is not None
+        others = " together with its other conditions" if alone else ""
+        return f"{action.skill} needs `{shown}`, and nothing in the scene fulfils that{others}"
 
     def _short_names(self, values: dict[str, str]) -> dict[str, str]:
         return {variable: self._formatter.format_object(name) for variable, name in values.items()}
@@ -122,17 +165,17 @@ class _Explanation:
     def _explain_condition(self, condition: Formula, left: Iterator[dict[str, str]], depth: int) -> str:
         """Return why a condition fails; detailed if the conditions before it leave few bindings of its variables."""
         if not isinstance(condition, Atom):
-            return "which nothing fulfils"
+            return NOTHING
         predicate, wanted = self._domain.predicate[condition.predicate], set[tuple[str, ...]]()
         most = 1 if predicate.changes else MAX_LISTED
         for values in left:
             wanted.add(tuple(values.get(term, term) for term in condition.terms))
             if len(wanted) > most:
-                return "which nothing fulfils"
+                return NOTHING
         if predicate.changes:
             return "and " + "".join(self._explain_part(Atom(predicate.name, terms), depth - 1) for terms in wanted)
         reasons = "; ".join(filter(None, (self._explain_static(predicate.meaning, terms) for terms in sorted(wanted))))
-        return f"which nothing fulfils: {reasons}" if reasons else "which nothing fulfils"
+        return f"{NOTHING}: {reasons}" if reasons else NOTHING
 
     def _explain_static(self, meaning: Meaning, terms: tuple[str, ...]) -> str:
         """Return why a static condition does not hold for these objects; empty if there is no explanation."""
@@ -142,9 +185,9 @@ class _Explanation:
         bindings = {name: iri for name, iri in zip(meaning.variables, individuals, strict=True) if iri is not None}
         try:
             obstacle = find_obstacle(meaning.condition, self._state, bindings)
-            if obstacle is not None:
-                self.obstacles.append(obstacle)
-            return explain(meaning.condition, self._state, bindings, self._state.vocabulary)
+            text = explain(meaning.condition, self._state, bindings, self._state.vocabulary)
+            (self.wrong if obstacle is None else self.obstacles).append(obstacle or text)
+            return text
         except EvaluationError as reason:
             return str(reason)
 

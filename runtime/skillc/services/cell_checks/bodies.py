@@ -6,20 +6,35 @@ from collections.abc import Iterator
 
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.bodies import has_body, read_body
-from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
+from skillc_runtime.world.space.frames import states_own_pose
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAINER, HAS_A, HAS_SHEET, MANIPULATABLE, SHAPE, SIZE
+from skillc_runtime.world.state.terms import (
+    ARM_DEVICE,
+    CONTAINER,
+    END_EFFECTOR,
+    HAS_A,
+    HAS_SHEET,
+    MANIPULATABLE,
+    SHAPE,
+    SIZE,
+)
 from skillc_runtime.world.state.world_state import WorldState
+
+WITHOUT_POSE = "no-pose"
+"""The problem because of which nothing else can be said about where a thing is."""
 
 
 def check_bodies(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator[SceneViolation]:
     """Yield things to handle and containers without a size if there is an arm, and impossible sizes and shapes."""
-    handled = {*state.instances(MANIPULATABLE), *state.instances(CONTAINER)} if _has_devices(state) else set()
+    handled = {*state.instances(MANIPULATABLE), *state.instances(CONTAINER)} if _has_devices(state) else set[str]()
     sized = {each for name in SIZE if name in state.stored for each, _ in state.stored[name].items()}
     for individual in sorted(handled - sized):
         if not _has_model(state, individual):
             yield _without_size(state, individual)
+    for individual in sorted(sized & handled):
+        yield from _without_pose(state, individual)
     for individual in sorted(sized):
         yield from _impossible(state, individual)
 
@@ -44,6 +59,19 @@ def _without_size(state: WorldState, individual: str) -> SceneViolation:
     cure = " ".join(f"`{short(name)} NUMBER-IN-m ;`" for name in SIZE)
     message = f"{short(individual)}, a {classes}, has no size, {what}"
     return SceneViolation(individual, None, "no-body", message, f"write {cure}")
+
+
+def _without_pose(state: WorldState, individual: str) -> Iterator[SceneViolation]:
+    """Yield a thing that is only said to be in or at something: its body would be in the middle of that."""
+    try:
+        carrier = None if states_own_pose(state, individual) else frame_tree_of(state).carrier(individual)
+    except FrameError:
+        return
+    if carrier is None or state.is_a(carrier, END_EFFECTOR):
+        return
+    short = state.vocabulary.short
+    message = f"{short(individual)} has no pose, so it would be in the middle of {short(carrier)}"
+    yield SceneViolation(individual, None, WITHOUT_POSE, message, "write what it is on, `skillc:on THING ;`, or a pose")
 
 
 def _impossible(state: WorldState, individual: str) -> Iterator[SceneViolation]:

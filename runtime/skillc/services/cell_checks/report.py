@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import msgspec
@@ -11,7 +11,7 @@ from skillc.services.cell_checks.checks import check_cell
 from skillc.services.scene_diagnostics import with_shown_path
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
-from skillc_model.conditions import Exists, Forall, Individual
+from skillc_model.conditions import Condition, Exists, Forall, Individual
 from skillc_model.traversal import walk
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
@@ -51,9 +51,14 @@ WHOLE_CELL = "impossible-body"
 """The problem because of which no task can be simulated in the cell, whatever it uses."""
 
 
-def cell_diagnostics(scene: Scene, path: str, used: frozenset[str]) -> Iterator[Diagnostic]:
-    """Yield what is wrong in the cell of a scene file at `path`; `used` are the individuals that tasks name."""
-    yield from locate(grade(check_cell(scene.state), used), ScenePlaces.of(scene.said, path))
+def cell_diagnostics(
+    scene: Scene, path: str, used: frozenset[str], goals: Sequence[Condition] = ()
+) -> Iterator[Diagnostic]:
+    """Yield what is wrong in the cell of a scene file at `path`.
+
+    `used` are the individuals that tasks name, `goals` those of the tasks.
+    """
+    yield from locate(grade(check_cell(scene.state, goals), used), ScenePlaces.of(scene.said, path))
 
 
 def grade(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[SceneViolation]:

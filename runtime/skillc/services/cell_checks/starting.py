@@ -20,7 +20,8 @@ def find_start_problem(task: LoadedTask, reporter: Reporter) -> str | None:
     """
     state, objective = task.assignment.state, task.assignment.objective
     item = objective.goal if isinstance(objective, AchieveGoal) else objective.body
-    found = list(grade(check_cell(state), used_individuals(item, state)))
+    goals = (objective.goal,) if isinstance(objective, AchieveGoal) else ()
+    found = list(grade(check_cell(state, goals), used_individuals(item, state)))
     if not found:
         return None
     places = _places(task)

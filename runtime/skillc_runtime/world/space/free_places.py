@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -40,8 +41,18 @@ QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, 
 """The rotations (3, 3) of a hand that points down, in the frame of a support: first as its x points."""
 
 
+GREATEST_TILT_DEG = 20.0
+"""Nothing stands on or in what is tilted further."""
+
+Lack: TypeAlias = Literal["support", "room", "free room", "headroom", "reach"]
+
+
 class PlaceError(EvaluationError):
-    """A thing cannot be put down; the message says why, with numbers."""
+    """A thing cannot be put down; the message says why, with numbers, and `lack` what there is not."""
+
+    def __init__(self, message: str, lack: Lack = "support") -> None:
+        super().__init__(message)
+        self.lack = lack
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,6 +86,9 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
     """
     short, load = state.vocabulary.short, _read_load(state, gripper, thing)
     supports = [_facing(each, pose(state, arm).position) for each in _supports(state, to)]
+    tilted = next(filter(None, (_tilt_problem(state, each) for each in supports)), None)
+    if tilted is not None:
+        raise PlaceError(f"{short(thing)} cannot be put down: {tilted}")
     if not supports:
         raise PlaceError(
             f"{short(to)} has no size, and contains nothing that could carry {short(thing)}: "
@@ -90,7 +104,8 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
         if isinstance(found, Pose):
             return found
         failures.append(found)
-    raise PlaceError(f"{short(thing)} cannot be put down: " + "; ".join(failures))
+    why = "; ".join(dict.fromkeys(map(str, failures)))
+    raise PlaceError(f"{short(thing)} cannot be put down: {why}", failures[-1].lack)
 
 
 def pose_in_hand(state: WorldState, gripper: str, thing: str) -> Pose:
@@ -135,12 +150,22 @@ def _boards(state: WorldState, individual: str) -> Iterator[Support]:
             yield Support(individual, place, board.half[:2], 0.0, number)
 
 
-def _roof_problem(state: WorldState, support: Support, load: Load) -> str | None:
+def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError | None:
     """Return that a hand from above does not fit between a support and what is above it; None if it does."""
     height_m = -float(_extent(load.corners, QUARTERS[0])[0][2])
     found = roof_problem(state, support.middle.position + np.array([0.0, 0.0, 0.001]), height_m + HAND_ABOVE_M)
     where = f"board {support.board} of " if support.board else ""
-    return None if found is None else f"on {where}{state.vocabulary.short(support.individual)}, {found}"
+    if found is None:
+        return None
+    return PlaceError(f"on {where}{state.vocabulary.short(support.individual)}, {found}", "headroom")
+
+
+def _tilt_problem(state: WorldState, support: Support) -> str | None:
+    """Return that a support is tilted too far for anything to stand on it; None if it is not."""
+    tilt_deg = np.degrees(np.arccos(np.clip(support.middle.rotation[2, 2], -1.0, 1.0)))
+    if tilt_deg <= GREATEST_TILT_DEG:
+        return None
+    return f"{state.vocabulary.short(support.individual)} is tilted by {tilt_deg:.0f} deg, so nothing stands in it"
 
 
 def _facing(support: Support, base: Array) -> Support:
@@ -177,7 +202,7 @@ def _in_frame(other: Occupant, support: Support) -> Iterator[tuple[Array, Array]
 
 def _best(
     state: WorldState, arm: str, support: Support, load: Load, neighbours: list[tuple[Array, Array]]
-) -> Pose | str:
+) -> Pose | PlaceError:
     """Return the free hand pose nearest to the middle of a support, or why there is none."""
     short, fits, free = state.vocabulary.short, False, False
     sheet, base = sheet_of(state, arm), pose(state, arm)
@@ -191,14 +216,13 @@ def _best(
         if np.linalg.norm(found.position - shoulder) < 0.95 * reach_m and np.hypot(*away[:2]) > NEAR_BASE_M:
             return found
     size = np.ptp(load.corners, axis=0)
+    where, wide = short(support.individual), f"{1e3 * size[0]:.0f} x {1e3 * size[1]:.0f} mm"
     if not fits:
-        return (
-            f"{1e3 * size[0]:.0f} x {1e3 * size[1]:.0f} mm do not fit into {short(support.individual)}, which is "
-            f"{2e3 * support.half[0]:.0f} x {2e3 * support.half[1]:.0f} mm, with room for the fingers"
-        )
+        room = f"{2e3 * support.half[0]:.0f} x {2e3 * support.half[1]:.0f} mm"
+        return PlaceError(f"{wide} do not fit into {where}, which is {room}, with room for the fingers", "room")
     if not free:
-        return f"{short(support.individual)} is full: no place of {1e3 * size[0]:.0f} x {1e3 * size[1]:.0f} mm is free"
-    return f"no free place on {short(support.individual)} is within the {reach_m:.2f} m that {short(arm)} reaches"
+        return PlaceError(f"{where} is full: no place of {wide} is free", "free room")
+    return PlaceError(f"no free place on {where} is within the {reach_m:.2f} m that {short(arm)} reaches", "reach")
 
 
 def _hands(support: Support, load: Load) -> Iterator[Pose]:

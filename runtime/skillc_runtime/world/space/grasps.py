@@ -202,7 +202,7 @@ def _check_width(state: WorldState, gripper: str, thing: str, widths: list[float
     widest = sheet_of(state, gripper).number("maxOpening")
     if min(widths) <= widest - LEAST_CLEARANCE_M:
         return widest - LEAST_CLEARANCE_M
-    short, each = state.vocabulary.short, " and ".join(f"{1e3 * width:.0f}" for width in dict.fromkeys(widths))
+    short, each = state.vocabulary.short, " and ".join(dict.fromkeys(f"{1e3 * width:.0f}" for width in widths))
     raise GraspError(
         f"{short(thing)} is {each} mm wide between the fingers, and {short(gripper)} takes at most "
         f"{1e3 * (widest - LEAST_CLEARANCE_M):.0f} mm: it opens to {1e3 * widest:.0f} mm",

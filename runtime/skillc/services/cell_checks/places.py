@@ -1,0 +1,114 @@
+"""Checks that things fit into the containers into which they are to be put, and that an arm reaches in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from types import MappingProxyType
+from typing import Final
+
+from skillc_dsl.diagnostics import Severity
+from skillc_model.conditions import Condition, Holds, Individual
+from skillc_model.traversal import conjuncts
+from skillc_runtime.scene.violation import SceneViolation
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import moves_with
+from skillc_runtime.world.space.free_places import Lack, PlaceError
+from skillc_runtime.world.space.grasps import GraspError, stated_pose
+from skillc_runtime.world.space.occupants import Occupant
+from skillc_runtime.world.space.place_foresight import place_problem
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.python_calls import InsufficientFacts
+from skillc_runtime.world.state.terms import (
+    ARM_DEVICE,
+    CONTAIN,
+    CONTAINER,
+    FRAME_ID,
+    HAS_GRIPPER,
+    MANIPULATABLE,
+    MOBILE_ROBOT,
+    PLACING_POSE,
+    SIZE,
+    TRAVEL,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+MOST: Final = 50
+"""In a scene with more containers or things to handle, only those are checked that a goal names."""
+
+CURES: Final[MappingProxyType[Lack, str]] = MappingProxyType(
+    {
+        "support": "turn it upright",
+        "room": "use a larger one, or a smaller thing",
+        "free room": "take something out of it, or use a larger one",
+        "headroom": "use a place that is open above",
+        "reach": "move it nearer to the arm",
+    }
+)
+
+
+def check_places(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator[SceneViolation]:
+    """Yield containers into which none of the things to handle in the cell can be put."""
+    things = [each.individual for each in occupants if state.is_a(each.individual, MANIPULATABLE)]
+    containers = [each.individual for each in occupants if state.is_a(each.individual, CONTAINER)]
+    if not things or max(len(things), len(containers)) > MOST:
+        return
+    for container in containers:
+        problem = None
+        for thing in things:
+            problem = _find_problem(state, thing, container)
+            if problem is None or problem.lack == "free room":
+                break
+        else:
+            if problem is not None:
+                yield _violation(container, (), problem, "warning")
+
+
+def check_goal_places(state: WorldState, goal: Condition) -> Iterator[SceneViolation]:
+    """Yield containers into which the thing cannot be put that shall be there according to a goal."""
+    for thing, container in _wanted(state, goal):
+        problem = _find_problem(state, thing, container)
+        if problem is not None:
+            yield _violation(container, (thing,), problem, "warning" if problem.lack == "free room" else "error")
+
+
+def _wanted(state: WorldState, goal: Condition) -> Iterator[tuple[str, str]]:
+    """Yield the things that are elsewhere with the containers in which a goal wants them."""
+    for each in conjuncts(goal):
+        match each:
+            case Holds(subject=Individual(container), relation=relation, object=Individual(thing)):
+                known = relation == CONTAIN and {container, thing} <= state.individuals
+                sized = known and all(state.value(one, SIZE[0]) is not None for one in (container, thing))
+                if sized and state.is_a(thing, MANIPULATABLE) and not state.holds(container, CONTAIN, thing):
+                    yield thing, container
+            case _:
+                pass
+
+
+def _find_problem(state: WorldState, thing: str, container: str) -> PlaceError | None:
+    """Return why no arm can put a thing into a container; None if one can, or if that is not known."""
+    hands = [(arm, hand) for arm in state.instances(ARM_DEVICE) for hand in state.objects(arm, HAS_GRIPPER)]
+    if stated_pose(state, container, PLACING_POSE) is not None or state.value(container, TRAVEL) is not None:
+        return None
+    problem: PlaceError | None = None
+    for arm, hand in sorted(hands):
+        if state.value(hand, FRAME_ID) is None:
+            return None
+        with suppress(GraspError):
+            try:
+                problem = place_problem(state, arm, hand, thing, container)
+            except (SheetError, FrameError, InsufficientFacts):
+                return None
+            if problem is None or (problem.lack == "reach" and (_drives(state, arm) or _drives(state, container))):
+                return None
+    return problem
+
+
+def _drives(state: WorldState, individual: str) -> bool:
+    return any(moves_with(state, individual, robot) for robot in state.instances(MOBILE_ROBOT))
+
+
+def _violation(container: str, things: tuple[str, ...], problem: PlaceError, severity: Severity) -> SceneViolation:
+    name = "out-of-reach" if problem.lack == "reach" else "no-room"
+    place = SIZE[0] if problem.lack == "room" else None
+    return SceneViolation(container, place, name, str(problem), CURES[problem.lack], severity, things)

@@ -1,0 +1,37 @@
+"""Whether a thing can be put down somewhere, before it is grasped."""
+
+from __future__ import annotations
+
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.space.frames import pose, relocation_changes
+from skillc_runtime.world.space.free_places import PlaceError, free_hand_pose
+from skillc_runtime.world.space.grasps import find_grasps
+from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
+from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def place_problem(state: WorldState, arm: str, gripper: str, thing: str, to: str) -> PlaceError | None:
+    """Return why a thing cannot be put down however it is grasped where it is now; None if it can be.
+
+    GraspError if it cannot be grasped; FrameError, MissingFact or SheetError if facts are missing.
+    """
+    problems = (
+        _problem_of_grasp(state, arm, gripper, thing, to, each.tool) for each in find_grasps(state, gripper, thing)
+    )
+    first = next(problems)
+    return first if first is None or all(problems) else None
+
+
+def _problem_of_grasp(state: WorldState, arm: str, gripper: str, thing: str, to: str, tool: Pose) -> PlaceError | None:
+    """Return why a thing cannot be put down that is grasped with the tool at a pose; None if it can be."""
+    in_hand = tool.inverse() @ pose(state, thing)
+    frame = state.value(gripper, FRAME_ID)
+    taken = [RemoveRelation(each, CONTAIN, thing) for each in sorted(state.subjects(CONTAIN, thing))]
+    moved = relocation_changes(state, thing, in_hand, str(frame))
+    held = state.with_changes([*taken, AddRelation(gripper, CONTAIN, thing), *moved])
+    try:
+        free_hand_pose(held, arm, gripper, thing, to)
+    except PlaceError as error:
+        return error
+    return None

@@ -1,0 +1,188 @@
+"""Two parts and two boxes, as somebody writes them who has read the documentation; and ways to get something wrong.
+
+Each way is said in one sentence that names the thing, with numbers and what to do; nothing moves before it is said,
+unless nobody could know it.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+import pytest
+from click.testing import CliRunner, Result
+
+from skillc.cli.main import skillc
+
+FOLDER = Path(__file__).parent / "own"
+SIZE = "skiros:SizeX 0.04 ; skiros:SizeY 0.05 ; skiros:SizeZ 0.06 ;"
+WEIGHT = "skiros:Weight 0.2 ;"
+PLACE = "skillc:on lab:Table ; skillc:atX -0.05 ; skillc:atY -0.3 ."
+BOX_PLACE = "skillc:on lab:Table ; skillc:atX -0.05 ; skillc:atY 0.15 ."
+BOX = f"skiros:SizeX 0.16 ; skiros:SizeY 0.16 ; skiros:SizeZ 0.06 ;\n    {BOX_PLACE}"
+SHEET = "skillc:hasSheet"
+IDLE = 'skillc:deviceState "Idle" ;'
+GOAL = "lab:Box-1 contain lab:Part-1 and lab:Box-2 contain lab:Part-2"
+IN_CELL = "skiros:contain lab:Pedestal, lab:Table, lab:Box-1, lab:Box-2, lab:Part-1, lab:Part-2 ."
+BRICK = """lab:Brick a own:WorkPart ; skiros:SizeX 0.14 ; skiros:SizeY 0.1 ; skiros:SizeZ 0.05 ;
+    skillc:on lab:Table ; skillc:atX -0.05 ; skillc:atY 0.15 ; skillc:atZ 0.004 .
+
+lab:Part-2 a"""
+CAMERA = """lab:Camera-1 a skillc:Camera ; skiros:BaseFrameId "map" ; skillc:roll 180 ;
+    skiros:PositionX 0.5 ; skiros:PositionY 0.0 ; skiros:PositionZ 1.6 .
+
+lab:Part-2 a"""
+Outcome = Literal["invalid", "refused", "failed"]
+
+
+class Way(NamedTuple):
+    """What somebody writes instead of something, what is said about it, and how `run` ends."""
+
+    before: str
+    after: str
+    says: str
+    ends: Outcome = "refused"
+
+
+WAYS = {
+    "no size": Way(SIZE, "", "lab:Part-1, a own:WorkPart, has no size, so it has no body"),
+    "one size": Way(SIZE, "skiros:SizeX 0.04 ;", "lab:Part-1 is on lab:Table, and has no skiros:SizeY", "invalid"),
+    "negative size": Way("SizeX 0.04 ; skiros:SizeY 0.05", "SizeX -0.04 ; skiros:SizeY 0.05", "above 0", "invalid"),
+    "decimal comma": Way("SizeX 0.04 ; skiros:SizeY 0.05", "SizeX 0,04 ; skiros:SizeY 0.05", "`0.04`", "invalid"),
+    "size as text": Way("SizeX 0.04 ; skiros:SizeY 0.05", 'SizeX "4 cm" ; skiros:SizeY 0.05', "a number", "invalid"),
+    "no pose": Way(
+        WEIGHT + "\n    " + PLACE, "skiros:Weight 0.2 .", "lab:Part-1 has no pose, so it would be in the mid"
+    ),
+    "box without size": Way(BOX, BOX_PLACE, "lab:Box-1, a own:Box, has no size, so it has no body: nothing can be put"),
+    "box without pose": Way(
+        ";\n    " + BOX_PLACE, ".", "lab:Box-1 has no pose, so it would be in the middle of lab:Cell"
+    ),
+    "box with thick walls": Way(BOX, "skillc:wallThickness 0.09 ; " + BOX, "so there is no room inside"),
+    "box too small": Way(BOX, BOX.replace("0.16", "0.04"), "50 x 40 mm do not fit into lab:Box-1, which is 32 x 32 mm"),
+    "box upside down": Way(BOX_PLACE, BOX_PLACE[:-1] + "; skillc:roll 180 .", "lab:Box-1 is tilted by 180 deg"),
+    "box far away": Way(
+        BOX_PLACE,
+        "skillc:on lab:Cell ; skillc:atX 0.5 ; skillc:atY 1.5 .",
+        "no free place on lab:Box-1 is within the 0.82 m",
+    ),
+    "full box": Way("lab:Part-2 a", BRICK, "lab:Box-1 is full: no place of 50 x 40 mm is free", "failed"),
+    "part in the table": Way(PLACE, PLACE[:-1] + "; skillc:atZ -0.1 .", "lab:Part-1 is 100 mm inside lab:Table"),
+    "part under the table": Way(PLACE, "skillc:on lab:Cell ; skillc:atX 0.5 .", "lab:Part-1 is 60 mm inside lab:Table"),
+    "part beside the table": Way("atY -0.3", "atY -0.6", "lab:Part-1 hangs 600 mm over the floor"),
+    "part far away": Way(
+        PLACE, "skillc:on lab:Cell ; skillc:atX 3 .", "lab:Part-1 is out of reach of lab:Arm-1 by 2.32 m"
+    ),
+    "part too heavy": Way(WEIGHT, "skiros:Weight 20 ;", "lab:Part-1 weighs 20 kg, and with 80 N and a friction of 0.6"),
+    "part slippery": Way(
+        WEIGHT, WEIGHT + " skillc:friction 0 ;", "lab:Part-1 weighs 0.2 kg, and with 80 N and a friction of 0"
+    ),
+    "part without weight": Way(WEIGHT, "skiros:Weight 0 ;", "it is above 0", "invalid"),
+    "part too wide": Way(
+        SIZE, SIZE.replace("0.04", "0.14").replace("0.05", "0.15"), "lab:Part-1 is 150 and 140 mm wide"
+    ),
+    "part wide one way": Way(
+        SIZE, SIZE.replace("0.05", "0.25"), "250 x 40 mm do not fit into lab:Box-1, which is 152 x"
+    ),
+    "part flat": Way(
+        SIZE, SIZE.replace("0.06", "0.004"), "lab:Part-1 is 4 mm high as it lies, and the fingers of lab:Han"
+    ),
+    "part oval": Way(
+        "SizeZ 0.06 ; skiros:Weight", 'SizeZ 0.06 ; skillc:shape "cylinder" ; skiros:Weight', "so they must be equal"
+    ),
+    "part of a wrong class": Way(
+        "lab:Part-1 a own:WorkPart",
+        "lab:Part-1 a skillc:Furniture",
+        "lab:Part-1 is a skillc:Furniture, and Place needs a skiros:Product",
+    ),
+    "class misspelt": Way(
+        "lab:Part-1 a own:WorkPart", "lab:Part-1 a own:Workpart", "there is no class own:Workpart", "invalid"
+    ),
+    "shape misspelt": Way('"cylinder"', '"cylindre"', "did you mean", "invalid"),
+    "on nothing": Way(PLACE, PLACE.replace("Table", "Tabel"), "there is no individual lab:Tabel", "invalid"),
+    "in no frame": Way(
+        PLACE,
+        'skiros:BaseFrameId "no" ; skiros:PositionX 0 ; skiros:PositionY 0 ; skiros:PositionZ 0 .',
+        "nothing has this FrameId",
+        "invalid",
+    ),
+    "part in nothing": Way(
+        ", lab:Part-1, lab:Part-2", ", lab:Part-2", "Pick needs `a skiros:Location contain lab:Part-1`"
+    ),
+    "nothing in the cell": Way(IN_CELL, "skiros:contain lab:Table .", "Place needs `a cora:Robot at lab:Box-1"),
+    "robot nowhere": Way(" ; skiros:at lab:Cell", "", "Place needs `a cora:Robot at lab:Box-1"),
+    "robot without arm": Way(" ; skillc:hasArm lab:Arm-1", "", "Place needs `a cora:Robot hasA a rparts:ArmDevice`"),
+    "arm in fault": Way(IDLE, IDLE.replace("Idle", "Fault"), 'lab:Arm-1.deviceState is "Fault"'),
+    "arm without hand": Way(
+        " ; skillc:hasGripper lab:Hand-1", "", "Place needs `a rparts:ArmDevice hasA a rparts:GripperEffe"
+    ),
+    "arm without sheet": Way(
+        "skillc:hasSheet skillc:iiwa14-sheet ; ", "", "lab:Arm-1 has no skillc:hasSheet", "invalid"
+    ),
+    "arm without controller": Way(
+        'skiros:CompliantController "impedance" ; ', "", "has no skiros:Compliant", "invalid"
+    ),
+    "hand without sheet": Way(
+        "skillc:hasSheet skillc:wsg50-sheet ; ", "", "lab:Hand-1 has no skillc:hasSheet", "invalid"
+    ),
+    "hand with the sheet of an arm": Way(
+        "skillc:wsg50-sheet", "skillc:iiwa14-sheet", "needs a skillc:GripperSheet", "invalid"
+    ),
+    "camera without sheet": Way("lab:Part-2 a", CAMERA, "lab:Camera-1 has no skillc:hasSheet", "invalid"),
+    "goal without a thing": Way(GOAL, "lab:Box-9 contain lab:Part-1", "lab:Box-9"),
+    "goal that no skill reaches": Way(
+        GOAL, "lab:Box-1 contain lab:Table", "lab:Table is a skillc:Furniture, and Place needs"
+    ),
+    "goal of two in one small box": Way(GOAL, GOAL.replace("Box-2", "Box-1"), "lab:Box-1 is full", "failed"),
+}
+
+
+def invoke(folder: Path, *arguments: str) -> Result:
+    """Run the command line; nothing but its own exit may end it."""
+    result = CliRunner().invoke(skillc, [*arguments[:1], *(each.replace("DIR", str(folder)) for each in arguments[1:])])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    assert "Traceback" not in result.output
+    return result
+
+
+def written(folder: Path, way: Way | None) -> Path:
+    """Write the library, which is named after its folder, with one thing wrong."""
+    library, found = folder / "own", 0
+    library.mkdir()
+    for path in sorted(FOLDER.iterdir()):
+        text = path.read_text("utf-8")
+        if way is not None and way.before in text:
+            text, found = text.replace(way.before, way.after, 1), found + 1
+        (library / path.name).write_text(text, "utf-8")
+    assert way is None or found == 1
+    return library
+
+
+def test_the_cell_works_at_the_first_run(tmp_path: Path) -> None:
+    library = written(tmp_path, None)
+    assert "no problems" in invoke(library, "check", "DIR").output
+    answer = json.loads(invoke(library, "run", "DIR:sort", "--backend", "kinematic", "--json").stdout)
+    assert answer["status"] == "succeeded", answer["failure"]
+
+
+@pytest.mark.parametrize("name", WAYS)
+def test_what_is_wrong_is_said(name: str, tmp_path: Path) -> None:
+    way = WAYS[name]
+    library = written(tmp_path, way)
+    result = invoke(library, "run", "DIR:sort", "--backend", "kinematic", "--json")
+    if way.ends == "invalid":
+        assert result.exit_code == 1 and way.says in result.stderr, result.stderr
+        return
+    answer = json.loads(result.stdout)
+    assert (result.exit_code, answer["status"]) == (3, way.ends), answer["failure"]
+    assert way.says in answer["failure"]
+    assert not re.search(r"there is no plan|cannot be reached|no implementation of", answer["failure"])
+    parts = re.split("; |\n", answer["failure"])
+    assert len(parts) == len(set(parts)), "nothing is said twice"
+
+
+@pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.ends != "failed"])
+def test_check_says_the_same(name: str, tmp_path: Path) -> None:
+    result = invoke(written(tmp_path, WAYS[name]), "check", "DIR")
+    assert result.exit_code == 1 and WAYS[name].says in result.output
