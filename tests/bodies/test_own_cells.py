@@ -116,8 +116,8 @@ def test_a_part_is_put_beside_another_one_on_a_tray(
             "    skiros:SizeX 0.2 ; skiros:SizeY 0.2 ; skiros:SizeZ 0.02 ;",
         ),
         (
-            "skiros:PositionX 0.45 ; skiros:PositionY 0.15 ; skiros:PositionZ 0.63 ;",
-            "skiros:PositionX 0.45 ; skiros:PositionY 0.15 ; skiros:PositionZ 0.61 ;",
+            "skiros:PositionX 0.45 ; skiros:PositionY 0.15 ; skiros:PositionZ 0.63",
+            "skiros:PositionX 0.45 ; skiros:PositionY 0.15 ; skiros:PositionZ 0.61",
         ),
     ]
     calls = [PICK_A, place("Part-A", "Bin-A"), PICK_B, place("Part-B", "Bin-A")]
