@@ -186,3 +186,15 @@ def test_what_is_wrong_is_said(name: str, tmp_path: Path) -> None:
 def test_check_says_the_same(name: str, tmp_path: Path) -> None:
     result = invoke(written(tmp_path, WAYS[name]), "check", "DIR")
     assert result.exit_code == 1 and WAYS[name].says in result.output
+
+
+def test_what_a_device_contradicts_is_the_reason(tmp_path: Path) -> None:
+    library = written(tmp_path, WAYS["part in nothing"])
+    cell = (library / "cell.ttl").read_text("utf-8")
+    held = cell.replace(f"\n    {PLACE}", "").replace(WEIGHT, "skiros:Weight 0.2 .", 1)
+    held = held.replace('skiros:FrameId "hand" ;', 'skiros:FrameId "hand" ; skiros:contain lab:Part-1 ;')
+    (library / "cell.ttl").write_text(held, "utf-8")
+    answer = json.loads(invoke(library, "run", "DIR:sort", "--backend", "kinematic", "--json").stdout)
+    lead = "`lab:Hand-1 contain lab:Part-1` does not hold any more: lab:Hand-1 reports that it holds nothing"
+    assert (answer["status"], answer["failure"]) == ("failed", f"{lead}; no other plan was found")
+    assert "pre `held: gripper contain object` does not hold" in json.dumps(answer["cause"])

@@ -24,6 +24,7 @@ from skillc_runtime.execution.tree.event_factory import (
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
+from skillc_runtime.execution.tree.withdrawn_facts import lead_with_withdrawal
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure, Rejection, as_failure
 from skillc_runtime.recording.reasons import FailedCallContext
@@ -179,7 +180,9 @@ class CallNode(Node):
             status = self._start(activation)
             if status is not None:
                 return status
-        return self.fail(combine_rejections(self.skill.name, self.rejected, self.source))
+        failure = combine_rejections(self.skill.name, self.rejected, self.source)
+        tried = ranked_implementations(self.context.library, self.node.skill, self.node.implementation)
+        return self.fail(lead_with_withdrawal(failure, tried, self._arguments, self.context.cell.world))
 
     def _activate(self, implementation: Implementation) -> Activation | Rejection:
         try:
