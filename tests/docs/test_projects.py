@@ -9,6 +9,7 @@ import msgspec
 from docs.pages import ROOT, blocks
 from skillc.cli.main import skillc
 from skillc.services.project.manifest import Manifest, ToolSettings, read_manifest
+from skillc.services.project_templates import TEMPLATES
 from skillc_dsl.source import Source
 
 PAGE = ROOT / "docs/projects.md"
@@ -27,10 +28,16 @@ def test_the_example_is_a_manifest_with_every_key() -> None:
 
 
 def test_every_key_has_a_row() -> None:
-    rows = re.findall(r"^\| (`.*?) \|", PAGE.read_text("utf-8"), re.MULTILINE)
+    table = PAGE.read_text("utf-8").partition("## Keys")[2].partition("##")[0]
+    rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
     keys = {key.partition(".NAME")[0] for row in rows for key in re.findall(r"`([^`]+)`", row)}
     tools = {f"tool.{field.name}" for field in msgspec.structs.fields(ToolSettings)}
     assert keys == ({field.name for field in msgspec.structs.fields(Manifest)} - {"tool"}) | tools
+
+
+def test_every_template_has_a_row() -> None:
+    table = PAGE.read_text("utf-8").partition("## Templates")[2].partition("##")[0]
+    assert re.findall(r"^\| `(.*?)` \|", table, re.MULTILINE) == [each.name for each in TEMPLATES]
 
 
 def test_the_commands_exist() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +12,9 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
+from skillc.services.project_templates import TEMPLATES
+
+NAMES = [each.name for each in TEMPLATES]
 
 
 def call(*arguments: str) -> Result:
@@ -57,12 +62,45 @@ def test_a_name_that_cannot_be_is_refused(
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
 
 
+def test_each_template_is_listed_and_another_one_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    listed = [line.split()[0] for line in call("new", "--list").stdout.splitlines()]
+    assert listed == NAMES == ["pick-place", "wipe", "press", "insert", "blank"]
+    refused = call("new", "mine", "--template", "pick_place")
+    assert refused.exit_code == 2 and "did you mean `pick-place`" in refused.stderr
+    assert call("new").exit_code == 2
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("template", NAMES)
+def test_each_template_checks_formats_and_plans_from_any_folder(
+    template: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert call("new", "my_cell", "--template", template).exit_code == 0
+    renamed = (tmp_path / "my_cell").rename(tmp_path / "Cell 2")
+    monkeypatch.chdir(renamed / "tests")
+    checked = call("check", "--format", "concise")
+    assert (checked.exit_code, checked.stdout) == (0, "")
+    assert call("fmt", "--check", "..").exit_code == 0
+    plan = json.loads(call("plan", "--json").stdout)["plan"]
+    (chosen,) = (each for each in TEMPLATES if each.name == template)
+    assert sorted(step["skill"] for step in plan) == sorted(each.format(skill="MyCell") for each in chosen.steps)
+
+
 @pytest.mark.sim
-def test_a_new_library_lives(tmp_path: Path) -> None:
-    command = str(Path(sys.executable).with_name("skillc"))
-    life = "skillc new press_bell && cd press_bell && skillc check . && skillc compile . -o build"
-    life = f"{life} && skillc run .:press_bell && {sys.executable} -m pytest -q -p no:cacheprovider"
+@pytest.mark.parametrize("template", NAMES)
+def test_each_template_is_tested_and_tried_as_its_ci_file_does(template: str, tmp_path: Path) -> None:
+    python, command = sys.executable, str(Path(sys.executable).with_name("skillc"))
+    life = f"skillc new my_cell --template {template} && cd my_cell && skillc check && skillc compile -o build"
+    life = f"{life} && skillc trials -n 2 --jobs 1 && {python} -m pytest -q -p no:cacheprovider"
     shell = ["sh", "-ec", life.replace("skillc ", f"{command} ")]
     lived = subprocess.run(shell, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert lived.returncode == 0, lived.stdout + lived.stderr
-    assert "3 passed" in lived.stdout
+    assert "2 of 2 trials passed" in lived.stdout and "3 passed" in lived.stdout
+    steps = re.findall(r"- run: (.*)", (tmp_path / "my_cell/.github/workflows/check.yml").read_text("utf-8"))
+    assert [step for step in steps if step.startswith(("skillc", "pytest"))] == [
+        "skillc check --format github",
+        "skillc compile -o build",
+        "pytest",
+    ]

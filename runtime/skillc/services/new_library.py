@@ -1,7 +1,8 @@
-"""Creates a new library from the templates in this package; the files are compiled before they are written."""
+"""Creates a new project from a template in this package; the files are compiled before they are written."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from contextlib import suppress
@@ -14,60 +15,78 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.libraries import load_vocabulary
 from skillc.services.library_files import find_library
+from skillc.services.project.manifest import NAME
+from skillc.services.project_templates import DEFAULT, TEMPLATES, Template
 from skillc_compiler import pipeline
+from skillc_dsl.diagnostics import did_you_mean
 from skillc_dsl.source import Source
 
-TEMPLATES = Path(__file__).parent / "templates"
+FOLDER = Path(__file__).parent / "templates"
 FILES = (
-    ("{name}.skill", "library.skill.j2"),
-    ("tasks.skill", "tasks.skill.j2"),
-    ("cell.ttl", "cell.ttl.j2"),
-    ("tests/test_{name}.py", "test_library.py.j2"),
-    (".github/workflows/check.yml", "check.yml.j2"),
-    ("README.md", "README.md.j2"),
-    (".gitignore", "gitignore.j2"),
+    ("skillc.toml", "common/skillc.toml.j2"),
+    ("{name}.skill", "{template}/library.skill.j2"),
+    ("tasks.skill", "{template}/tasks.skill.j2"),
+    ("cell.ttl", "{template}/cell.ttl.j2"),
+    ("tests/test_{name}.py", "common/test_library.py.j2"),
+    (".github/workflows/check.yml", "common/check.yml.j2"),
+    ("README.md", "common/README.md.j2"),
+    (".gitignore", "common/gitignore.j2"),
 )
 SCENE_PREFIX = "lab"
-"""The prefix of the individuals in the template's scene."""
-NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
+"""The prefix of the individuals in the templates' scenes."""
 
 
-def create_library(folder: Path) -> tuple[Path, ...]:
-    """Write a new library into a new folder, whose last part is the library's name, and return the files.
+def create_library(folder: Path, template: str = DEFAULT) -> tuple[Path, ...]:
+    """Write a new project into a new folder, whose last part is the library's name, and return the files.
 
-    RequestError if the folder exists or the name is invalid; ServiceError if the folder cannot be created. With an
-    error nothing is written.
+    RequestError if the folder exists, the name is invalid or there is no such template; ServiceError if the folder
+    cannot be created. With an error nothing is written.
     """
+    chosen = next((each for each in TEMPLATES if each.name == template), None)
+    if chosen is None:
+        known = did_you_mean(template, [each.name for each in TEMPLATES])
+        raise RequestError(f"there is no template `{template}`; {known}")
     found = inspect_path(folder)
     if found.kind == "unusable":
         raise RequestError(f"{folder} {found.is_what}; choose another name")
     if found.kind != "missing":
         raise RequestError(f"{folder} already exists; choose another name or remove it")
-    texts = _texts(folder.name)
+    texts = _texts(folder.name, chosen)
     try:
         return _write(texts, folder)
     except OSError as error:
         raise ServiceError(f"cannot create {folder}: {error.strerror}; nothing was written") from error
 
 
-def _texts(name: str) -> dict[str, str]:
-    """Return the texts of the library `name` by relative path; RequestError for an invalid name."""
+def _texts(name: str, template: Template) -> dict[str, str]:
+    """Return the texts of the project `name` by relative path; RequestError for an invalid name."""
     if not NAME.fullmatch(name):
         near = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_0123456789")
         hint = f"; try `{near}`" if NAME.fullmatch(near) else ""
         raise RequestError(f"`{name}` is not a valid library name: use a-z, 0-9 and `_`, starting with a letter{hint}")
     environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
+        loader=FileSystemLoader(FOLDER),
         undefined=StrictUndefined,
         variable_start_string="<<",
         variable_end_string=">>",
         keep_trailing_newline=True,
         autoescape=False,
     )
-    values = {"name": name, "skill": "".join(part.capitalize() for part in name.split("_"))}
-    texts = {path.format(name=name): environment.get_template(file).render(values) for path, file in FILES}
+    values = {"name": name, **_values(name, template)}
+    texts = {
+        path.format(name=name): environment.get_template(file.format(template=template.name)).render(values)
+        for path, file in FILES
+    }
     _try_out(name, texts)
     return texts
+
+
+def _values(name: str, template: Template) -> dict[str, str]:
+    """Return what the files of a template say about it."""
+    skill = "".join(part.capitalize() for part in name.split("_"))
+    texts = {key: getattr(template, key).format(skill=skill) for key in ("summary", "skills", "scene", "change")}
+    steps = sorted(step.format(skill=skill) for step in template.steps)
+    return {"skill": skill, "steps": json.dumps(steps), **texts}
 
 
 def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:

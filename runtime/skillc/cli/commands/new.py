@@ -1,6 +1,7 @@
-"""Create a new library.
+"""Create a new project from a template.
 
-It contains a skill, a scene, a task, a test and a CI workflow, and can be checked, compiled and run at once.
+It contains a manifest, skills, a scene, a task, a test and a CI workflow, and can be checked, planned, run and tried at
+once.
 """
 
 from __future__ import annotations
@@ -14,14 +15,23 @@ from skillc.cli.options import PATH
 
 
 @click.command(cls=Command)
-@click.argument("name", type=PATH)
-def command(name: Path) -> None:
-    """Create a library in the new folder NAME, with a skill, a scene, a task, a test and a CI workflow.
+@click.argument("name", required=False, type=PATH)
+@click.option("--template", default="press", show_default=True, metavar="TEMPLATE", help="What the project is about.")
+@click.option("--list", "list_", is_flag=True, help="List the templates.")
+def command(name: Path | None, template: str, list_: bool) -> None:
+    """Create a project in the new folder NAME, with skills, a scene, a task, a test and a CI workflow.
 
-    The last part of NAME, such as `press_button`, names the skill and the task.
+    The last part of NAME, such as `press_button`, names the library and its task.
     """
     from skillc.services.new_library import create_library
+    from skillc.services.project_templates import TEMPLATES
 
-    for path in create_library(name):
+    if list_:
+        for each in TEMPLATES:
+            click.echo(f"{each.name:10}  {each.summary}")
+        return
+    if name is None:
+        raise click.UsageError("name the folder of the new project; --list lists the templates")
+    for path in create_library(name, template):
         click.echo(path)
-    click.echo(f"\nNext steps:\n  cd {name}\n  skillc check .\n  skillc run .:{name.name}", err=True)
+    click.echo(f"\nNext steps:\n  cd {name}\n  skillc check\n  skillc run", err=True)

@@ -1,0 +1,66 @@
+"""The templates of `skillc new`: what each is about. Its files are in `templates/NAME`, those of all in `common`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+DEFAULT = "press"
+
+
+@dataclass(frozen=True, slots=True)
+class Template:
+    """A template: a summary, what its skills, its scene and a first change are, and the skills of its plan, sorted.
+
+    `{skill}` in a text stands for the name of the project as the name of a skill.
+    """
+
+    name: str
+    summary: str
+    skills: str
+    scene: str
+    change: str
+    steps: tuple[str, ...]
+
+
+TEMPLATES = (
+    Template(
+        "pick-place",
+        "an arm puts two parts into two boxes",
+        "the classes of the parts and boxes",
+        "robot, table, parts, boxes and where they are",
+        "add a third part to `cell.ttl` and to the goal, change the size of a box, or use another arm",
+        ("Pick", "Pick", "Place", "Place"),
+    ),
+    Template(
+        "wipe",
+        "an arm fetches an eraser and wipes a board",
+        "the class of the surface",
+        "robot, eraser, board and where they are",
+        "change `wiping:normalForce`, or the size of the board",
+        ("Pick", "Wipe"),
+    ),
+    Template(
+        "press",
+        "an arm fetches a tool and presses a panel, with a skill of its own",
+        "the skill `{skill}` and its implementation",
+        "robot, tool, panel and where they are",
+        "set `pause` to 2 s, add a second panel and a task that presses it, or write another `impl` for another arm",
+        ("Pick", "{skill}"),
+    ),
+    Template(
+        "insert",
+        "an arm fetches a pin and inserts it into a hole that it has to search",
+        "the classes of the pin and the block",
+        "robot, pin, block and where they are",
+        "raise `contact:placeRange`, how far the hole may be from where it is believed to be",
+        ("Insert", "Pick"),
+    ),
+    Template(
+        "blank",
+        "an arm and one skill that moves it, to start from",
+        "the skill `{skill}` and its implementation",
+        "the robot",
+        "add things with `skillc scene add cell.ttl`, and say in `{skill}` what to do with them",
+        ("{skill}",),
+    ),
+)
