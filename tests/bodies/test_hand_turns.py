@@ -52,24 +52,25 @@ def cell(request: pytest.FixtureRequest, tmp_path: Path) -> KinematicCell:
     return KinematicCell(WorldModel(state.with_changes(away)))
 
 
-@pytest.mark.parametrize("choice", [1, 2])
+@pytest.mark.parametrize("way", ["above", "across"])
 def test_the_hand_keeps_away_from_the_ends_of_its_joint_over_a_part_that_lies_in_any_direction(
-    cell: KinematicCell, choice: int
+    cell: KinematicCell, way: str
 ) -> None:
     for x, y in SPOTS:
         for degrees in range(-90, 90, 15):
             state = turned(cell.world.snapshot(), PART, (x, y, 0.63), degrees)
-            above, there = (find(state, HAND, PART, choice) for find in (approach_pose, grasp_pose))
+            above, there = (find(state, HAND, PART, way) for find in (approach_pose, grasp_pose))
             assert room_rad(cell, state, above, there) > ROOM_RAD, (x, y, degrees)
 
 
 def test_the_hand_keeps_away_from_the_ends_of_its_joint_over_a_bin_that_is_turned_in_any_direction(
     cell: KinematicCell,
 ) -> None:
+    start = cell.world.snapshot()
+    in_hand = grasp_pose(start, HAND, PART, "above").inverse() @ pose(start, PART)
     for x, y in SPOTS:
         for degrees in range(-180, 180, 30):
-            state = turned(cell.world.snapshot(), BIN, (x, y, 0.63), degrees)
-            in_hand = grasp_pose(state, HAND, PART, 1).inverse() @ pose(state, PART)
+            state = turned(start, BIN, (x, y, 0.63), degrees)
             held = [AddRelation(HAND, CONTAIN, PART), *relocation_changes(state, PART, in_hand, "hand")]
             state = state.with_changes(held)
             there = free_hand_pose(state, ARM, HAND, PART, BIN)
@@ -79,7 +80,7 @@ def test_the_hand_keeps_away_from_the_ends_of_its_joint_over_a_bin_that_is_turne
 def test_a_hand_of_a_panda_that_is_turned_back_meets_the_end_of_its_joint(tmp_path: Path) -> None:
     panda = KinematicCell(WorldModel(load_scene(written(tmp_path, []), library().vocabulary)))
     state = turned(panda.world.snapshot(), PART, (0.45, 0.4, 0.63), 0.0)
-    there = grasp_pose(state, HAND, PART, 1)
+    there = grasp_pose(state, HAND, PART, "above")
     back = there @ Pose.of((0.0, 0.0, 0.0), (cos(radians(39)), 0.0, 0.0, sin(radians(39))))
     assert room_rad(panda, state, back) < ROOM_RAD < room_rad(panda, state, there)
     assert np.allclose(back.rotation[:, 2], there.rotation[:, 2])

@@ -10,7 +10,8 @@ from bodies.test_trays import FOLDER, PART, library
 from skillc_runtime.scene.load import load_scene, read_scene
 from skillc_runtime.world.space.frames import pose, relocation_changes
 from skillc_runtime.world.space.free_places import PlaceError, free_hand_pose
-from skillc_runtime.world.space.grasps import GraspError, find_grasps
+from skillc_runtime.world.space.grasps import find_grasp
+from skillc_runtime.world.space.grip_force import GraspError
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.terms import (
     BOARD,
@@ -103,10 +104,10 @@ def on_rack(board: int) -> list[Change]:
 def test_what_lies_below_a_board_is_grasped_only_if_the_hand_fits(height_m: float, board: int, fits: bool) -> None:
     state = cell(*shelf_on_table(height_m, 2), *on_rack(board))
     if fits:
-        assert find_grasps(state, lab("Hand-1"), PART)
+        assert find_grasp(state, lab("Hand-1"), PART, "above")
         return
     with pytest.raises(GraspError, match=r"lab:Rack is .* mm above, and a hand that comes from above needs 250 mm"):
-        find_grasps(state, lab("Hand-1"), PART)
+        find_grasp(state, lab("Hand-1"), PART, "above")
 
 
 def held(*changes: Change) -> WorldState:

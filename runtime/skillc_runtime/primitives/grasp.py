@@ -11,11 +11,12 @@ from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import pose, put_down_changes, relocation_changes, size
+from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import width_between
-from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
-from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH, WIDTH_TOLERANCE
+from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
 from skillc_runtime.world.state.world_state import WorldState
 
 FREE_CLEARANCE_M = 0.005
@@ -67,7 +68,11 @@ class Grasp(Primitive):
     def tick(self) -> Status:
         """Write that the gripper holds the object, and its assumed pose in the hand; return SUCCESS."""
         self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Grasp", "sensed")
-        held = relocation_changes(self.cell.world.snapshot(), self._object, self._in_hand, self._frame)
+        state = self.cell.world.snapshot()
+        held: list[Change] = [*relocation_changes(state, self._object, self._in_hand, self._frame)]
+        sideways = is_sideways(self._at)
+        if sideways != (state.value(self._object, HELD_SIDEWAYS) is True):
+            held.append(SetProperty(self._object, HELD_SIDEWAYS, sideways))
         self.cell.world.commit(held, "Grasp", "assumed")
         return Status.SUCCESS
 

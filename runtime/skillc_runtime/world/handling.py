@@ -13,35 +13,39 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.frames import pose, size
 from skillc_runtime.world.space.free_places import clearance_m, free_hand_pose, pose_in_hand
-from skillc_runtime.world.space.grasps import find_grasp, grasp_force_n, grasp_opening_m, stated_pose
-from skillc_runtime.world.state.terms import APPROACH_POSE, PLACING_POSE
+from skillc_runtime.world.space.grasp_geometry import APPROACH_M
+from skillc_runtime.world.space.grasps import find_grasp, stated_pose
+from skillc_runtime.world.space.grip_force import grasp_force_n
+from skillc_runtime.world.state.terms import APPROACH_POSE, HELD_SIDEWAYS, PLACING_POSE
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
-
-APPROACH_M = 0.12
-"""How far before a grasp a hand approaches in a line."""
 
 OVER_RIM_M = 0.04
 """How far above the rim of a carrier a thing is brought to its place, and the hand leaves it."""
 
 
-def grasp_pose(state: WorldState, gripper: str, thing: str, choice: int) -> Pose:
-    """Return where the hand grasps a thing; choice 1 is the best grasp. GraspError if there is none."""
-    return find_grasp(state, gripper, thing, choice).tool
+def grasp_pose(state: WorldState, gripper: str, thing: str, way: str) -> Pose:
+    """Return where the hand grasps a thing "above", "across" or from the "side". GraspError if it cannot."""
+    return find_grasp(state, gripper, thing, way).tool
 
 
-def approach_pose(state: WorldState, gripper: str, thing: str, choice: int) -> Pose:
+def approach_pose(state: WorldState, gripper: str, thing: str, way: str) -> Pose:
     """Return from where the hand approaches a thing in a line: what is stated, else straight before the grasp."""
     stated = stated_pose(state, thing, APPROACH_POSE)
     if stated is not None:
         return pose(state, stated)
-    return find_grasp(state, gripper, thing, choice).tool @ Pose.of((0.0, 0.0, -APPROACH_M))
+    return find_grasp(state, gripper, thing, way).tool @ Pose.of((0.0, 0.0, -APPROACH_M))
 
 
-def grasp_opening(state: WorldState, gripper: str, thing: str, choice: int) -> float:
+def carried(state: WorldState, thing: str, there: Pose, away: Pose) -> Pose:
+    """Return where a thing, as a tool, is when the hand that grasped it at one pose, as it now lies, is at another."""
+    return away @ there.inverse() @ pose(state, thing) @ working_face(size(state, thing))
+
+
+def grasp_opening(state: WorldState, gripper: str, thing: str, way: str) -> float:
     """Return how far the fingers open around a thing, at most as far as they can."""
-    return grasp_opening_m(state, gripper, find_grasp(state, gripper, thing, choice))
+    return find_grasp(state, gripper, thing, way).opening_m
 
 
 def grasp_force(state: WorldState, gripper: str, thing: str) -> float:
@@ -69,6 +73,14 @@ def hand_pose(state: WorldState, gripper: str, thing: str, at: Pose) -> Pose:
 def above_place(state: WorldState, to: str, at: Pose) -> Pose:
     """Return a pose moved up so far that a tool there is above the rim of a carrier."""
     return Pose(at.position + np.array([0.0, 0.0, max(0.1, clearance_m(state, to) + OVER_RIM_M)]), at.rotation)
+
+
+def retreat_pose(state: WorldState, gripper: str, thing: str, to: str, at: Pose) -> Pose:
+    """Return where the hand goes in a line from the held thing that it leaves at a pose: up, or back if horizontal."""
+    hand = hand_pose(state, gripper, thing, at)
+    if state.value(thing, HELD_SIDEWAYS) is True:
+        return hand @ Pose.of((0.0, 0.0, -APPROACH_M))
+    return above_place(state, to, hand)
 
 
 def upwards(_state: WorldState) -> Array:

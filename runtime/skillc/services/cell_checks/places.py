@@ -14,7 +14,8 @@ from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import moves_with
 from skillc_runtime.world.space.free_places import Lack, PlaceError
-from skillc_runtime.world.space.grasps import GraspError, stated_pose
+from skillc_runtime.world.space.grasps import stated_pose
+from skillc_runtime.world.space.grip_force import GraspError
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.space.place_foresight import place_problem
 from skillc_runtime.world.state.data_sheet import SheetError

@@ -14,14 +14,15 @@ from skillc_runtime.world.space.bounding_boxes import bounding_box
 from skillc_runtime.world.space.floors import shelf_board
 from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.space.grasps import FINGER_TIP_M
+from skillc_runtime.world.space.grasp_geometry import APPROACH_M
+from skillc_runtime.world.space.hand_shape import HandShape, read_hand_shape
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
 from skillc_runtime.world.space.shapes import Bin, Shelf, solids_of
-from skillc_runtime.world.state.data_sheet import number_of, sheet_of
+from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.terms import CONTAIN, FINGER_TIP, FURNITURE, SIZE
+from skillc_runtime.world.state.terms import CONTAIN, FURNITURE, HELD_SIDEWAYS, SIZE
 from skillc_runtime.world.state.world_state import WorldState
 
 GAP_M = 0.01
@@ -40,6 +41,9 @@ NEAR_BASE_M = 0.25
 QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, s in ((1, 0), (0, 1), (0, -1), (-1, 0)))
 """The rotations (3, 3) of a hand that points down, in the frame of a support: first as its x points."""
 
+
+SIDEWAYS = tuple(np.array([[0.0, s, c], [0.0, -c, s], [1.0, 0.0, 0.0]]) for c, s in ((1, 0), (0, 1), (0, -1)))
+"""The rotations (3, 3) of a horizontal hand with its x upwards, in the frame of a support: first as its x points."""
 
 GREATEST_TILT_DEG = 20.0
 """Nothing stands on or in what is tilted further."""
@@ -72,10 +76,14 @@ class Support:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Load:
-    """A held thing: its corners (n, 3) in m and those of the fingers' room (8, 3) in m, in the frame of the hand."""
+    """A held thing: its corners (n, 3) in m and those of the fingers' room (8, 3) in m, in the frame of the hand.
+
+    turns: the rotations (3, 3) of the hand, in the frame of a support, in which it puts the thing down.
+    """
 
     corners: Array
     fingers: Array
+    turns: tuple[Array, ...]
 
 
 def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: str) -> Pose:
@@ -152,7 +160,7 @@ def _boards(state: WorldState, individual: str) -> Iterator[Support]:
 
 def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError | None:
     """Return that a hand from above does not fit between a support and what is above it; None if it does."""
-    height_m = -float(_extent(load.corners, QUARTERS[0])[0][2])
+    height_m = -float(_extent(load.corners, load.turns[0])[0][2])
     found = roof_problem(state, support.middle.position + np.array([0.0, 0.0, 0.001]), height_m + HAND_ABOVE_M)
     where = f"board {support.board} of " if support.board else ""
     if found is None:
@@ -188,9 +196,19 @@ def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
         ]
     )
     width_m = float(np.abs(corners[:, 1]).max())
-    tip_m = number_of(state, sheet_of(state, gripper).individual, FINGER_TIP, default=FINGER_TIP_M)
-    fingers = CORNERS * np.array([HAND_M, width_m + FINGER_M, tip_m])
-    return Load(corners, fingers)
+    hand = read_hand_shape(state, gripper)
+    if state.value(thing, HELD_SIDEWAYS) is True:
+        return Load(corners, _room_of_horizontal(hand, width_m), SIDEWAYS)
+    fingers = CORNERS * np.array([HAND_M, width_m + FINGER_M, hand.tip_m])
+    return Load(corners, fingers, QUARTERS)
+
+
+def _room_of_horizontal(hand: HandShape, width_m: float) -> Array:
+    """Return the corners (8, 3) in m of the room that a horizontal hand needs, in its frame, until it has withdrawn."""
+    behind_m = hand.depth_m + APPROACH_M
+    half = np.array([hand.half_height_m, max(width_m + FINGER_M, hand.palm_width_m / 2), (hand.tip_m + behind_m) / 2])
+    corners: Array = CORNERS * half + np.array([0.0, 0.0, (hand.tip_m - behind_m) / 2])
+    return corners
 
 
 def _in_frame(other: Occupant, support: Support) -> Iterator[tuple[Array, Array]]:
@@ -232,7 +250,7 @@ def _hands(support: Support, load: Load) -> Iterator[Pose]:
     """
     if support.rim_m > 0.0:
         yield from _rows(support, load)
-    turns = [(rotation, *_room(support, load, rotation)) for rotation in QUARTERS]
+    turns = [(rotation, *_room(support, load, rotation)) for rotation in load.turns]
     for x, y in _grid(support.half):
         for rotation, height_m, low, high in turns:
             if (np.array([x, y]) + low >= -support.half).all() and (np.array([x, y]) + high <= support.half).all():
@@ -242,7 +260,7 @@ def _hands(support: Support, load: Load) -> Iterator[Pose]:
 def _rows(support: Support, load: Load) -> Iterator[Pose]:
     """Yield the hand poses in which things of the size of the load fill a support evenly, with room for the fingers."""
     filled = []
-    for rotation in QUARTERS:
+    for rotation in load.turns:
         height_m, low, high = _room(support, load, rotation)
         least, most = _extent(load.fingers, rotation)
         low, high = np.minimum(low - GAP_M / 2, least[:2]), np.maximum(high + GAP_M / 2, most[:2])

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.bodies import REGIONS, has_body, read_body
+from skillc_runtime.world.space.bodies import REGIONS, RigidBody, has_body, read_body
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.oriented_box import OrientedBox
@@ -56,6 +56,12 @@ def near_pairs(occupants: tuple[Occupant, ...]) -> list[tuple[Occupant, Occupant
     return list(_sweep(ordered))
 
 
+def occupant_of(body: RigidBody) -> Occupant:
+    """Return the room that a body takes up."""
+    solids = tuple(replace(each, place=body.pose @ each.place) for each in body.solids)
+    return _occupant(body.individual, solids, body.pose.apply(body.centre), body.movable)
+
+
 def _sweep(ordered: list[Occupant]) -> Iterator[tuple[Occupant, Occupant]]:
     """Yield the pairs that meet of occupants in order of their lowest x."""
     lows = np.array([each.low for each in ordered])
@@ -76,10 +82,7 @@ def _occupants(state: WorldState, sized: list[str]) -> Iterator[Occupant]:
 
 def _of_body(state: WorldState, individual: str) -> Occupant | None:
     body = read_body(state, individual)
-    if body is None:
-        return None
-    solids = tuple(replace(each, place=body.pose @ each.place) for each in body.solids)
-    return _occupant(individual, solids, body.pose.apply(body.centre), body.movable)
+    return None if body is None else occupant_of(body)
 
 
 def _of_box(state: WorldState, individual: str) -> Occupant:

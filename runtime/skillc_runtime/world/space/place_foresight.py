@@ -5,9 +5,10 @@ from __future__ import annotations
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import pose, relocation_changes
 from skillc_runtime.world.space.free_places import PlaceError, free_hand_pose
+from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import find_grasps
-from skillc_runtime.world.state.changes import AddRelation, RemoveRelation
-from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID
+from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
+from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -29,7 +30,8 @@ def _problem_of_grasp(state: WorldState, arm: str, gripper: str, thing: str, to:
     frame = state.value(gripper, FRAME_ID)
     taken = [RemoveRelation(each, CONTAIN, thing) for each in sorted(state.subjects(CONTAIN, thing))]
     moved = relocation_changes(state, thing, in_hand, str(frame))
-    held = state.with_changes([*taken, AddRelation(gripper, CONTAIN, thing), *moved])
+    sideways = SetProperty(thing, HELD_SIDEWAYS, is_sideways(tool))
+    held = state.with_changes([*taken, AddRelation(gripper, CONTAIN, thing), *moved, sideways])
     try:
         free_hand_pose(held, arm, gripper, thing, to)
     except PlaceError as error:

@@ -1,0 +1,63 @@
+"""Whether friction between the fingers of a gripper carries a thing, and the force that this takes."""
+
+from __future__ import annotations
+
+from skillc_runtime.world.space.bodies import FRICTION_UNLESS_STATED, read_body
+from skillc_runtime.world.state.data_sheet import number_of, sheet_of
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.terms import FRICTION, GRASP_FORCE, WEIGHT
+from skillc_runtime.world.state.world_state import WorldState
+
+GRASP_FORCE_N = 30.0
+"""The grasping force for what states none and is not heavy."""
+
+GRAVITY_M_S2 = 9.81
+ACCELERATION_M_S2 = 1.0
+"""How hard an arm may accelerate what it holds."""
+
+
+class GraspError(EvaluationError):
+    """A gripper cannot grasp a thing: `problem` says why, with numbers, `cure` what to do; `name` is the diagnostic."""
+
+    def __init__(self, problem: str, cure: str = "", name: str = "no-grasp") -> None:
+        super().__init__(f"{problem}; {cure}" if cure else problem)
+        self.problem, self.cure, self.name = problem, cure, name
+
+
+def grasp_force_n(state: WorldState, gripper: str, thing: str) -> float:
+    """Return the force in N of a finger: what is stated, else what carries the weight with some reserve."""
+    check_weight(state, gripper, thing)
+    needed = 1.5 * _needed_force_n(state, thing)
+    strongest = sheet_of(state, gripper).number("maxForce")
+    return min(number_of(state, thing, GRASP_FORCE, default=max(GRASP_FORCE_N, needed)), strongest)
+
+
+def check_weight(state: WorldState, gripper: str, thing: str) -> None:
+    """Check that friction bears the thing; GraspError if 2 mu F < m (g + a)."""
+    strongest = sheet_of(state, gripper).number("maxForce")
+    force_n = min(number_of(state, thing, GRASP_FORCE, default=strongest), strongest)
+    if force_n >= _needed_force_n(state, thing):
+        return
+    mass_kg, friction, short = _mass_kg(state, thing), _friction(state, thing), state.vocabulary.short
+    held_kg = 2 * friction * force_n / (GRAVITY_M_S2 + ACCELERATION_M_S2)
+    raise GraspError(
+        f"{short(thing)} weighs {mass_kg:.3g} kg, and with {force_n:g} N and a friction of {friction:g} "
+        f"{short(gripper)} carries at most {held_kg:.2g} kg",
+        f"use a stronger gripper, or state its true `{short(WEIGHT)}` and `{short(FRICTION)}`",
+        "too-heavy",
+    )
+
+
+def _needed_force_n(state: WorldState, thing: str) -> float:
+    """Return the least force in N of a finger that carries a thing: F = m (g + a) / (2 mu)."""
+    load_n = _mass_kg(state, thing) * (GRAVITY_M_S2 + ACCELERATION_M_S2)
+    return load_n / max(2 * _friction(state, thing), 1e-6)
+
+
+def _mass_kg(state: WorldState, thing: str) -> float:
+    body = read_body(state, thing)
+    return number_of(state, thing, WEIGHT, default=0.0) if body is None else body.mass_kg
+
+
+def _friction(state: WorldState, thing: str) -> float:
+    return number_of(state, thing, FRICTION, default=FRICTION_UNLESS_STATED)
