@@ -167,9 +167,17 @@ def test_what_moves_with_a_thing_cannot_carry_it_or_say_where_it_is() -> None:
         attachment_changes(state, lab("a"), lab("c"))
     with pytest.raises(FrameError, match=r"c moves with .*a, so its place cannot say where that is"):
         move_changes(state, lab("a"), at(0, 0, 0), lab("c"))
-    nameless = state.with_changes([ClearProperty(lab("c"), FRAME_ID), *thing("d", at(1, 0, 0))])
-    with pytest.raises(FrameError, match="c has no FrameId, so nothing can be placed in its frame"):
-        attachment_changes(nameless, lab("d"), lab("c"))
+
+
+def test_the_frame_of_a_thing_without_a_frame_id_has_its_iri_as_name() -> None:
+    state = world(thing("c", at(0, 0, 1)), [ClearProperty(lab("c"), FRAME_ID)], thing("d", at(1, 0, 0)))
+    attached = state.with_changes(attachment_changes(state, lab("d"), lab("c")))
+    assert attached.value(lab("d"), BASE_FRAME_ID) == lab("c")
+    moved = attached.with_changes(placement_changes(lab("c"), at(0, 5, 1)))
+    assert pose(moved, lab("d")).position == pytest.approx((1, 5, 0))
+    named = attached.with_changes([SetProperty(lab("c"), FRAME_ID, "see")])
+    with pytest.raises(FrameError, match="nothing has this FrameId"):
+        pose(named, lab("d"))
 
 
 def test_versions_that_agree_about_space_share_its_tree_and_no_version_is_kept_for_it() -> None:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from skillc_runtime.collision.scenery import SolidObstacle, make_obstacles, pose_key
 from skillc_runtime.world.space.bodies import has_body, read_solids
 from skillc_runtime.world.space.frame_tree import MissingFact, frame_tree_of
-from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.space.frames import frame_name, size
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
-from skillc_runtime.world.state.terms import BASE_FRAME_ID, CLEARANCE, CONTAIN, FRAME_ID, HAS_GRIPPER
+from skillc_runtime.world.state.terms import BASE_FRAME_ID, CLEARANCE, CONTAIN, HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -52,7 +52,7 @@ def read_arm_assembly(state: WorldState, arm: str, opening_m: dict[str, float]) 
 
 def _hand(state: WorldState, gripper: str, opening_m: float) -> Hand:
     model = str(sheet_of(state, gripper).model)
-    frame = state.value(gripper, FRAME_ID)
+    frame = frame_name(state, gripper)
     inside = sorted(state.objects(gripper, CONTAIN))
     things = (thing for thing in inside if state.value(thing, BASE_FRAME_ID) == frame)
     held = tuple(each for thing in things for each in _held(state, thing))

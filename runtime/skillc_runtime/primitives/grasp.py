@@ -10,13 +10,13 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
-from skillc_runtime.world.space.frames import pose, put_down_changes, relocation_changes, size
+from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import width_between
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
-from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
+from skillc_runtime.world.state.terms import CONTAIN, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
 from skillc_runtime.world.state.world_state import WorldState
 
 FREE_CLEARANCE_M = 0.005
@@ -52,13 +52,8 @@ class Grasp(Primitive):
         """Attach the object; SkillFailure if the fingers are not blocked, not at its width, or it cannot be held."""
         gripper, state = self.cell.gripper(self._gripper), self.cell.world.snapshot()
         hand, thing = (label(each, state.vocabulary) for each in (self._gripper, self._object))
-        frame = state.value(self._gripper, FRAME_ID)
-        if not isinstance(frame, str):
-            raise SkillFailure(
-                "{gripper} has no skiros:FrameId in the world model, so no pose can be relative to it", gripper=hand
-            )
         self._check_fingers(gripper, hand, thing, state)
-        self._frame = frame
+        self._frame = frame_name(state, self._gripper)
         self._in_hand = self._at.inverse() @ pose(state, self._object)
         try:
             gripper.attach(self._object, self._in_hand)

@@ -133,4 +133,7 @@ def _owners(state: WorldState) -> dict[str, list[str]]:
     owners: dict[str, list[str]] = {}
     for individual, frame in stored_values(state, FRAME_ID):
         owners.setdefault(str(frame), []).append(individual)
+    for _, base in stored_values(state, BASE_FRAME_ID):
+        if state.types(str(base)) and state.value(str(base), FRAME_ID) is None:
+            owners.setdefault(str(base), [str(base)])
     return owners

@@ -77,9 +77,9 @@ class MissingFact(Unplaced):
 class FrameTree:
     """The poses of all objects in the world. An object moves with its carrier.
 
-    The carrier is the object whose frame its BaseFrameId names, else the object that it is `on`. Without either it is
-    the place that the object is `at`, else what contains it, else what it is a part of, and the object has the
-    carrier's pose. The pose of an object that an arm carries is not known.
+    The carrier is the object whose FrameId its BaseFrameId names, or whose IRI if that has none; else the object that
+    it is `on`. Without either it is the place that the object is `at`, else what contains it, else what it is a part
+    of, and the object has the carrier's pose. The pose of an object that an arm carries is not known.
     """
 
     def __init__(self, state: WorldState, former: FrameTree | None = None) -> None:
@@ -187,8 +187,14 @@ class FrameTree:
         owners = self._owners.get(frame, [])
         if len(owners) == 1:
             return owners[0]
+        if not owners and self._is_unnamed(frame):
+            return frame
         found = f"{len(owners)} things have" if owners else "nothing has"
         raise FrameError(f"{self._short(individual)} is placed in the frame `{frame}`, but {found} this FrameId")
+
+    def _is_unnamed(self, frame: str) -> bool:
+        """Whether a name of a frame is the IRI of an object without a FrameId."""
+        return bool(self._classes.get(frame)) and self._values[FRAME_ID].get(frame) is None
 
     def _support(self, individual: str) -> str | None:
         """Return what an object is stated to be on, None if it is not."""

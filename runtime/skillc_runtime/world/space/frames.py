@@ -51,15 +51,21 @@ def states_own_pose(state: WorldState, individual: str) -> bool:
     )
 
 
+def frame_name(state: WorldState, individual: str) -> str:
+    """Return the name of the frame of an object: its FrameId, or its IRI if it has none."""
+    frame = state.value(individual, FRAME_ID)
+    return frame if isinstance(frame, str) else individual
+
+
 def placement_changes(thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[SetProperty]:
-    """Return the changes that place an object, by IRI, at a pose in the frame with a FrameId."""
+    """Return the changes that place an object, by IRI, at a pose in the frame with a name."""
     values = zip((*POSITION, *ORIENTATION), (*at.position, *quaternion_from_rotation(at.rotation)), strict=True)
     numbers = [SetProperty(thing, name, float(value)) for name, value in values]
     return [SetProperty(thing, BASE_FRAME_ID, frame), *numbers]
 
 
 def relocation_changes(state: WorldState, thing: str, at: Pose, frame: str = WORLD_FRAME) -> list[Change]:
-    """Return the changes that place an object at another pose in the frame with a FrameId.
+    """Return the changes that place an object at another pose in the frame with a name.
 
     Facts that stated its former pose in another way, by angles or by what it is on, are retracted. A drawer stays in
     its furniture: it is as far open as comes nearest to that pose.
@@ -75,7 +81,7 @@ def relocation_changes(state: WorldState, thing: str, at: Pose, frame: str = WOR
 
 
 def _opening_at(state: WorldState, drawer: str, travel_m: float, at: Pose, frame: str) -> float:
-    """Return how far a drawer is open in m, from 0 to its travel, at a pose in the frame with a FrameId."""
+    """Return how far a drawer is open in m, from 0 to its travel, at a pose in the frame with a name."""
     there = frame_tree_of(state).frame_pose(frame, drawer) @ at
     present = state.value(drawer, OPENING)
     further = -float(pose(state, drawer).inverse().apply(there.position)[1])
@@ -98,18 +104,18 @@ def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[C
         carrier = None
     if carrier is None:
         return relocation_changes(state, thing, goal)
-    return relocation_changes(state, thing, pose(state, carrier).inverse() @ goal, _frame(state, carrier))
+    return relocation_changes(state, thing, pose(state, carrier).inverse() @ goal, frame_name(state, carrier))
 
 
 def attachment_changes(state: WorldState, thing: str, carrier: str) -> list[Change]:
     """Return the changes that attach an object to a carrier; its pose in the world stays the same.
 
-    FrameError when a pose is not known, the carrier has no frame, or the carrier moves with the object.
+    FrameError when a pose is not known, or the carrier moves with the object.
     """
     if moves_with(state, carrier, thing):
         short = state.vocabulary.short
         raise FrameError(f"{short(carrier)} moves with {short(thing)}, so it cannot carry it")
-    return relocation_changes(state, thing, relative_pose(state, carrier, thing), _frame(state, carrier))
+    return relocation_changes(state, thing, relative_pose(state, carrier, thing), frame_name(state, carrier))
 
 
 def put_down_changes(state: WorldState, thing: str, at: Pose, place: str) -> list[Change]:
@@ -159,10 +165,3 @@ def moves_with(state: WorldState, individual: str, carrier: str) -> bool:
             return False
         at = carried_by
     return True
-
-
-def _frame(state: WorldState, individual: str) -> str:
-    frame = state.value(individual, FRAME_ID)
-    if not isinstance(frame, str):
-        raise FrameError(f"{state.vocabulary.short(individual)} has no FrameId, so nothing can be placed in its frame")
-    return frame
