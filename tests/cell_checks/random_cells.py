@@ -94,7 +94,7 @@ def _part(name: str, slot: tuple[float, float], random: Random) -> Thing:
 
 
 def _bin(name: str, slot: tuple[float, float], random: Random) -> Thing:
-    x, y, z = random.uniform(0.09, 0.14), random.uniform(0.09, 0.14), random.uniform(0.04, 0.1)
+    x, y, z = random.uniform(0.15, 0.18), random.uniform(0.15, 0.18), random.uniform(0.04, 0.1)
     return _on_table(name, "skiros:Container", slot, random, (x, y, z))
 
 

@@ -24,7 +24,6 @@ from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     CONTAIN,
     CONTAINER,
-    FRAME_ID,
     HAS_GRIPPER,
     MANIPULATABLE,
     MOBILE_ROBOT,
@@ -93,8 +92,6 @@ def _find_problem(state: WorldState, thing: str, container: str) -> PlaceError |
         return None
     problem: PlaceError | None = None
     for arm, hand in sorted(hands):
-        if state.value(hand, FRAME_ID) is None:
-            return None
         with suppress(GraspError):
             try:
                 problem = place_problem(state, arm, hand, thing, container)

@@ -125,10 +125,8 @@ def put_down_changes(state: WorldState, thing: str, at: Pose, place: str) -> lis
     """
     if not _can_move(state, place):
         return relocation_changes(state, thing, at)
-    frame = state.value(place, FRAME_ID)
-    named = [] if isinstance(frame, str) else [SetProperty(place, FRAME_ID, state.vocabulary.short(place))]
     in_place = pose(state, place).inverse() @ at
-    return [*named, *relocation_changes(state, thing, in_place, str(frame or state.vocabulary.short(place)))]
+    return relocation_changes(state, thing, in_place, frame_name(state, place))
 
 
 def _can_move(state: WorldState, place: str) -> bool:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.world.space.frames import pose, relocation_changes
+from skillc_runtime.world.space.frames import frame_name, pose, relocation_changes
 from skillc_runtime.world.space.free_places import PlaceError, free_hand_pose
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import find_grasps
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
-from skillc_runtime.world.state.terms import CONTAIN, FRAME_ID, HELD_SIDEWAYS
+from skillc_runtime.world.state.terms import CONTAIN, HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -27,9 +27,8 @@ def place_problem(state: WorldState, arm: str, gripper: str, thing: str, to: str
 def _problem_of_grasp(state: WorldState, arm: str, gripper: str, thing: str, to: str, tool: Pose) -> PlaceError | None:
     """Return why a thing cannot be put down that is grasped with the tool at a pose; None if it can be."""
     in_hand = tool.inverse() @ pose(state, thing)
-    frame = state.value(gripper, FRAME_ID)
     taken = [RemoveRelation(each, CONTAIN, thing) for each in sorted(state.subjects(CONTAIN, thing))]
-    moved = relocation_changes(state, thing, in_hand, str(frame))
+    moved = relocation_changes(state, thing, in_hand, frame_name(state, gripper))
     sideways = SetProperty(thing, HELD_SIDEWAYS, is_sideways(tool))
     held = state.with_changes([*taken, AddRelation(gripper, CONTAIN, thing), *moved, sideways])
     try:
