@@ -68,6 +68,12 @@ WAYS = {
         "no free place on lab:Box-1 is within the 0.82 m",
     ),
     "full box": Way("lab:Part-2 a", BRICK, "lab:Box-1 is full: no place of 50 x 40 mm is free", "failed"),
+    "place without size": Way(
+        f"lab:Box-1 a own:Box ;\n    {BOX}",
+        f"lab:Box-1 a skiros:Location ;\n    {BOX_PLACE}",
+        "lab:Box-1 has no size, and contains nothing that could carry lab:Part-1",
+        "failed",
+    ),
     "part in the table": Way(PLACE, PLACE[:-1] + "; skillc:atZ -0.1 .", "lab:Part-1 is 100 mm inside lab:Table"),
     "part under the table": Way(PLACE, "skillc:on lab:Cell ; skillc:atX 0.5 .", "lab:Part-1 is 60 mm inside lab:Table"),
     "part beside the table": Way("atY -0.3", "atY -0.6", "lab:Part-1 hangs 600 mm over the floor"),
@@ -198,3 +204,9 @@ def test_what_a_device_contradicts_is_the_reason(tmp_path: Path) -> None:
     lead = "`lab:Hand-1 contain lab:Part-1` does not hold any more: lab:Hand-1 reports that it holds nothing"
     assert (answer["status"], answer["failure"]) == ("failed", f"{lead}; no other plan was found")
     assert "pre `held: gripper contain object` does not hold" in json.dumps(answer["cause"])
+
+
+@pytest.mark.parametrize("name", ["full box", "place without size"])
+def test_what_may_change_until_then_is_a_warning(name: str, tmp_path: Path) -> None:
+    result = invoke(written(tmp_path, WAYS[name]), "check", "DIR")
+    assert result.exit_code == 0 and "warning[no-" in result.output and WAYS[name].says in result.output

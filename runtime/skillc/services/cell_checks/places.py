@@ -38,6 +38,7 @@ MOST: Final = 50
 
 CURES: Final[MappingProxyType[Lack, str]] = MappingProxyType(
     {
+        "size": "a thing that is put there would fall",
         "support": "turn it upright",
         "room": "use a larger one, or a smaller thing",
         "free room": "take something out of it, or use a larger one",
@@ -45,6 +46,14 @@ CURES: Final[MappingProxyType[Lack, str]] = MappingProxyType(
         "reach": "move it nearer to the arm",
     }
 )
+
+NAMES: Final[MappingProxyType[Lack, str]] = MappingProxyType({"reach": "out-of-reach", "size": "no-support"})
+"""The diagnostics that are not `no-room`."""
+
+UNCERTAIN: Final[tuple[Lack, ...]] = ("free room", "size")
+"""What may have changed when a thing is put down: what is in a container now, or what stands at a place."""
+
+PLACE_POSE: Final = "skillc_runtime.world.handling:place_pose"
 
 
 def check_places(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator[SceneViolation]:
@@ -65,11 +74,16 @@ def check_places(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator
 
 
 def check_goal_places(state: WorldState, goal: Condition) -> Iterator[SceneViolation]:
-    """Yield containers into which the thing cannot be put that shall be there according to a goal."""
+    """Yield places where the thing cannot be put that shall be there according to a goal.
+
+    Nothing if the library does not put things down by `place_pose`: skills of its own may do it in another way.
+    """
+    if not any(each.python == PLACE_POSE for each in state.vocabulary.functions.values()):
+        return
     for thing, container in _wanted(state, goal):
         problem = _find_problem(state, thing, container)
         if problem is not None:
-            yield _violation(container, (thing,), problem, "warning" if problem.lack == "free room" else "error")
+            yield _violation(container, (thing,), problem, "warning" if problem.lack in UNCERTAIN else "error")
 
 
 def _wanted(state: WorldState, goal: Condition) -> Iterator[tuple[str, str]]:
@@ -78,8 +92,14 @@ def _wanted(state: WorldState, goal: Condition) -> Iterator[tuple[str, str]]:
         match each:
             case Holds(subject=Individual(container), relation=relation, object=Individual(thing)):
                 known = relation == CONTAIN and {container, thing} <= state.individuals
-                sized = known and all(state.value(one, SIZE[0]) is not None for one in (container, thing))
-                if sized and state.is_a(thing, MANIPULATABLE) and not state.holds(container, CONTAIN, thing):
+                sized = known and state.value(thing, SIZE[0]) is not None
+                reported = state.is_a(container, CONTAINER) and state.value(container, SIZE[0]) is None
+                if (
+                    sized
+                    and not reported
+                    and state.is_a(thing, MANIPULATABLE)
+                    and not state.holds(container, CONTAIN, thing)
+                ):
                     yield thing, container
             case _:
                 pass
@@ -107,6 +127,6 @@ def _drives(state: WorldState, individual: str) -> bool:
 
 
 def _violation(container: str, things: tuple[str, ...], problem: PlaceError, severity: Severity) -> SceneViolation:
-    name = "out-of-reach" if problem.lack == "reach" else "no-room"
+    name = NAMES.get(problem.lack, "no-room")
     place = SIZE[0] if problem.lack == "room" else None
     return SceneViolation(container, place, name, str(problem), CURES[problem.lack], severity, things)

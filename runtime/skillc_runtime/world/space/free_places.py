@@ -48,7 +48,7 @@ SIDEWAYS = tuple(np.array([[0.0, s, c], [0.0, -c, s], [1.0, 0.0, 0.0]]) for c, s
 GREATEST_TILT_DEG = 20.0
 """Nothing stands on or in what is tilted further."""
 
-Lack: TypeAlias = Literal["support", "room", "free room", "headroom", "reach"]
+Lack: TypeAlias = Literal["size", "support", "room", "free room", "headroom", "reach"]
 
 
 class PlaceError(EvaluationError):
@@ -100,7 +100,8 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
     if not supports:
         raise PlaceError(
             f"{short(to)} has no size, and contains nothing that could carry {short(thing)}: "
-            "state skiros:SizeX, SizeY and SizeZ, or a skiros:PlacingPose"
+            "state skiros:SizeX, SizeY and SizeZ, or a skiros:PlacingPose",
+            "size",
         )
     others = [each for each in read_occupants(state) if each.individual != thing]
     failures = []
