@@ -14,7 +14,6 @@ from matrix.leaves import LibraryLeaves
 from matrix.stage import SCRIPTS
 from peers.comparing import differences_of
 from skillc_compiler.emit import bt, owl
-from skillc_compiler.emit.owl.words import library_base
 from skillc_model.codec import dumps, loads
 from skillc_model.conditions import And
 from skillc_model.pddl.planning import make_planning_domain
@@ -50,7 +49,7 @@ def measured(case: Case) -> Mapping[str, str]:
 def in_owl(library: SkillLibrary) -> str:
     """Check that everything of the library is said in OWL."""
     made = Graph().parse(data=owl.emit(library)["skills.ttl"], format="turtle")
-    base = Namespace(library_base(library))
+    base = Namespace(library.namespace)
     for skill in library.skills.values():
         assert {str(made.value(each, RDFS.label)) for each in made.objects(base[skill.name], SKIROS.hasParam)} == {
             each.name for each in skill.parameters
