@@ -24,7 +24,7 @@ lab:Iiwa-1 a skillc:Iiwa14 ; skillc:hasSheet skillc:iiwa14-sheet ; skillc:on lab
     skiros:CompliantController "impedance" ; skillc:hasGripper lab:Wsg-1 .
 lab:Wsg-1 a skillc:WsgGripper ; skillc:hasSheet skillc:wsg50-sheet .
 """
-SLOTS = tuple((x, y) for x in (-0.2, 0.04) for y in (-0.36, -0.12, 0.12, 0.36))
+SLOTS = tuple((x, y) for x in (-0.06, 0.11) for y in (-0.36, -0.12, 0.12, 0.36))
 """Places on the table, from its middle, in m: nothing in one touches anything in another."""
 SHAPES = ("box", "cylinder", "sphere", "capsule")
 SIZES = ("skiros:SizeX", "skiros:SizeY", "skiros:SizeZ")

@@ -1,10 +1,11 @@
-"""Checks that some arm reaches the things to handle, if no arm can be driven to them."""
+"""Checks that some arm reaches the things to handle, if no arm can be driven to them: by distance, then by postures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from skillc.services.cell_checks.facts import placing_fact, severity_of
+from skillc.services.cell_checks.hand_poses import check_postures
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import moves_with, pose
@@ -34,8 +35,13 @@ def check_reach(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator[
         return
     if not reaches or drives:
         return
-    for thing in sorted({each for cls in HANDLED for each in state.instances(cls)}):
-        yield from _out_of_reach(state, thing, reaches)
+    far = [each for thing in _things(state, HANDLED) for each in _out_of_reach(state, thing, reaches)]
+    yield from far
+    yield from check_postures(state, frozenset(each.individual for each in far))
+
+
+def _things(state: WorldState, classes: Sequence[str]) -> list[str]:
+    return sorted({each for cls in classes for each in state.instances(cls)})
 
 
 def _out_of_reach(state: WorldState, thing: str, reaches: list[Reach]) -> Iterator[SceneViolation]:

@@ -1,0 +1,100 @@
+"""The postures in which the hand of an arm is at a pose: inverse kinematics from start postures of a fixed seed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
+from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.terms import HAS_GRIPPER
+from skillc_runtime.world.state.world_state import WorldState
+
+STARTS = 12
+"""From how many start postures others are searched: more than `MoveTo` tries."""
+
+ROUND = 6
+"""Decimals to which poses are compared with those that were solved before."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HandReach:
+    """An arm with a gripper: its IRIs, its base in the world, its models, and its home posture (nv,) in rad."""
+
+    arm: str
+    gripper: str
+    base: Pose
+    models: tuple[str, str]
+    home: tuple[float, ...]
+
+    def reaches(self, hand: Pose) -> bool:
+        """Whether some posture puts the hand at a pose in the world; the same answer in each call."""
+        return bool(self._solve(hand, 1))
+
+    def postures(self, hand: Pose) -> tuple[Array, ...]:
+        """Return postures (nv,) in rad that put the hand at a pose in the world; the same in each call."""
+        return self._solve(hand, STARTS)
+
+    def _solve(self, hand: Pose, starts: int) -> tuple[Array, ...]:
+        there = self.base.inverse() @ hand
+        place = tuple(np.round(there.position, ROUND).tolist())
+        turn = tuple(np.round(there.rotation, ROUND).ravel().tolist())
+        return _postures(self.models, self.home, place, turn, starts)
+
+
+def read_hand_reaches(state: WorldState) -> list[HandReach]:
+    """Return all arms that have a gripper, in order of IRI; SheetError or FrameError if their facts are missing."""
+    pairs = sorted((arm, gripper) for arm, gripper in state.pairs(HAS_GRIPPER))
+    return [_read(state, arm, gripper) for arm, gripper in pairs]
+
+
+def _read(state: WorldState, arm: str, gripper: str) -> HandReach:
+    sheet = sheet_of(state, arm)
+    models = str(sheet.model), str(sheet_of(state, gripper).model)
+    return HandReach(arm, gripper, pose(state, arm), models, tuple(sheet.posture("home").tolist()))
+
+
+@lru_cache(maxsize=1000)
+def _postures(
+    models: tuple[str, str], home: tuple[float, ...], place: tuple[float, ...], turn: tuple[float, ...], starts: int
+) -> tuple[Array, ...]:
+    """Return the postures (nv,) found from home and from random starts, `starts` in all; none if home finds none."""
+    arm, limits = _arm_with_hand(models, home)
+    target, rest = Pose(np.array(place), np.array(turn).reshape(3, 3)), np.array(home)
+    nearest = solve_inverse_kinematics(arm, target, rest, limits)
+    if nearest is None:
+        return ()
+    draw = np.random.default_rng(0)
+    low, high = np.maximum(limits[:, 0], rest - np.pi), np.minimum(limits[:, 1], rest + np.pi)
+    others = (solve_inverse_kinematics(arm, target, draw.uniform(low, high), limits) for _ in range(starts - 1))
+    return (nearest, *(each for each in others if each is not None))
+
+
+@lru_cache(maxsize=8)
+def _arm_with_hand(models: tuple[str, str], home: tuple[float, ...]) -> tuple[VirtualArm, Array]:
+    """Return an arm whose tool is the centre of its empty hand, and the ranges (nv, 2) of its joints in rad.
+
+    SheetError if a model cannot be read, or lacks its flange or its tool centre point.
+    """
+    # The simulator is slow to import.
+    from pathlib import Path
+
+    import mujoco
+
+    try:
+        model = load_virtual_model(Path(models[0]))
+        hand = mujoco.MjModel.from_xml_path(models[1])
+        data = mujoco.MjData(hand)
+        mujoco.mj_kinematics(hand, data)
+        centre = data.site("tcp")
+    except (ValueError, KeyError) as error:
+        raise SheetError(f"the models of the data sheets cannot be used: {error}") from error
+    arm, q = VirtualArm(model), np.array(home)
+    arm.update_kinematics(q)
+    arm.mount_tool(q, arm.tool @ Pose(centre.xpos.copy(), centre.xmat.reshape(3, 3).copy()))
+    return arm, model.jnt_range.copy()
