@@ -18,7 +18,9 @@ from skillc_runtime.recording.reader import TraceReader
 PICK = "Pick(arm: lab:Iiwa-1, object: lab:Eraser-1)"
 
 
-@pytest.mark.parametrize(("backend", "verified"), [("mujoco", True), ("kinematic", False)])
+@pytest.mark.parametrize(
+    ("backend", "verified"), [pytest.param("mujoco", True, marks=pytest.mark.sim), ("kinematic", False)]
+)
 def test_a_grasp_is_verified_with_physics_only(backend: BackendName, verified: bool, tmp_path: Path) -> None:
     request = TaskRequest(None, catalogue.scene_path("iiwa_table"), None, PICK)
     with load_task(request, SilentReporter()) as task:

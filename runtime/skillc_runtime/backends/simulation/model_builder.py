@@ -95,6 +95,8 @@ def _empty(timestep_s: float) -> Any:
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+    # Bodies have few geoms, so that testing all pairs costs less than a search in trees of their boxes.
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE
     spec.visual.global_.offwidth, spec.visual.global_.offheight = 1280, 720
     spec.visual.headlight.ambient = [0.4, 0.4, 0.4]
     _add_sky(spec)
