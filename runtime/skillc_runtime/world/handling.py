@@ -12,10 +12,11 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.frames import pose, size
-from skillc_runtime.world.space.free_places import clearance_m, free_hand_pose, pose_in_hand
+from skillc_runtime.world.space.free_places import free_hand_pose, pose_in_hand
 from skillc_runtime.world.space.grasp_geometry import APPROACH_M
 from skillc_runtime.world.space.grasps import find_grasp, stated_pose
 from skillc_runtime.world.space.grip_force import grasp_force_n
+from skillc_runtime.world.space.supports import clearance_m
 from skillc_runtime.world.state.terms import APPROACH_POSE, HELD_SIDEWAYS, PLACING_POSE
 
 if TYPE_CHECKING:

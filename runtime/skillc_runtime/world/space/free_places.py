@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import read_shape
-from skillc_runtime.world.space.bounding_boxes import bounding_box
-from skillc_runtime.world.space.floors import shelf_board
 from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.grasp_geometry import APPROACH_M
@@ -19,10 +17,11 @@ from skillc_runtime.world.space.hand_shape import HandShape, read_hand_shape
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
-from skillc_runtime.world.space.shapes import Bin, Shelf, solids_of
+from skillc_runtime.world.space.shapes import solids_of
+from skillc_runtime.world.space.supports import QUARTERS, Support, face_away, find_supports, tilt_problem
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.terms import CONTAIN, FURNITURE, HELD_SIDEWAYS, SIZE
+from skillc_runtime.world.state.terms import HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState
 
 GAP_M = 0.01
@@ -38,15 +37,9 @@ PITCH_M = 0.01
 NEAR_BASE_M = 0.25
 """Nothing is put down nearer to the axis of an arm's base."""
 
-QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, s in ((1, 0), (0, 1), (0, -1), (-1, 0)))
-"""The rotations (3, 3) of a hand that points down, in the frame of a support: first as its x points."""
-
 
 SIDEWAYS = tuple(np.array([[0.0, s, c], [0.0, -c, s], [1.0, 0.0, 0.0]]) for c, s in ((1, 0), (0, 1), (0, -1)))
 """The rotations (3, 3) of a horizontal hand with its x upwards, in the frame of a support: first as its x points."""
-
-GREATEST_TILT_DEG = 20.0
-"""Nothing stands on or in what is tilted further."""
 
 Lack: TypeAlias = Literal["size", "support", "room", "free room", "headroom", "reach"]
 
@@ -57,21 +50,6 @@ class PlaceError(EvaluationError):
     def __init__(self, message: str, lack: Lack = "support") -> None:
         super().__init__(message)
         self.lack = lack
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Support:
-    """A horizontal rectangle that carries things: its middle in the world, half its sides (2,) in m.
-
-    rim_m: how high its walls stand above it; 0 without walls. board: of a shelf, 0 for its top and for all else.
-    x of its frame is the side that points off an arm.
-    """
-
-    individual: str
-    middle: Pose
-    half: Array
-    rim_m: float
-    board: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,8 +71,8 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
     MissingFact or SheetError if facts are missing.
     """
     short, load = state.vocabulary.short, _read_load(state, gripper, thing)
-    supports = [_facing(each, pose(state, arm).position) for each in _supports(state, to)]
-    tilted = next(filter(None, (_tilt_problem(state, each) for each in supports)), None)
+    supports = [face_away(each, pose(state, arm).position) for each in find_supports(state, to)]
+    tilted = next(filter(None, (tilt_problem(state, each) for each in supports)), None)
     if tilted is not None:
         raise PlaceError(f"{short(thing)} cannot be put down: {tilted}")
     if not supports:
@@ -126,39 +104,6 @@ def pose_in_hand(state: WorldState, gripper: str, thing: str) -> Pose:
     return space.own_pose(thing)
 
 
-def clearance_m(state: WorldState, to: str) -> float:
-    """Return how high the walls of a carrier stand above what it carries, in m."""
-    return max((each.rim_m for each in _supports(state, to)), default=0.0)
-
-
-def _supports(state: WorldState, to: str) -> list[Support]:
-    if state.value(to, SIZE[0]) is not None:
-        return [_support(state, to), *_boards(state, to)]
-    carriers = (each for each in state.objects(to, CONTAIN) if state.is_a(each, FURNITURE))
-    return [_support(state, each) for each in sorted(carriers)]
-
-
-def _support(state: WorldState, individual: str) -> Support:
-    shape = read_shape(state, individual)
-    box = bounding_box(state, individual)
-    if isinstance(shape, Bin):
-        x, y, z = shape.inside
-        floor = box.middle @ Pose.of((0.0, 0.0, shape.wall_m - float(box.half[2])))
-        return Support(individual, floor, np.array([x, y]) / 2, z)
-    return Support(individual, box.middle @ Pose.of((0.0, 0.0, float(box.half[2]))), box.half[:2], 0.0)
-
-
-def _boards(state: WorldState, individual: str) -> Iterator[Support]:
-    """Yield the boards of a shelf below its top, the highest first; nothing for all else."""
-    shape = read_shape(state, individual)
-    if isinstance(shape, Shelf):
-        middle = bounding_box(state, individual).middle
-        for number in range(shape.boards - 1, 0, -1):
-            board = shelf_board(shape, number)
-            place = middle @ Pose(board.middle + np.array([0.0, 0.0, board.half[2]]), np.eye(3))
-            yield Support(individual, place, board.half[:2], 0.0, number)
-
-
 def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError | None:
     """Return that a hand from above does not fit between a support and what is above it; None if it does."""
     height_m = -float(_extent(load.corners, load.turns[0])[0][2])
@@ -167,23 +112,6 @@ def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError
     if found is None:
         return None
     return PlaceError(f"on {where}{state.vocabulary.short(support.individual)}, {found}", "headroom")
-
-
-def _tilt_problem(state: WorldState, support: Support) -> str | None:
-    """Return that a support is tilted too far for anything to stand on it; None if it is not."""
-    tilt_deg = np.degrees(np.arccos(np.clip(support.middle.rotation[2, 2], -1.0, 1.0)))
-    if tilt_deg <= GREATEST_TILT_DEG:
-        return None
-    return f"{state.vocabulary.short(support.individual)} is tilted by {tilt_deg:.0f} deg, so nothing stands in it"
-
-
-def _facing(support: Support, base: Array) -> Support:
-    """Return a support in that frame of its sides whose x points off the base (3,) of an arm, so that its hand may."""
-    away = support.middle.position - base
-    quarters = (support.middle @ Pose(np.zeros(3), turn * np.array([1.0, -1.0, -1.0])) for turn in QUARTERS)
-    middle = max(quarters, key=lambda each: round(float(each.rotation[:, 0] @ away), 6))
-    swapped = abs(float(middle.rotation[:, 0] @ support.middle.rotation[:, 0])) < 0.5
-    return replace(support, middle=middle, half=support.half[::-1] if swapped else support.half)
 
 
 def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
