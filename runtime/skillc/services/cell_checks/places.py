@@ -24,7 +24,9 @@ from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     CONTAIN,
     CONTAINER,
+    FIXTURE,
     HAS_GRIPPER,
+    LOCATION,
     MANIPULATABLE,
     MOBILE_ROBOT,
     PLACING_POSE,
@@ -94,15 +96,16 @@ def _wanted(state: WorldState, goal: Condition) -> Iterator[tuple[str, str]]:
                 known = relation == CONTAIN and {container, thing} <= state.individuals
                 sized = known and state.value(thing, SIZE[0]) is not None
                 reported = state.is_a(container, CONTAINER) and state.value(container, SIZE[0]) is None
-                if (
-                    sized
-                    and not reported
-                    and state.is_a(thing, MANIPULATABLE)
-                    and not state.holds(container, CONTAIN, thing)
-                ):
+                put_down = sized and not reported and _is_place(state, container) and state.is_a(thing, MANIPULATABLE)
+                if put_down and not state.holds(container, CONTAIN, thing):
                     yield thing, container
             case _:
                 pass
+
+
+def _is_place(state: WorldState, individual: str) -> bool:
+    """Whether things are put down there, not inserted into it or held by it."""
+    return state.is_a(individual, LOCATION) and not state.is_a(individual, FIXTURE)
 
 
 def _find_problem(state: WorldState, thing: str, container: str) -> PlaceError | None:
