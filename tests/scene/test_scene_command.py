@@ -78,6 +78,20 @@ def test_a_thing_is_added_at_the_end(cell: Path) -> None:
     assert (box["position"], box["angles"]) == ([-0.2, -0.15, 0.75], [0.0, 0.0, -90.0])
 
 
+def test_a_thing_of_which_nothing_says_where_it_is_stands_on_the_floor_of_the_only_workstation(tmp_path: Path) -> None:
+    path = tmp_path / "own.ttl"
+    assert scene("new", str(path), "--arm", "Panda").exit_code == 0
+    assert (
+        scene("add", str(path), "Table", "Furniture", "--size", "0.8", "1.0", "0.6", "--at", "0.6", "0").exit_code == 0
+    )
+    assert shown(path)["lab:Table"]["position"] == [0.6, 0.0, 0.6]
+    unknown = scene("move", str(path), "Foo", "--at", "0", "0").stderr
+    assert "there is lab:Arm-1, lab:Cell, lab:Gripper-1" in unknown and "sheet" not in unknown
+    path.write_text(path.read_text("utf-8") + "\nlab:Other a skillc:Workstation ; skillc:on lab:Scene-1 .\n", "utf-8")
+    between = scene("add", str(path), "Box", "Container", "--size", "0.2", "0.2", "0.1")
+    assert (between.exit_code, between.stdout) == (2, "") and "say where it is: --on THING" in between.stderr
+
+
 def test_what_a_thing_needs_is_declared_and_its_place_contains_it(cell: Path) -> None:
     options = (
         "--label",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -29,6 +29,7 @@ from skillc_runtime.world.state.terms import (
     SHAPE,
     SIZE,
     WEIGHT,
+    WORKSTATION,
 )
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -79,8 +80,13 @@ class ThingRequest:
 
 
 def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseRequest) -> str:
-    """Add a thing to a scene file and return its short name. ServiceError, and the file unchanged, if it has errors."""
+    """Add a thing to a scene file and return its short name. ServiceError, and the file unchanged, if it has errors.
+
+    A thing with a size of which nothing says where it is stands on the floor of the only workstation.
+    """
     file = SceneFile(scene, state)
+    if (thing.size or pose.at) and not (thing.inside or pose.on or pose.position):
+        pose = replace(pose, on=_find_floor(state))
     iri = file.name_new_thing(thing.name)
     kind: Pairs = [(RDF_TYPE, ox.NamedNode(file.find_class(thing.cls)))]
     if thing.label is not None:
@@ -95,6 +101,13 @@ def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseReq
     file.append(iri, (kind, body, [*_place(file, pose), *_turn(pose, in_frame=bool(pose.position))]))
     file.write()
     return state.vocabulary.short(iri)
+
+
+def _find_floor(state: WorldState) -> str:
+    floors = sorted(state.instances(WORKSTATION))
+    if len(floors) != 1:
+        raise RequestError("say where it is: --on THING with --at X Y, --in PLACE, or --position X Y Z")
+    return state.vocabulary.short(floors[0])
 
 
 def move_thing(scene: Path, state: WorldState, name: str, pose: PoseRequest) -> str:

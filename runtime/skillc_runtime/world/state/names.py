@@ -5,6 +5,7 @@ from __future__ import annotations
 from difflib import get_close_matches
 
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
+from skillc_runtime.world.state.terms import SHEET
 from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 8
@@ -33,7 +34,8 @@ def resolve_individual(name: str, state: WorldState) -> str:
     if state.exists(iri):
         return iri
     short = state.vocabulary.short
-    by_name = {local_name(each): short(each) for each in sorted(state.individuals)}
+    things = (each for each in sorted(state.individuals) if not state.is_a(each, SHEET))
+    by_name = {local_name(each): short(each) for each in things}
     near = [by_name[each] for each in get_close_matches(local_name(iri), by_name, n=3)]
     cure = f"did you mean {' or '.join(near)}?" if near else f"there is {_list_names(sorted(by_name.values()))}"
     raise NoSuchName(f"there is no individual {short(iri)}; {cure}")
