@@ -48,7 +48,10 @@ class HandReach:
 
 
 def read_hand_reaches(state: WorldState) -> list[HandReach]:
-    """Return all arms that have a gripper, in order of IRI; SheetError or FrameError if their facts are missing."""
+    """Return all arms that have a gripper, in order of IRI; their models are loaded.
+
+    SheetError or FrameError if their facts are missing, or do not fit the models.
+    """
     pairs = sorted((arm, gripper) for arm, gripper in state.pairs(HAS_GRIPPER))
     return [_read(state, arm, gripper) for arm, gripper in pairs]
 
@@ -56,7 +59,9 @@ def read_hand_reaches(state: WorldState) -> list[HandReach]:
 def _read(state: WorldState, arm: str, gripper: str) -> HandReach:
     sheet = sheet_of(state, arm)
     models = str(sheet.model), str(sheet_of(state, gripper).model)
-    return HandReach(arm, gripper, pose(state, arm), models, tuple(sheet.posture("home").tolist()))
+    home = tuple(sheet.posture("home").tolist())
+    _arm_with_hand(models, home)
+    return HandReach(arm, gripper, pose(state, arm), models, home)
 
 
 @lru_cache(maxsize=1000)
@@ -79,7 +84,7 @@ def _postures(
 def _arm_with_hand(models: tuple[str, str], home: tuple[float, ...]) -> tuple[VirtualArm, Array]:
     """Return an arm whose tool is the centre of its empty hand, and the ranges (nv, 2) of its joints in rad.
 
-    SheetError if a model cannot be read, or lacks its flange or its tool centre point.
+    SheetError if a model cannot be read, lacks its flange or its tool centre point, or has other joints than `home`.
     """
     # The simulator is slow to import.
     from pathlib import Path
@@ -92,9 +97,9 @@ def _arm_with_hand(models: tuple[str, str], home: tuple[float, ...]) -> tuple[Vi
         data = mujoco.MjData(hand)
         mujoco.mj_kinematics(hand, data)
         centre = data.site("tcp")
+        arm, q = VirtualArm(model), np.array(home)
+        arm.update_kinematics(q)
     except (ValueError, KeyError) as error:
         raise SheetError(f"the models of the data sheets cannot be used: {error}") from error
-    arm, q = VirtualArm(model), np.array(home)
-    arm.update_kinematics(q)
     arm.mount_tool(q, arm.tool @ Pose(centre.xpos.copy(), centre.xmat.reshape(3, 3).copy()))
     return arm, model.jnt_range.copy()

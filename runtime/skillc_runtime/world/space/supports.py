@@ -80,7 +80,7 @@ def tilt_problem(state: WorldState, support: Support) -> str | None:
 
 
 def face_away(support: Support, base: Array) -> Support:
-    """Return a support in that frame of its sides whose x points off the base (3,) of an arm, so that its hand may."""
+    """Return a support in that frame of its sides whose x points off an arm, whose base (3,) is in m."""
     away = support.middle.position - base
     quarters = (support.middle @ Pose(np.zeros(3), turn * np.array([1.0, -1.0, -1.0])) for turn in QUARTERS)
     middle = max(quarters, key=lambda each: round(float(each.rotation[:, 0] @ away), 6))
