@@ -7,12 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path, rewrite_file
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import MANIFEST, Project
+from skillc.services.project_templates import open_templates
 from skillc_dsl.diagnostics import did_you_mean
 from skillc_ontology import catalogue
 
@@ -21,7 +20,6 @@ FOLDERS: Mapping[str, str] = {"robot": "robots", "gripper": "grippers", "tool": 
 MODELS: Mapping[str, str] = {"robot": "iiwa14", "gripper": "wsg50", "tool": "eraser"}
 """The shipped devices that new ones are copies of, unless another is named."""
 ONTOLOGY = "ontology"
-_TEMPLATES = Path(__file__).parent / "templates" / "add"
 _SUBJECT = re.compile(r"^(?P<prefix>\w+):(?P<local>[\w-]+) a (?P<cls>[\w:]+)", re.MULTILINE)
 _SOURCE = re.compile(r'skillc:source "[^"]*"')
 _MODEL = re.compile(r'skillc:model "(?P<path>[^"]*)"')
@@ -45,16 +43,8 @@ def add_files(project: Project, kind: Kind, name: str, like: str | None) -> tupl
 
 
 def _skill(name: str) -> str:
-    environment = Environment(
-        loader=FileSystemLoader(_TEMPLATES),
-        undefined=StrictUndefined,
-        variable_start_string="<<",
-        variable_end_string=">>",
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
     skill = _camel(name)
-    return environment.get_template("skill.skill.j2").render(skill=skill, term=f"is{skill}Done")
+    return open_templates().get_template("add/skill.skill.j2").render(skill=skill, term=f"is{skill}Done")
 
 
 def _device(project: Project, kind: str, name: str, like: str, folder: Path) -> dict[Path, str]:

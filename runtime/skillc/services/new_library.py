@@ -9,19 +9,16 @@ from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.libraries import load_vocabulary
 from skillc.services.library_files import find_library
 from skillc.services.project.manifest import NAME
-from skillc.services.project_templates import DEFAULT, TEMPLATES, Template
+from skillc.services.project_templates import DEFAULT, TEMPLATES, Template, open_templates
 from skillc_compiler import pipeline
 from skillc_dsl.diagnostics import did_you_mean
 from skillc_dsl.source import Source
 
-FOLDER = Path(__file__).parent / "templates"
 FILES = (
     ("skillc.toml", "common/skillc.toml.j2"),
     ("{name}.skill", "{template}/library.skill.j2"),
@@ -64,14 +61,7 @@ def _texts(name: str, template: Template) -> dict[str, str]:
         near = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_0123456789")
         hint = f"; try `{near}`" if NAME.fullmatch(near) else ""
         raise RequestError(f"`{name}` is not a valid library name: use a-z, 0-9 and `_`, starting with a letter{hint}")
-    environment = Environment(
-        loader=FileSystemLoader(FOLDER),
-        undefined=StrictUndefined,
-        variable_start_string="<<",
-        variable_end_string=">>",
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
+    environment = open_templates()
     values = {"name": name, **_values(name, template)}
     texts = {
         path.format(name=name): environment.get_template(file.format(template=template.name)).render(values)

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+FOLDER = Path(__file__).parent / "templates"
 DEFAULT = "press"
 
 
@@ -64,3 +68,15 @@ TEMPLATES = (
         ("{skill}",),
     ),
 )
+
+
+def open_templates() -> Environment:
+    """Return the files of all templates; `<<` and `>>` stand around variables, since skill texts use braces."""
+    return Environment(
+        loader=FileSystemLoader(FOLDER),
+        undefined=StrictUndefined,
+        variable_start_string="<<",
+        variable_end_string=">>",
+        keep_trailing_newline=True,
+        autoescape=False,
+    )

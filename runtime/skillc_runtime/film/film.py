@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.devices.simulation import Drawing, Posture, Simulation
-from skillc_runtime.film.overlay import Overlay, Overlays
+from skillc_runtime.film.annotations import Annotations, SceneAnnotator
 from skillc_runtime.film.picture_files import FilmError, write_film, write_picture
 from skillc_runtime.film.props import make_props
 from skillc_runtime.film.rendering import CameraView, Picture, Quality, Renderer
@@ -88,8 +88,8 @@ class Film:
         """Film a cell; `drawn` is the model to render, with the same joints, if it is not that of the cell."""
         self._clock, self._drawing = simulation.clock, simulation.drawing
         self._drawn = self._drawing.model if drawn is None else drawn
-        self._frames: list[tuple[Posture, Overlay]] = []
-        self._overlays = Overlays(simulation)
+        self._frames: list[tuple[Posture, Annotations]] = []
+        self._annotator = SceneAnnotator(simulation)
         state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
         self._arms = {arm: _camera_target(self._drawing, state, arm) for arm in sorted(state.instances(ARM_DEVICE))}
         present = filter(truth.is_present, sorted(state.instances(SURFACE)))
@@ -100,7 +100,7 @@ class Film:
     def sample(self) -> None:
         """Sample a frame if one is due."""
         if self._clock.now * FRAMES_PER_S / SPEED_UP >= len(self._frames):
-            self._frames.append((self._drawing.posture(), self._overlays.sample()))
+            self._frames.append((self._drawing.posture(), self._annotator.sample()))
 
     def write(self, directory: Path, moments: Sequence[Moment] = ()) -> FilmFiles:
         """Render all frames to film.mp4, and stills of some moments to PNG.
@@ -122,9 +122,9 @@ class Film:
     def pictures(self) -> Iterator[Picture]:
         """Render the frames, each (HEIGHT, WIDTH times the number of arms, 3)."""
         with self._renderer(WIDTH, HEIGHT, "film") as (renderer, data):
-            for posture, overlay in self._frames:
+            for posture, annotations in self._frames:
                 self._show(data, posture)
-                ghosts = replace(overlay, labels=())
+                ghosts = replace(annotations, tags=())
                 pictures = [
                     renderer.picture(data, (_arm_view(data, arm), _hand_view(data, arm)), ghosts)
                     for arm in self._arms.values()
@@ -138,9 +138,9 @@ class Film:
         with self._renderer(STILL_WIDTH, STILL_HEIGHT, "still") as (renderer, data):
             for moment in moments:
                 at = min(round(moment.time * FRAMES_PER_S / SPEED_UP), len(self._frames) - 1)
-                posture, overlay = self._frames[at]
+                posture, annotations = self._frames[at]
                 self._show(data, posture)
-                yield renderer.picture(data, (_hand_view(data, self._arms[moment.arm], CLOSER_M),), overlay)
+                yield renderer.picture(data, (_hand_view(data, self._arms[moment.arm], CLOSER_M),), annotations)
 
     @contextmanager
     def _renderer(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from skillc_runtime.film.overlay import Label, Overlay
+from skillc_runtime.film.annotations import Annotations, NameTag
 from skillc_runtime.film.props import Prop
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.solids import Kind
@@ -34,7 +34,7 @@ SHADOW_M, SHADOW_PIXELS = 1.5, 8192
 """Distance from the centre of a still up to which there are shadows, and pixels of the shadow map."""
 
 MOST_GEOMS = 2000
-NO_OVERLAY = Overlay()
+NO_ANNOTATIONS = Annotations()
 GEOMS: dict[Kind, Any] = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,
     "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
@@ -94,12 +94,12 @@ class Renderer:
         self._camera, self._option = mujoco.MjvCamera(), mujoco.MjvOption()
         self._option.sitegroup[:] = 0  # sites are not shown
 
-    def picture(self, data: Any, views: Sequence[CameraView], overlay: Overlay = NO_OVERLAY) -> Picture:
+    def picture(self, data: Any, views: Sequence[CameraView], annotations: Annotations = NO_ANNOTATIONS) -> Picture:
         """Return the picture (height, width, 3) of a state: views side by side, equally wide."""
         height, width = self._size
         each = width // len(views)
         for number, view in enumerate(views):
-            self._draw(data, view, mujoco.MjrRect(number * each, 0, each, height), overlay)
+            self._draw(data, view, mujoco.MjrRect(number * each, 0, each, height), annotations)
         pixels = np.empty((height, width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(pixels, None, mujoco.MjrRect(0, 0, width, height), self._gl)
         return pixels[::-1]
@@ -109,7 +109,7 @@ class Renderer:
         self._gl.free()
         self._context.free()
 
-    def _draw(self, data: Any, view: CameraView, where: Any, overlay: Overlay) -> None:
+    def _draw(self, data: Any, view: CameraView, where: Any, annotations: Annotations) -> None:
         self._camera.lookat[:] = view.point
         self._camera.distance = view.distance
         self._camera.azimuth, self._camera.elevation = view.azimuth_deg, view.elevation_deg
@@ -117,10 +117,10 @@ class Renderer:
         mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, everything, self._scene)
         for light in self._scene.lights[: self._scene.nlight]:
             _set_light(light)
-        for prop in (*self._props, *overlay.ghosts):
+        for prop in (*self._props, *annotations.ghosts):
             self._add(prop)
-        for label in overlay.labels:
-            self._write(label)
+        for tag in annotations.tags:
+            self._write(tag)
         mujoco.mjr_render(where, self._scene, self._gl)
 
     def _add(self, prop: Prop) -> None:
@@ -132,11 +132,11 @@ class Renderer:
         mujoco.mjv_initGeom(geom, GEOMS[prop.kind], half, prop.pose.position, prop.pose.rotation.ravel(), rgba)
         self._scene.ngeom += 1
 
-    def _write(self, label: Label) -> None:
+    def _write(self, tag: NameTag) -> None:
         geom = self._scene.geoms[self._scene.ngeom]
         black = np.array((0.0, 0.0, 0.0, 1.0), dtype=np.float32)
-        mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_LABEL, np.zeros(3), label.point, np.eye(3).ravel(), black)
-        geom.label = label.text
+        mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_LABEL, np.zeros(3), tag.point, np.eye(3).ravel(), black)
+        geom.label = tag.text
         self._scene.ngeom += 1
 
 

@@ -1,6 +1,6 @@
 """Cargo of a mobile base that feels its acceleration: it slips, tips over and falls off as friction and mass let it.
 
-A base has no velocity for the physics: it is where it is told to be. What stands on it is moved along in each step, so
+The physics knows no velocity of a base: its position is set in each step, and what stands on it is moved with it, so
 that the physics computes its motion relative to the base, under the forces of inertia there:
 
     F = -m dV/dt,  M = -I dw/dt

@@ -26,7 +26,7 @@ class FigureFiles:
 
 @dataclass(frozen=True, slots=True)
 class NamedFigure:
-    """A figure of a report: what it shows, such as `path`, and of which hand, in words; empty if it is of all."""
+    """A figure of a report: what it shows, such as `path`, and the display name of the hand; empty if it shows all."""
 
     kind: str
     of: str

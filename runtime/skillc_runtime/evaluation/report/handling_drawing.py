@@ -18,7 +18,7 @@ from skillc_runtime.world.space.bodies import read_bodies, read_body
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.outlines import outline_points
-from skillc_runtime.world.state.labelled import name_in_words
+from skillc_runtime.world.state.labelled import display_name
 from skillc_runtime.world.state.terms import CONTAINER, TOOL
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -36,8 +36,8 @@ AROUND_M = 0.15
 
 
 @dataclass(frozen=True, slots=True)
-class Outline:
-    """A thing to draw: its name in words, its role, points (n, 3) in m of the world whose hull it is, its colour."""
+class DrawnBody:
+    """A body to draw: its display name, its role, points (n, 3) in m of the world whose hull it is, its colour."""
 
     name: str
     role: Role
@@ -57,11 +57,11 @@ class Pick:
 
 @dataclass(frozen=True, slots=True)
 class HandlingDrawing:
-    """What one hand did: its name in words, its true path, what lay around it, and its picks in order of time."""
+    """What one hand did: its display name, its true path, what lay around it, and its picks in order of time."""
 
     hand: str
     path: HandPath
-    outlines: tuple[Outline, ...]
+    outlines: tuple[DrawnBody, ...]
     picks: tuple[Pick, ...]
 
 
@@ -85,22 +85,22 @@ def _draw(
     path = trace.path(gripper)
     things = sorted({each.thing for each in handlings})
     around = (*_scenery(trace.start, path), *_moved(things, trace, state, truth))
-    return HandlingDrawing(name_in_words(gripper), path, around, tuple(_pick(each, path) for each in handlings))
+    return HandlingDrawing(display_name(gripper), path, around, tuple(_pick(each, path) for each in handlings))
 
 
 def _pick(handling: Handling, path: HandPath) -> Pick:
     end = inf if handling.released_s is None else handling.released_s + AFTER_S
     samples = path.between(handling.grasped_s - BEFORE_S, end)
-    return Pick(name_in_words(handling.thing), samples, handling.grasped_s, handling.released_s)
+    return Pick(display_name(handling.thing), samples, handling.grasped_s, handling.released_s)
 
 
-def _scenery(state: WorldState, path: HandPath) -> Iterator[Outline]:
+def _scenery(state: WorldState, path: HandPath) -> Iterator[DrawnBody]:
     """Yield the fixed things near the path."""
     for body in read_bodies(state):
         points = outline_points(state, body.individual, body.pose)
         if not body.movable and _is_near(points, path.position):
             role: Role = "place" if state.is_a(body.individual, CONTAINER) else "scenery"
-            yield Outline(name_in_words(body.individual), role, points, body.colour[:3])
+            yield DrawnBody(display_name(body.individual), role, points, body.colour[:3])
 
 
 def _is_near(points: Array, path: Array) -> bool:
@@ -108,7 +108,7 @@ def _is_near(points: Array, path: Array) -> bool:
     return bool(np.any(np.all((path >= low) & (path <= high), axis=1)))
 
 
-def _moved(things: Sequence[str], trace: HandTrace, state: WorldState, truth: GroundTruth) -> Iterator[Outline]:
+def _moved(things: Sequence[str], trace: HandTrace, state: WorldState, truth: GroundTruth) -> Iterator[DrawnBody]:
     """Yield where things lay at the start and lie at the end; where they were believed to be, if that differs."""
     for thing in things:
         body = read_body(trace.start, thing)
@@ -119,7 +119,7 @@ def _moved(things: Sequence[str], trace: HandTrace, state: WorldState, truth: Gr
         shown += [("believed start", at) for at in _believed_elsewhere(trace.start, thing, start)]
         shown += [("believed end", at) for at in _believed_elsewhere(state, thing, end)]
         for role, at in shown:
-            yield Outline(name_in_words(thing), role, outline_points(state, thing, at), colour)
+            yield DrawnBody(display_name(thing), role, outline_points(state, thing, at), colour)
 
 
 def _believed_elsewhere(state: WorldState, thing: str, really: Pose) -> Iterator[Pose]:

@@ -41,12 +41,12 @@ def find_handlings(
     ended = (node for tree in trees for node in tree.nodes() if node.id in choices and node.status == "success")
     calls = sorted(((node.ended, choices[node.id]) for node in ended if node.ended is not None), key=_by_time)
     found: list[Handling] = []
-    for time, choice in calls:
-        for highlight in choice.highlights:
-            if highlight.word == GRASPED:
-                found += _begin(highlight.what.iri, choice, time, state)
-            elif highlight.word == RELEASED:
-                _end(found, highlight.what.iri, time, calls)
+    highlights = ((time, choice, each) for time, choice in calls for each in choice.highlights)
+    for ended_s, call, highlight in highlights:
+        if highlight.word == GRASPED:
+            found += _begin(highlight.what.iri, call, ended_s, state)
+        elif highlight.word == RELEASED:
+            _end(found, highlight.what.iri, ended_s, calls)
     return tuple(found)
 
 

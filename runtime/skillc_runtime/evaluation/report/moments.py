@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.film.film import Moment
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.world.state.labelled import name_in_words
+from skillc_runtime.world.state.labelled import display_name
 from skillc_runtime.world.state.terms import ARM_DEVICE
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -46,7 +46,7 @@ def _find_highlights(node: NodeOutcome, choice: ImplementationChosen, state: Wor
         time = node.started if highlight.when == "begins" else node.ended
         occurred = highlight.when == "begins" or node.status == "success"
         if occurred and time is not None:
-            yield Moment(f"{name_in_words(highlight.what.iri)} {highlight.word}", time, arm)
+            yield Moment(f"{display_name(highlight.what.iri)} {highlight.word}", time, arm)
 
 
 def _find_wiping_moments(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Iterator[Moment]:

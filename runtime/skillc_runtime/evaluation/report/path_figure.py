@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 
-from skillc_runtime.evaluation.report.handling_drawing import HandlingDrawing, Outline, Role
+from skillc_runtime.evaluation.report.handling_drawing import DrawnBody, HandlingDrawing, Role
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.outlines import convex_hull
 
@@ -87,7 +87,7 @@ def _draw_view(axes: Axes, drawing: HandlingDrawing, order: tuple[int, int], sho
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def _draw_outline(axes: Axes, outline: Outline, order: tuple[int, int]) -> None:
+def _draw_outline(axes: Axes, outline: DrawnBody, order: tuple[int, int]) -> None:
     hull = 1e3 * convex_hull(outline.points[:, list(order)])
     own: dict[str, Any] = {"facecolor": outline.colour} if outline.role in COLOURED else {}
     axes.add_patch(Polygon(hull, closed=True, **STYLES[outline.role], **own))

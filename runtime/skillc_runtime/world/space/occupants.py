@@ -73,11 +73,14 @@ def _sweep(ordered: list[Occupant]) -> Iterator[tuple[Occupant, Occupant]]:
 
 def _occupants(state: WorldState, sized: list[str]) -> Iterator[Occupant]:
     for individual in sized:
-        if not any(state.is_a(individual, cls) for cls in WITHOUT_ROOM):
-            with suppress(FrameError, SheetError):
-                found = _of_body(state, individual) if has_body(state, individual) else _of_box(state, individual)
-                if found is not None:
-                    yield found
+        if any(state.is_a(individual, cls) for cls in WITHOUT_ROOM):
+            continue
+        with suppress(FrameError, SheetError):
+            yield from filter(None, (_read_occupant(state, individual),))
+
+
+def _read_occupant(state: WorldState, individual: str) -> Occupant | None:
+    return _of_body(state, individual) if has_body(state, individual) else _of_box(state, individual)
 
 
 def _of_body(state: WorldState, individual: str) -> Occupant | None:

@@ -151,7 +151,7 @@ def label(iri: str, vocabulary: Vocabulary) -> LabelledIri:
     return LabelledIri(iri, vocabulary.short(iri))
 
 
-def name_in_words(iri: str) -> str:
+def display_name(iri: str) -> str:
     """Return the name of an individual as words, for titles: `Box A` for `lab:Box-A`."""
     return local(iri).replace("-", " ").replace("_", " ")
 

@@ -8,7 +8,7 @@ import pytest
 from backends.kinematic_runs import library
 from skillc.services.library_files import SHIPPED
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.film.overlay import Overlays
+from skillc_runtime.film.annotations import SceneAnnotator
 from skillc_runtime.film.props import Prop
 from skillc_runtime.film.rendering import CameraView, Renderer, RenderingError, check_rendering
 from skillc_runtime.motion.pose import Pose
@@ -30,18 +30,18 @@ def push(sorting: KinematicCell, away_m: float) -> None:
 
 
 def test_parts_and_boxes_are_named_and_furniture_is_not() -> None:
-    labels = {each.text: each.point for each in Overlays(cell()).sample().labels}
-    assert labels.keys() == {"Part A", "Part B", "Box A", "Box B"}
-    assert labels["Part B"] == pytest.approx((0.5, -0.2, 0.682), abs=1e-3)
+    tags = {each.text: each.point for each in SceneAnnotator(cell()).sample().tags}
+    assert tags.keys() == {"Part A", "Part B", "Box A", "Box B"}
+    assert tags["Part B"] == pytest.approx((0.5, -0.2, 0.682), abs=1e-3)
 
 
 def test_there_is_a_ghost_of_a_part_that_is_elsewhere_and_of_no_other() -> None:
     sorting = cell()
-    overlays = Overlays(sorting)
+    annotator = SceneAnnotator(sorting)
     push(sorting, 0.004)
-    assert overlays.sample().ghosts == ()
+    assert annotator.sample().ghosts == ()
     push(sorting, 0.03)
-    (ghost,) = overlays.sample().ghosts
+    (ghost,) = annotator.sample().ghosts
     assert (ghost.kind, ghost.rgba[3] < 1.0) == ("cylinder", True)
     assert ghost.pose.position == pytest.approx((0.5, -0.2, 0.635), abs=1e-6)
     assert ghost.size == pytest.approx((0.035, 0.035, 0.07))
@@ -49,9 +49,9 @@ def test_there_is_a_ghost_of_a_part_that_is_elsewhere_and_of_no_other() -> None:
 
 def test_a_part_whose_place_is_not_known_has_no_ghost() -> None:
     sorting = cell()
-    overlays = Overlays(sorting)
+    annotator = SceneAnnotator(sorting)
     sorting.world.commit([SetProperty(PART_B, BASE_FRAME_ID, "nowhere")], "test", "assumed")
-    assert overlays.sample().ghosts == ()
+    assert annotator.sample().ghosts == ()
 
 
 def test_a_ghost_and_a_name_change_the_picture() -> None:
@@ -60,11 +60,11 @@ def test_a_ghost_and_a_name_change_the_picture() -> None:
     except RenderingError as error:
         pytest.skip(str(error))
     sorting = cell()
-    overlays = Overlays(sorting)
+    annotator = SceneAnnotator(sorting)
     push(sorting, 0.05)
     renderer = Renderer(sorting.model, 160, 120)
     view = (CameraView(np.array([0.5, -0.2, 0.63]), 0.5, 50.0, -30.0),)
-    plain, shown = renderer.picture(sorting.data, view), renderer.picture(sorting.data, view, overlays.sample())
+    plain, shown = renderer.picture(sorting.data, view), renderer.picture(sorting.data, view, annotator.sample())
     renderer.close()
     assert np.any(plain != shown)
 

@@ -14,7 +14,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import RigidBody, read_bodies
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.state.labelled import name_in_words
+from skillc_runtime.world.state.labelled import display_name
 from skillc_runtime.world.state.terms import CONTAINER
 
 ELSEWHERE_M = 0.005
@@ -27,7 +27,7 @@ ABOVE_M = 0.012
 
 
 @dataclass(frozen=True, slots=True)
-class Label:
+class NameTag:
     """A text at a point (3,) in m of the world."""
 
     text: str
@@ -35,15 +35,15 @@ class Label:
 
 
 @dataclass(frozen=True, slots=True)
-class Overlay:
+class Annotations:
     """The ghosts and names of one frame."""
 
     ghosts: tuple[Prop, ...] = ()
-    labels: tuple[Label, ...] = ()
+    tags: tuple[NameTag, ...] = ()
 
 
-class Overlays:
-    """Makes the overlay of each frame: ghosts of the things that a skill can move, names of those and of containers."""
+class SceneAnnotator:
+    """Makes the annotations of each frame: ghosts of what a skill can move, names of that and of containers."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._world, self._truth = simulation.cell.world, simulation.ground_truth
@@ -51,21 +51,21 @@ class Overlays:
         bodies = read_bodies(state)
         self._movable = tuple(each for each in bodies if each.movable)
         self._fixed = tuple(
-            _label(each, each.pose) for each in bodies if not each.movable and state.is_a(each.individual, CONTAINER)
+            _name_tag(each, each.pose) for each in bodies if not each.movable and state.is_a(each.individual, CONTAINER)
         )
 
-    def sample(self) -> Overlay:
-        """Return the overlay of the present instant."""
+    def sample(self) -> Annotations:
+        """Return the annotations of the present instant."""
         state = self._world.snapshot()
-        ghosts, labels = list[Prop](), list(self._fixed)
+        ghosts, tags = list[Prop](), list(self._fixed)
         for body in self._movable:
             really = self._truth.body_pose(body.individual)
-            labels.append(_label(body, really))
+            tags.append(_name_tag(body, really))
             with suppress(FrameError):
                 believed = pose(state, body.individual)
                 if np.linalg.norm(believed.position - really.position) > ELSEWHERE_M:
                     ghosts += _ghost(body, believed)
-        return Overlay(tuple(ghosts), tuple(labels))
+        return Annotations(tuple(ghosts), tuple(tags))
 
 
 def _ghost(body: RigidBody, at: Pose) -> Iterator[Prop]:
@@ -73,6 +73,6 @@ def _ghost(body: RigidBody, at: Pose) -> Iterator[Prop]:
         yield Prop(at @ solid.place, 2.0 * np.array(solid.half), GHOST_RGBA, solid.kind)
 
 
-def _label(body: RigidBody, at: Pose) -> Label:
+def _name_tag(body: RigidBody, at: Pose) -> NameTag:
     above = float(np.abs(at.rotation[2]) @ body.size) / 2 + ABOVE_M
-    return Label(name_in_words(body.individual), at.position + np.array([0.0, 0.0, above]))
+    return NameTag(display_name(body.individual), at.position + np.array([0.0, 0.0, above]))
