@@ -76,14 +76,16 @@ def open_world(
         assert scene is not None
         yield WorldModel(load_world(scene, vocabulary, reporter))
         return
-    store = _open(choice, choice.place, scene)
+    store = open_chosen_store(choice, choice.place, scene)
     try:
-        yield _read_or_fill(store, choice, scene, vocabulary, reporter)
+        state, sequence = read_or_fill(store, choice, scene, vocabulary, reporter)
+        yield WorldModel(state, store, sequence)
     finally:
         store.close()
 
 
-def _open(choice: StoreChoice, place: str, scene: Path | None) -> OpenStore:
+def open_chosen_store(choice: StoreChoice, place: str, scene: Path | None) -> OpenStore:
+    """Open the store at a place; ServiceError if it cannot be opened, or if nothing is there to fill it with."""
     if scene is None and "://" not in place and not Path(place).exists():
         raise ServiceError(f"there is no store {place}; name the scene to fill it with")
     try:
@@ -94,9 +96,13 @@ def _open(choice: StoreChoice, place: str, scene: Path | None) -> OpenStore:
         raise _unusable(choice, error) from error
 
 
-def _read_or_fill(
+def read_or_fill(
     store: OpenStore, choice: StoreChoice, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter
-) -> WorldModel:
+) -> tuple[WorldState, int]:
+    """Return the world in a store and the number of its last write; an empty store is filled with the scene.
+
+    DiagnosticsError or ServiceError if the scene or the store cannot be used.
+    """
     try:
         return _world(store, scene, vocabulary, reporter)
     except StoreError as error:
@@ -109,7 +115,7 @@ def _unusable(choice: StoreChoice, error: OSError) -> ServiceError:
     return ServiceError(f"the store {choice.name} cannot be opened: {error.strerror}")
 
 
-def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter) -> WorldModel:
+def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter) -> tuple[WorldState, int]:
     stored = store.read()
     if not stored.triples:
         if scene is None:
@@ -118,13 +124,13 @@ def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporte
         event = ChangeEvent((), _beginning(scene), WorldState.empty(vocabulary), state)
         if store.append(event, stored.sequence):
             reporter.say(f"{store}: filled with {scene.name}")
-            return WorldModel(state, store, stored.sequence + 1)
+            return state, stored.sequence + 1
         stored = store.read()
     _compare(stored, scene, store, reporter)
     state = build_world(stored.triples, vocabulary, str(store))
     count = format_count(stored.sequence, "transaction")
     reporter.say(f"{store}: the world after {count}, filled with {_name(stored)}")
-    return WorldModel(state, store, stored.sequence)
+    return state, stored.sequence
 
 
 def _compare(stored: StoredWorld, scene: Path | None, store: OpenStore, reporter: Reporter) -> None:

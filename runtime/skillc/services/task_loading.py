@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
 from skillc.services import task_scenes
-from skillc.services.errors import DiagnosticsError, RequestError
+from skillc.services.assignments import assign_call, assign_goal, assign_task
+from skillc.services.errors import RequestError
 from skillc.services.libraries import compile_valid, find_task
 from skillc.services.library_files import LibraryFiles, find_library, find_scene
 from skillc.services.named_goals import make_named_task, named_scene
@@ -19,11 +19,8 @@ from skillc.services.project.project import find_project
 from skillc.services.reporting import Reporter
 from skillc.services.stores import NO_STORE, StoreChoice, open_world
 from skillc.services.task_list import choose_task, default_library, split_reference
-from skillc_compiler.goals.parsing import parse_call, parse_goal
-from skillc_dsl.diagnostics import Outcome
-from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary, Task
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
+from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.world.state.model import WorldModel
 
 
@@ -115,12 +112,7 @@ def _find_scene(task: Task, files: LibraryFiles) -> Path:
 def _load_named(reference: str, request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
     library, task, scene = find_task_in_scene(reference)
     with open_world(request.store, scene, library.vocabulary, reporter) as world:
-        if task.goal is not None:
-            aim: AchieveGoal | ExecuteBody = AchieveGoal(task.goal)
-        else:
-            assert task.body is not None
-            aim = ExecuteBody(task.body)
-        yield LoadedTask(library, Assignment(task.name, world.snapshot(), aim), world, _origin(request, scene))
+        yield LoadedTask(library, assign_task(task, world.snapshot()), world, _origin(request, scene))
 
 
 @contextmanager
@@ -129,26 +121,14 @@ def _load_goal(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]
     scene = find_scene(request.scene) if request.scene else None
     with open_world(request.store, scene, library.vocabulary, reporter) as world:
         state = world.snapshot()
-        individuals = task_scenes.classes_by_individual(state, library.vocabulary)
-        prefixes = state.vocabulary.prefixes
         if request.goal is not None:
-            goal = parse_goal(request.goal, library.vocabulary, individuals, prefixes)
-            aim = AchieveGoal(_valid(goal, request.goal))
-            yield LoadedTask(library, Assignment(request.goal, state, aim), world, _origin(request, scene))
-            return
-        assert request.call is not None
-        call = _valid(parse_call(request.call, library, individuals, prefixes), request.call)
-        assignment = Assignment(call.skill, state, ExecuteBody(call))
+            assignment = assign_goal(request.goal, library, state)
+        else:
+            assert request.call is not None
+            assignment = assign_call(request.call, library, state)
         yield LoadedTask(library, assignment, world, _origin(request, scene))
 
 
 def _origin(request: TaskRequest, scene: Path | None) -> str:
     """Return the file of the scene that a world was read from; empty if it comes from a store."""
     return str(scene) if scene is not None and request.store.place is None else ""
-
-
-def _valid(outcome: Outcome[Any], text: str) -> Any:
-    """Return the value of a parsed text; DiagnosticsError if it has errors."""
-    if outcome.value is None:
-        raise DiagnosticsError(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
-    return outcome.value

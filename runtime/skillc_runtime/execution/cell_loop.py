@@ -27,6 +27,10 @@ MAX_REQUESTS = 1000
 """How many requests may wait for the next tick; stops are not among them."""
 
 
+class NotDurable(Exception):
+    """What has happened cannot be written down; the message says why, and what to do."""
+
+
 class TooManyRequests(Exception):
     """So many requests wait for the next tick that no more are taken."""
 
@@ -53,6 +57,10 @@ class CellLoop:
     `runs` are those that have not ended, in the order of their submission. `ticks` counts the ticks in which anything
     happened: requests and plans are recorded with this number, so that a run can be repeated. `after_tick` are called
     whenever time has passed. `request` and `stop` may be called from other threads and from signal handlers.
+
+    `commit` is called in each tick after the runs were ticked, before time passes: it makes durable what has happened,
+    so that nothing moves because of what a dead process would have forgotten. If it raises NotDurable, `fault` is why,
+    and all runs fail, until somebody sets it back to None; time passes only so that their devices come to rest.
     """
 
     backend: Backend
@@ -60,6 +68,8 @@ class CellLoop:
     start_preparation: StartPreparation
     origin: CellOrigin = field(default_factory=CellOrigin)
     after_tick: Sequence[Callable[[], None]] = ()
+    commit: Callable[[], None] = lambda: None
+    fault: str | None = None
     runs: list[TaskRun] = field(default_factory=list)
     ticks: int = 0
     _claims: DeviceClaims = field(default_factory=DeviceClaims)
@@ -115,6 +125,7 @@ class CellLoop:
         happened = self._take_requests()
         for run in self.runs:
             happened |= run.tick(self.ticks)
+        self._commit()
         if any(run.needs_time for run in self.runs):
             self._advance()
             happened = True
@@ -143,6 +154,16 @@ class CellLoop:
         for request in waiting:
             request.answer(self.ticks)
         return True
+
+    def _commit(self) -> None:
+        """Make durable what has happened; fail all runs if that is not possible."""
+        try:
+            self.commit()
+        except NotDurable as error:
+            self.fault = str(error)
+        if self.fault is not None:
+            for run in self.runs:
+                run.fail(self.fault)
 
     def _advance(self) -> None:
         """Let time pass; an error of the cell fails all runs."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 from contextlib import nullcontext
 from dataclasses import replace
 
-from msgspec import structs
-
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
@@ -42,8 +40,7 @@ class TaskRun:
     """One execution of a task, from its submission to its end; `id` names it in its cell.
 
     It has no loop: `tick` is called once a tick of the cell, and never waits. `attempts` are those that have ended;
-    `failure` is why the run did not succeed, `facts` are those that its success rests on. `reason` says why it is in
-    its state, or for what it waits.
+    `failure` is why it did not succeed, `facts` what its success rests on, `reason` why it is in its state.
     """
 
     def __init__(
@@ -73,7 +70,7 @@ class TaskRun:
 
     @property
     def ended(self) -> bool:
-        """Whether the run has ended."""
+        """Whether it has ended."""
         return self.end is not None
 
     @property
@@ -128,6 +125,10 @@ class TaskRun:
         """Fail because of an error of the cell."""
         if self._attempt is not None:
             self._attempt.tree.abort(error)
+
+    def fail(self, reason: str) -> None:
+        """Halt everything because of an error outside of the run, which fails when its devices are at rest."""
+        self._stop("failed", Failure(kind="error", message=reason))
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for the preparation; to be used if nothing else goes on."""
@@ -248,10 +249,8 @@ class TaskRun:
             self._context.gate.open()
             return self._enter("paused", last.reason)
         match conclusion:
-            case NeedsPlan() if backend.broken is None:
-                return self._prepare()
             case NeedsPlan():
-                return self._finish("failed", last.failure)
+                return self._prepare() if backend.broken is None else self._finish("failed", last.failure)
             case Ended(state, failure):
                 return self._finish(state, failure)
 
@@ -261,7 +260,7 @@ class TaskRun:
         if limit is not None and self._now - self._submitted_at >= limit:
             self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
         elif broken is not None and self._attempt is None:
-            self._stop("failed", Failure(kind="error", message=broken))
+            self.fail(broken)
 
     def _stop(self, state: EndState, failure: Failure) -> None:
         """Halt everything; the run ends when its devices are at rest."""
@@ -270,11 +269,11 @@ class TaskRun:
         self._context.gate.open()
         self._ending = Ending(state, failure)
         self._next.discard()
-        if self._attempt is None:
+        if self._attempt is not None:
+            self._enter("stopping", failure.message)
+            self._attempt.halt(failure.message)
+        else:
             self._finish(state, failure)
-            return
-        self._enter("stopping", failure.message)
-        self._attempt.halt(failure.message)
 
     def _finish(self, state: EndState, failure: Failure | None) -> None:
         world = self._context.backend.cell.world
@@ -282,8 +281,8 @@ class TaskRun:
         self.state = self.end = state
         self.reason, self.failure = describe_failure(failure) if failure else "", failure
         self.facts = collect_facts(self.attempts[-1], world) if state == "succeeded" else ()
-        event = TaskEnded(time=self._now, task=self.assignment.name, status=state, failure=failure)
-        self._emit(structs.replace(event, verified=self.verified, facts=self.facts))
+        now, task, verified = self._now, self.assignment.name, self.verified
+        self._emit(TaskEnded(time=now, task=task, status=state, failure=failure, verified=verified, facts=self.facts))
 
     def _settle_state(self) -> None:
         """Take over how far a pause is."""

@@ -12,6 +12,7 @@ from skillc_runtime.world.state.changes import (
     RemoveIndividual,
     RemoveRelation,
     SetProperty,
+    named_individuals,
 )
 from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.values import Value, are_equal
@@ -30,6 +31,11 @@ def changes_between(before: WorldState, after: WorldState, about: Iterable[str] 
     midway = before.with_changes(changes)
     missing = _asserted_relations(after, individuals) - _asserted_relations(midway, individuals)
     return (*changes, *(AddRelation(*fact) for fact in sorted(missing)), *_property_changes(midway, after, individuals))
+
+
+def changes_back(changes: Iterable[Change], before: WorldState, after: WorldState) -> tuple[Change, ...]:
+    """Return the changes from `after` back to `before`, from which `changes` led."""
+    return changes_between(after, before, {each for change in changes for each in named_individuals(change)})
 
 
 def _individual_changes(before: WorldState, after: WorldState, individuals: Iterable[str]) -> Iterator[Change]:

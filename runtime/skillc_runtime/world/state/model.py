@@ -15,9 +15,8 @@ from skillc_runtime.world.state.changes import (
     RemoveIndividual,
     RemoveRelation,
     SetProperty,
-    named_individuals,
 )
-from skillc_runtime.world.state.difference import changes_between
+from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.evidence import DecidingWrite, Evidence, EvidenceLedger, EvidenceRule
 from skillc_runtime.world.state.facts import Fact
 from skillc_runtime.world.state.open_transaction import OpenTransaction
@@ -115,8 +114,7 @@ class WorldModel:
             if not self._past:
                 raise WorldError("there is nothing to undo: nothing was written here since others wrote")
             last = self._past[-1]
-            named = {individual for change in last.changes for individual in named_individuals(change)}
-            event = self._check(changes_between(self._state, last.before, named), origin, None)
+            event = self._check(changes_back(last.changes, last.before, self._state), origin, None)
             if not self._store.append(event, self._sequence):
                 raise WorldError("others wrote to the world meanwhile: nothing was undone")
             self._advance(event)

@@ -1,0 +1,116 @@
+"""Writes the journal of a cell: what happens in one tick is one transaction, durable before time passes."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import msgspec
+
+from skillc.cells.journal.schema import describe_error, open_for_writing
+from skillc_runtime.execution.cell_loop import NotDurable
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.store.change_json import encode_changes
+from skillc_runtime.world.state.difference import changes_back
+from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction, TransactionLog
+
+_INSERT_OPERATION = "INSERT INTO operations (id, submitted_ns, request) VALUES (?, ?, ?)"
+_INSERT_EVENT = "INSERT INTO events (operation, sequence, envelope) VALUES (?, ?, ?)"
+_INSERT_TRANSACTION = "INSERT INTO transactions (sequence, origin, evidence, changes, undo) VALUES (?, ?, ?, ?, ?)"
+
+
+@dataclass(slots=True)
+class _Pending:
+    """What has happened since the last commit."""
+
+    operations: list[tuple[str, int, bytes]] = field(default_factory=list)
+    events: list[tuple[str, int, bytes]] = field(default_factory=list)
+    writes: list[tuple[int, ChangeEvent]] = field(default_factory=list)
+
+    def __bool__(self) -> bool:
+        return bool(self.operations or self.events or self.writes)
+
+
+class CellJournal:
+    """The journal of a cell, to which only its process writes; it is a log of its world, in front of the store.
+
+    Events and writes to the world are collected until `commit` makes them durable together. The store of the world
+    gets the writes after that, each with its number in one atomic update; `catch_up` gives it those that it missed.
+    """
+
+    def __init__(self, path: Path, store: TransactionLog) -> None:
+        """Open or create a journal; JournalError if that is not possible."""
+        self.path, self._store = path, store
+        self._connection = open_for_writing(path)
+        self._encoder = msgspec.json.Encoder()
+        self._pending = _Pending()
+
+    def __str__(self) -> str:
+        return str(self.path)
+
+    def close(self) -> None:
+        """Close the file; what was not committed is lost."""
+        self._connection.close()
+
+    def add_operation(self, operation: str, request: msgspec.Struct) -> None:
+        """Record that an operation was submitted."""
+        self._pending.operations.append((operation, time.time_ns(), self._encoder.encode(request)))
+
+    def record(self, envelope: Envelope) -> None:
+        """Record an event; a recorder for the publisher of a run."""
+        self._pending.events.append((envelope.run, envelope.sequence, self._encoder.encode(envelope)))
+
+    def append(self, event: ChangeEvent, after: int) -> bool:
+        """Record a write to the world as the transaction after number `after`; nobody else writes."""
+        self._pending.writes.append((after + 1, event))
+        return True
+
+    def since(self, sequence: int) -> tuple[Transaction, ...]:
+        """Return no transactions: nobody else writes."""
+        return ()
+
+    def commit(self) -> None:
+        """Make all that was recorded durable, then give the writes to the store.
+
+        NotDurable if it cannot be written; everything is kept then, for the next commit. NotDurable if the store cannot
+        be written; `catch_up` makes up for that when the cell is started again.
+        """
+        pending = self._pending
+        if not pending:
+            return
+        try:
+            self._write(pending)
+        except sqlite3.Error as error:
+            raise NotDurable(str(describe_error(self.path, error))) from error
+        self._pending = _Pending()
+        self._pass_on(pending.writes)
+
+    def _pass_on(self, writes: list[tuple[int, ChangeEvent]]) -> None:
+        """Give durable writes to the store."""
+        for sequence, event in writes:
+            try:
+                accepted = self._store.append(event, sequence - 1)
+            except StoreError as error:
+                raise NotDurable(str(error)) from error
+            if not accepted:
+                raise NotDurable(f"{self._store} was written to by others; only the cell may write to it")
+
+    def _write(self, pending: _Pending) -> None:
+        rows = [_make_row(sequence, event) for sequence, event in pending.writes]
+        self._connection.execute("BEGIN IMMEDIATE")
+        try:
+            self._connection.executemany(_INSERT_OPERATION, pending.operations)
+            self._connection.executemany(_INSERT_EVENT, pending.events)
+            self._connection.executemany(_INSERT_TRANSACTION, rows)
+            self._connection.execute("COMMIT")
+        except BaseException:
+            if self._connection.in_transaction:
+                self._connection.execute("ROLLBACK")
+            raise
+
+
+def _make_row(sequence: int, event: ChangeEvent) -> tuple[int, str, str | None, str, str]:
+    undo = changes_back(event.changes, event.before, event.after)
+    return sequence, event.origin, event.evidence, encode_changes(event.changes), encode_changes(undo)

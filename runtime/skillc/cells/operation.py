@@ -1,0 +1,49 @@
+"""Operations of a cell as data: what is requested, and how far it is."""
+
+from __future__ import annotations
+
+import msgspec
+
+from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.states import State
+
+
+class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
+    """What is to be done: a `task` of the cell's library, a `goal` as a condition or as PDDL, or a `call` of a skill.
+
+    Operations wait in the order of their `priority`, the greatest first, then of their submission. `approve`: each plan
+    waits for approval. `ask_after_failure`: a failed step waits for a decision instead of another plan. The operation
+    fails if it has not ended `deadline_s` of the cell's time after its submission. It pauses before its first call
+    with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
+    """
+
+    task: str | None = None
+    goal: str | None = None
+    call: str | None = None
+    owner: str = ""
+    priority: int = 0
+    approve: bool = False
+    ask_after_failure: bool = False
+    deadline_s: float | None = None
+    step: bool = False
+    breakpoints: tuple[str, ...] = ()
+
+
+class Operation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """An operation as it is now: `reason` says why it is in its state, or for what it waits.
+
+    `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
+    whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
+    it runs. Times are in s of the cell's clock.
+    """
+
+    id: str
+    cell: str
+    request: OperationRequest
+    state: State
+    reason: str = ""
+    allowed: tuple[str, ...] = ()
+    events: int = 0
+    verified: bool | None = None
+    failure: Failure | None = None
+    library_hash: str = ""

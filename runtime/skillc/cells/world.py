@@ -1,0 +1,56 @@
+"""The world of a cell, in a store behind the journal of the cell, as its last process left it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from skillc.cells.journal.journal import CellJournal
+from skillc.cells.journal.reading import JournalledWrite, JournalReader
+from skillc.cells.journal.schema import JournalError
+from skillc_runtime.world.state.evidence import MAX_WRITES, EvidenceLedger
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent, TransactionLog
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def restore_world(
+    store: TransactionLog, state: WorldState, sequence: int, journal: CellJournal, reader: JournalReader
+) -> WorldModel:
+    """Return the world that a store and a journal keep, with the evidence for its facts.
+
+    The store is in `state` after the write `sequence`; it gets the writes that it missed. JournalError if store and
+    journal do not belong together, StoreError if the store cannot be written.
+    """
+    writes = reader.writes(after=min(sequence, reader.last_write) - MAX_WRITES)
+    missed = [each for each in writes if each.transaction.sequence > sequence]
+    state, sequence = _catch_up(store, state, sequence, missed)
+    world = WorldModel(state, journal, sequence)
+    _restore_evidence(world.ledger, state, writes)
+    return world
+
+
+def _catch_up(
+    store: TransactionLog, state: WorldState, sequence: int, missing: Sequence[JournalledWrite]
+) -> tuple[WorldState, int]:
+    """Give a store, which is in `state` after the write `sequence`, the writes after it; return the same."""
+    for transaction in (each.transaction for each in missing):
+        if transaction.sequence != sequence + 1:
+            raise JournalError(
+                f"{store} ends with the write {sequence}, but the journal of its cell continues with "
+                f"{transaction.sequence}; restore both from the same backup"
+            )
+        after = state.with_changes(transaction.changes)
+        if not store.append(ChangeEvent(transaction.changes, transaction.origin, state, after, None), sequence):
+            raise JournalError(f"{store} was written to by others; only its cell may write to it")
+        state, sequence = after, transaction.sequence
+    return state, sequence
+
+
+def _restore_evidence(ledger: EvidenceLedger, state: WorldState, writes: Sequence[JournalledWrite]) -> None:
+    """Add the writes that led to `state` to a ledger, each with the versions before and after it."""
+    versions = [state]
+    for write in reversed(writes):
+        versions.append(versions[-1].with_changes(write.undo))
+    for write, before, after in zip(writes, versions[:0:-1], versions[-2::-1], strict=True):
+        transaction = write.transaction
+        ledger.add(transaction.changes, before, after, write.evidence, transaction.origin)

@@ -1,0 +1,44 @@
+"""Makes what a cell carries out, from a task, a goal or a call, with a compiled library and the present world."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from skillc.services.errors import DiagnosticsError, RequestError
+from skillc.services.task_scenes import classes_by_individual
+from skillc_compiler.goals.parsing import parse_call, parse_goal
+from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.source import Source
+from skillc_model.skills import SkillLibrary, Task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def assign_task(task: Task, state: WorldState) -> Assignment:
+    """Return the assignment of a task; RequestError for one without a goal and without a body."""
+    if task.goal is not None:
+        return Assignment(task.name, state, AchieveGoal(task.goal))
+    if task.body is None:
+        raise RequestError(f"the task `{task.name}` has neither a goal nor a body")
+    return Assignment(task.name, state, ExecuteBody(task.body))
+
+
+def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
+    """Return the assignment of a goal, as a condition or as PDDL; DiagnosticsError if the text has errors."""
+    individuals = classes_by_individual(state, library.vocabulary)
+    goal = _valid(parse_goal(text, library.vocabulary, individuals, state.vocabulary.prefixes), text)
+    return Assignment(text, state, AchieveGoal(goal))
+
+
+def assign_call(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
+    """Return the assignment of a skill call such as `Wipe(surface: lab:Board)`; DiagnosticsError for errors in it."""
+    individuals = classes_by_individual(state, library.vocabulary)
+    call = _valid(parse_call(text, library, individuals, state.vocabulary.prefixes), text)
+    return Assignment(call.skill, state, ExecuteBody(call))
+
+
+def _valid(outcome: Outcome[Any], text: str) -> Any:
+    """Return the value of a parsed text; DiagnosticsError if it has errors."""
+    if outcome.value is None:
+        raise DiagnosticsError(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
+    return outcome.value

@@ -1,0 +1,159 @@
+"""The journal of a cell keeps what was committed, and the world and its evidence are those of its last process."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager, suppress
+from itertools import product
+from pathlib import Path
+from random import Random
+from typing import TypeVar
+
+import pytest
+
+from skillc.cells.journal.journal import CellJournal
+from skillc.cells.journal.reading import JournalReader
+from skillc.cells.journal.schema import FORMAT, JournalError
+from skillc.cells.world import restore_world
+from skillc_runtime.execution.cell_loop import NotDurable
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.events import Note
+from skillc_runtime.store.disk import DiskStore
+from skillc_runtime.world.state.evidence import Evidence, describe_evidence
+from skillc_runtime.world.state.facts import Fact, PropertyFact, RelationFact
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent, NullStore, StoreError
+from store.worlds import PLACES, THINGS, facts_of, model_of, random_write
+from world.lab import iri
+
+EVIDENCE: tuple[Evidence | None, ...] = ("sensed", "reported", "assumed", None)
+
+
+def note(number: int) -> Envelope:
+    return Envelope(run="op", sequence=number, wall_time_ns=number, event=Note(time=0.0, message=f"note {number}"))
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[JournalReader]:
+    with closing(JournalReader(path)) as reader:
+        yield reader
+
+
+def test_only_what_is_committed_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    with closing(CellJournal(path, NullStore())) as journal:
+        journal.add_operation("op", Note(time=0.0, message="the request"))
+        for number in (1, 2, 3):
+            journal.record(note(number))
+        journal.commit()
+        journal.record(note(4))
+        with reading(path) as reader:
+            assert reader.envelopes("op", after=1, limit=1) == (note(2),)
+            assert reader.last_sequence("op") == 3 and reader.last_sequence("other") == 0
+    with reading(path) as reader:
+        assert [each.id for each in reader.operations()] == ["op"]
+        assert reader.envelopes("op") == (note(1), note(2), note(3))
+
+
+class BrokenStore(DiskStore):
+    """A store on a disk that fails when it is told to."""
+
+    fails = False
+
+    def append(self, event: ChangeEvent, after: int) -> bool:
+        if self.fails:
+            raise StoreError("the disk is gone")
+        return super().append(event, after)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_store_that_missed_a_write_gets_it(tmp_path: Path, seed: int) -> None:
+    chance = Random(seed)
+    with opened(tmp_path, BrokenStore) as (world, journal, store):
+        for _ in range(chance.randint(0, 19)):
+            write(world, chance)
+            journal.commit()
+        store.fails = True
+        write(world, chance)
+        with pytest.raises(NotDurable, match="the disk is gone"):
+            journal.commit()
+    with opened(tmp_path, DiskStore) as (again, _, kept):
+        assert facts_of(again.snapshot()) == facts_of(world.snapshot()) == facts_of(model_of(kept).snapshot())
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_evidence_for_each_fact_survives(tmp_path: Path, seed: int) -> None:
+    chance = Random(seed)
+    with opened(tmp_path, DiskStore) as (world, journal, _):
+        for _ in range(30):
+            write(world, chance)
+        journal.commit()
+        before = evidence(world)
+    with opened(tmp_path, DiskStore) as (again, _, _):
+        assert evidence(again) == before
+    assert len(set(before.values())) >= 3
+
+
+def test_a_world_that_is_older_than_the_journal_is_refused(tmp_path: Path) -> None:
+    chance = Random(1)
+    with opened(tmp_path, DiskStore) as (world, journal, _):
+        write(world, chance)
+        journal.commit()
+    with closing(sqlite3.connect(tmp_path / "journal.sqlite")) as connection, connection:
+        connection.execute("UPDATE transactions SET sequence = sequence + 5")
+    with pytest.raises(JournalError, match="restore both from the same backup"), opened(tmp_path, DiskStore):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("PRAGMA user_version = 99", f"format 99 of a newer skillc; this one reads up to {FORMAT}"),
+        ("CREATE TABLE recipes (name TEXT)", "is a database of something else"),
+    ],
+)
+def test_what_is_no_journal_is_refused(tmp_path: Path, content: str, message: str) -> None:
+    path = tmp_path / "journal.sqlite"
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute(content)
+    with pytest.raises(JournalError, match=message):
+        CellJournal(path, NullStore())
+
+
+def test_a_damaged_file_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    path.write_bytes(b"SQLite format 3\0" + bytes(range(256)) * 40)
+    with pytest.raises(JournalError, match=r"journal.sqlite is damaged .*; restore a backup"):
+        CellJournal(path, NullStore())
+
+
+StoreT = TypeVar("StoreT", bound=DiskStore)
+
+
+@contextmanager
+def opened(folder: Path, kind: type[StoreT]) -> Iterator[tuple[WorldModel, CellJournal, StoreT]]:
+    """Open a store with the laboratory, and the journal in front of it, as a cell does."""
+    with closing(kind(folder / "world")) as store:
+        stored = model_of(store).snapshot()
+        sequence = store.read().sequence
+        with closing(CellJournal(folder / "journal.sqlite", store)) as journal, reading(journal.path) as reader:
+            yield restore_world(store, stored, sequence, journal, reader), journal, store
+
+
+def write(world: WorldModel, chance: Random) -> None:
+    """Make one random write that the axioms allow."""
+    while True:
+        with suppress(WorldError):
+            world.commit(random_write(chance), "random", chance.choice(EVIDENCE))
+            return
+
+
+def evidence(world: WorldModel) -> dict[Fact, str]:
+    """Return how every fact is known that could be one."""
+    state = world.snapshot()
+    names = sorted(map(iri, (*PLACES, *THINGS)))
+    facts: list[Fact] = [PropertyFact(iri("box"), iri(each)) for each in ("weight", "label")]
+    for relation, subject, object_ in product(("at", "contain", "within-it", "near", "beside"), names, names):
+        facts.append(RelationFact(subject, iri(relation), object_, state.holds(subject, iri(relation), object_)))
+    return {each: describe_evidence(world.deciding_write(each)) for each in facts}
