@@ -54,7 +54,7 @@ def test_fingers_stop_at_what_they_touch_on_both_sides_and_pass_through_nothing(
     assert gripper.opening_m == 0.0
     assert not gripper.touches(ERASER)
     with pytest.raises(RuntimeError, match="nothing keeps the fingers of lab:Robotiq-1 from closing"):
-        gripper.attach(ERASER, Pose(np.zeros(3), np.eye(3)))
+        gripper.attach(ERASER, Pose(np.zeros(3), np.eye(3)), 0.1)
     reach_for_eraser(there, "iiwa_table")
     assert gripper.opening_m == pytest.approx(0.025, abs=3e-4)
     assert not gripper.moving

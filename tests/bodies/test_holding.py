@@ -72,10 +72,10 @@ def test_what_has_no_size_cannot_be_held_and_says_why() -> None:
     with pytest.raises(KeyError):
         cell.ground_truth.body_pose(THING)
     with pytest.raises(RuntimeError, match="nothing keeps the fingers"):
-        gripper.attach(THING, IN_HAND)
+        gripper.attach(THING, IN_HAND, 0.1)
 
 
 def test_fingers_that_hold_something_else_do_not_count_what_has_no_body_as_held() -> None:
     cell = closed_on("box")
     with pytest.raises(RuntimeError, match="cannot be held: it had no body when the cell was built"):
-        cell.gripper(HAND).attach(lab("Nothing"), IN_HAND)
+        cell.gripper(HAND).attach(lab("Nothing"), IN_HAND, 0.1)

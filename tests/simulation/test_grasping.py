@@ -193,7 +193,7 @@ def test_nothing_is_grasped_where_no_eraser_is(scene: str) -> None:
     with pytest.raises(SkillFailure, match=r": nothing keeps its fingers from closing, they stand [01] mm open"):
         grasp(there, scene)
     with pytest.raises(RuntimeError):
-        there.gripper(GRIPPER[scene]).attach(ERASER, pose(there.world.snapshot(), ERASER))
+        there.gripper(GRIPPER[scene]).attach(ERASER, pose(there.world.snapshot(), ERASER), 0.1)
     assert there.gripper(GRIPPER[scene]).holding is None
 
 

@@ -54,6 +54,20 @@ def test_a_thing_too_heavy_for_the_grip_slips_and_the_motion_fails(scene: str) -
     assert np.linalg.norm(pose(after, ERASER).position[2] - before) < 0.06, "where it was lost, as far as is known"
 
 
+@pytest.mark.parametrize("scene", HANDS)
+def test_an_arm_bears_the_mass_that_is_known_so_that_far_more_does_not_throw_it(scene: str) -> None:
+    there = at_the_eraser(scene, changes=[SetProperty(ERASER, WEIGHT, 35.0)])
+    there.world.commit([SetProperty(ERASER, WEIGHT, 0.1)])
+    reach_for_eraser(there, scene)
+    grasp(there, scene)
+    before = there.arm(ARM[scene]).measured.pose.position.copy()
+    with pytest.raises(SkillFailure, match=LOST + r"|the tool is \d+ mm"):
+        lift(there, scene)
+    there.advance(1.0)
+    assert there.is_at_rest()
+    assert np.linalg.norm(there.arm(ARM[scene]).measured.pose.position - before) < 0.11, "no farther than it was to go"
+
+
 def test_slippery_fingers_do_not_hold() -> None:
     scene = "iiwa_table"
     there = at_the_eraser(scene, changes=[SetProperty(ERASER, WEIGHT, 0.5)])

@@ -51,10 +51,11 @@ class Gripper(Protocol):
         """Whether something keeps the fingers from closing: at rest, they press with the force that they were given."""
         ...
 
-    def attach(self, thing: str, in_tool_centre: Pose) -> None:
+    def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
         """Count an object as held, its frame at `in_tool_centre` in the frame of the gripper's tool centre point.
 
-        It counts until `detach`, or until the fingers close by `CLOSED_FURTHER_M`.
+        Its mass, as far as it is known, is the arm's payload. It counts until `detach`, or until the fingers close by
+        `CLOSED_FURTHER_M`.
 
         Raises RuntimeError if the fingers are not blocked.
         """

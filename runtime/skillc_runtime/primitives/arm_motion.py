@@ -12,6 +12,7 @@ from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import STANDSTILL_S
 from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.terms import HAS_GRIPPER
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver
@@ -41,6 +42,7 @@ class ArmMotion(Primitive):
     def __init__(self, cell: Cell, arm: str) -> None:
         super().__init__(cell)
         self.arm: ArmDriver = cell.arm(arm)
+        self._individual = arm
         self._ended: float | None = None
         self._moved_at = 0.0
 
@@ -59,7 +61,8 @@ class ArmMotion(Primitive):
 
     def tick(self) -> Status:
         """Return SUCCESS when the arm has arrived; SkillFailure for a fault, or if it does not arrive in time."""
-        raise_fault(self.arm)
+        if (fault := self.arm.take_fault()) is not None:
+            raise SkillFailure(fault + self._describe_held())
         if not self.arm.motion.done:
             self._check_progress()
             return Status.RUNNING
@@ -68,8 +71,16 @@ class ArmMotion(Primitive):
             return Status.SUCCESS
         self._ended = self.cell.now if self._ended is None else self._ended
         if self.cell.now - self._ended > MAX_SETTLING_S:
-            raise SkillFailure(error)
+            raise SkillFailure(error + self._describe_held())
         return Status.RUNNING
+
+    def _describe_held(self) -> str:
+        """Return what the arm's grippers hold, as the end of a sentence; empty for nothing."""
+        state = self.cell.world.snapshot()
+        grippers = {each: self.cell.gripper(each) for each in sorted(state.objects(self._individual, HAS_GRIPPER))}
+        held = {hand: gripper.holding for hand, gripper in grippers.items() if gripper.holding is not None}
+        short = state.vocabulary.short
+        return "".join(f", while {short(hand)} holds {short(thing)}" for hand, thing in held.items())
 
     def _check_progress(self) -> None:
         """Raise SkillFailure if the motion has not ended and stands still for too long."""

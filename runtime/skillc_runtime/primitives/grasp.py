@@ -13,6 +13,7 @@ from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import width_between
+from skillc_runtime.world.space.grip_force import mass_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
@@ -56,7 +57,7 @@ class Grasp(Primitive):
         self._frame = frame_name(state, self._gripper)
         self._in_hand = self._at.inverse() @ pose(state, self._object)
         try:
-            gripper.attach(self._object, self._in_hand)
+            gripper.attach(self._object, self._in_hand, mass_of(state, self._object))
         except RuntimeError as error:
             raise SkillFailure(str(error)) from error
 

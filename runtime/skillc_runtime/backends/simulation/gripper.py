@@ -127,10 +127,11 @@ class ModelledGripper(ABC):
         normals, _ = self._contacts_with(thing)
         return any(one @ other < OPPOSING for one in normals for other in normals)
 
-    def attach(self, thing: str, in_tool_centre: Pose) -> None:
+    def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
         """Count an object as held; it becomes the arm's payload and tool centre point, at `in_tool_centre`.
 
-        What really is between the fingers, if anything is, moves with the palm from now on, at its true pose.
+        The arm carries the mass that it is told, not that of the body, which nobody has weighed. What really is between
+        the fingers, if anything is, moves with the palm from now on, at its true pose.
         RuntimeError if the fingers are not blocked, or the cell has no body of the object.
         """
         if not self.blocked:
@@ -145,7 +146,7 @@ class ModelledGripper(ABC):
         self._carry(next((each for each in (thing, *self._things) if self.touches(each)), ""))
         block = self._model.body(part_name(self._names[thing], "block")).id
         centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
-        payload = Payload(held.mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
+        payload = Payload(mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
         self._arm.carry(payload, in_tool_centre @ working_face(held.size))
 
     def detach(self) -> None:

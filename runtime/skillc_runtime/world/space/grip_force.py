@@ -38,7 +38,7 @@ def check_weight(state: WorldState, gripper: str, thing: str) -> None:
     force_n = min(number_of(state, thing, GRASP_FORCE, default=strongest), strongest)
     if force_n >= _needed_force_n(state, thing):
         return
-    mass_kg, friction, short = _mass_kg(state, thing), _friction(state, thing), state.vocabulary.short
+    mass_kg, friction, short = mass_of(state, thing), _friction(state, thing), state.vocabulary.short
     held_kg = 2 * friction * force_n / (GRAVITY_M_S2 + ACCELERATION_M_S2)
     raise GraspError(
         f"{short(thing)} weighs {mass_kg:.3g} kg, and with {force_n:g} N and a friction of {friction:g} "
@@ -50,11 +50,12 @@ def check_weight(state: WorldState, gripper: str, thing: str) -> None:
 
 def _needed_force_n(state: WorldState, thing: str) -> float:
     """Return the least force in N of a finger that carries a thing: F = m (g + a) / (2 mu)."""
-    load_n = _mass_kg(state, thing) * (GRAVITY_M_S2 + ACCELERATION_M_S2)
+    load_n = mass_of(state, thing) * (GRAVITY_M_S2 + ACCELERATION_M_S2)
     return load_n / max(2 * _friction(state, thing), 1e-6)
 
 
-def _mass_kg(state: WorldState, thing: str) -> float:
+def mass_of(state: WorldState, thing: str) -> float:
+    """Return the mass of a thing in kg, as far as the world model knows."""
     body = read_body(state, thing)
     return number_of(state, thing, WEIGHT, default=0.0) if body is None else body.mass_kg
 
