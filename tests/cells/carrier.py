@@ -29,7 +29,7 @@ def main(folder: Path, operation: str, limit: int | None) -> None:
             if not host.tick():
                 host.loop.wait(TICK_S)
             time.sleep(TICK_S / 4)
-        ended = host.find(operation)
+        (ended,) = host.take_changed()
         print(ended.state, ended.failure.message if ended.failure else "", flush=True)
 
 

@@ -11,7 +11,7 @@ import msgspec
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import Operation, OperationRequest
+from skillc.cells.operation import CellStatus, Operation, OperationRequest
 from skillc.cells.world import restore_world
 from skillc.services.assignments import assign_call, assign_goal, assign_task
 from skillc.services.backends import BackendName, make_backend
@@ -24,7 +24,7 @@ from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import CellOrigin
-from skillc_runtime.execution.cell_loop import CellLoop, NotDurable
+from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.task_run import TaskRun
@@ -67,15 +67,39 @@ class CellHost:
         self.loop = CellLoop(self._backend, library, self._plan, origin, commit=journal.commit)
         self._operations: dict[str, _Submitted] = {}
 
-    @property
-    def operations(self) -> tuple[Operation, ...]:
-        """All operations since the cell was started, in the order of their submission."""
-        return tuple(each.describe(self.settings.name) for each in self._operations.values())
+    def describe(self, pace: float | None) -> CellStatus:
+        """Return the cell as it is now; `pace` is what its ticks are limited to."""
+        reason = self.loop.fault or self._backend.broken or ""
+        settings = self.settings
+        return CellStatus(
+            name=settings.name,
+            scene=settings.scene,
+            library=self.library.name,
+            library_hash=self.library.hash,
+            backend=settings.backend,
+            state="fault" if reason else "operational",
+            reason=reason,
+            pace=pace,
+        )
+
+    def acknowledge(self) -> None:
+        """Take operations again after a fault whose cause is removed. RequestError if there is none, or it persists."""
+        if self._backend.broken is not None:
+            raise RequestError(f"{self._backend.broken}; start the cell again")
+        if self.loop.fault is None:
+            raise RequestError(f"{self.settings.name} has no fault")
+        try:
+            self._journal.commit()
+        except NotDurable as error:
+            raise RequestError(str(error)) from error
+        self.loop.fault = None
 
     def submit(self, operation: str, request: OperationRequest) -> None:
         """Take an operation, with an id that no other has. RequestError or DiagnosticsError if it cannot be one."""
-        if operation in self._operations:
+        if operation in self._operations or self._journal.has_operation(operation):
             raise RequestError(f"there is already an operation {operation}")
+        if (fault := self.loop.fault or self._backend.broken) is not None:
+            raise RequestError(f"{self.settings.name} takes no operations: {fault}")
         assignment = self._assign(request)
         gate = Gate(parse_breakpoints(request.breakpoints, self.library))
         if request.step:
@@ -86,13 +110,30 @@ class CellHost:
         run = self.loop.submit(assignment, (publisher,), settings, gate, operation)
         self._operations[operation] = _Submitted(request, run, publisher, self.library.hash)
 
-    def find(self, operation: str) -> Operation:
-        """Return an operation as it is now; RequestError if there is none of this id."""
-        return self._find(operation).describe(self.settings.name)
+    def request(self, operation: str, command: Command) -> Request:
+        """Give a command to an operation in the next tick; RequestError if it is not one that goes on."""
+        if operation not in self._operations:
+            raise RequestError(f"no operation {operation} goes on in {self.settings.name}")
+        return self.loop.request(self._operations[operation].run, command)
 
-    def request(self, operation: str, command: Command) -> None:
-        """Give a command to an operation in the next tick; RequestError if there is no such operation."""
-        self.loop.request(self._find(operation).run, command)
+    def stop(self, operation: str | None, reason: str) -> None:
+        """Stop an operation in the next tick, or all; may be called from other threads. It may have ended before."""
+        if operation is None:
+            self.loop.stop(reason)
+        elif (submitted := self._operations.get(operation)) is not None:
+            self.loop.stop(reason, submitted.run)
+
+    def take_changed(self) -> tuple[Operation, ...]:
+        """Return the operations that have changed since this was called last; those that have ended are forgotten."""
+        changed = []
+        for submitted in tuple(self._operations.values()):
+            operation = submitted.describe(self.settings.name)
+            if operation != submitted.reported:
+                submitted.reported = operation
+                changed.append(operation)
+            if submitted.run.ended:
+                del self._operations[operation.id]
+        return tuple(changed)
 
     def tick(self) -> bool:
         """Do one tick; return whether anything happened."""
@@ -104,11 +145,6 @@ class CellHost:
         with suppress(NotDurable):
             self._journal.commit()
         self._backend.close()
-
-    def _find(self, operation: str) -> _Submitted:
-        if operation not in self._operations:
-            raise RequestError(f"there is no operation {operation} in {self.settings.name}")
-        return self._operations[operation]
 
     def _assign(self, request: OperationRequest) -> Assignment:
         state = self.world.snapshot()
@@ -131,6 +167,7 @@ class _Submitted:
 
     def __init__(self, request: OperationRequest, run: TaskRun, publisher: Publisher, library_hash: str) -> None:
         self.request, self.run, self.publisher, self.library_hash = request, run, publisher, library_hash
+        self.reported: Operation | None = None
 
     def describe(self, cell: str) -> Operation:
         run = self.run

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal, TypeAlias
+
 import msgspec
 
 from skillc_runtime.recording.failure import Failure
@@ -47,3 +49,23 @@ class Operation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     verified: bool | None = None
     failure: Failure | None = None
     library_hash: str = ""
+
+
+CellState: TypeAlias = Literal["operational", "fault"]
+"""`operational`: it takes operations. `fault`: it does not, until its cause is removed and that is acknowledged."""
+
+
+class CellStatus(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """A cell as it is now; `reason` is why it is in its state.
+
+    `library_hash` identifies the library that its next operation runs. `pace` is None for as fast as it computes.
+    """
+
+    name: str
+    scene: str
+    library: str
+    library_hash: str
+    backend: str
+    state: CellState = "operational"
+    reason: str = ""
+    pace: float | None = None

@@ -133,6 +133,16 @@ class CellLoop:
         self.ticks += happened
         return happened
 
+    def obey(self) -> None:
+        """Take requests and stops while no tick is due: they take effect now, and no time passes."""
+        self._take_requests()
+        self._commit()
+
+    def interrupt(self, reason: str) -> None:
+        """Halt all runs because nobody operates the cell any more; they end as interrupted."""
+        for run in self.runs:
+            run.interrupt(reason)
+
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for a plan; to be called after a tick in which nothing happened."""
         waiting = next((run for run in self.runs if run.state == "planning"), None)

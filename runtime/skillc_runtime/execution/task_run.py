@@ -130,6 +130,10 @@ class TaskRun:
         """Halt everything because of an error outside of the run, which fails when its devices are at rest."""
         self._stop("failed", Failure(kind="error", message=reason))
 
+    def interrupt(self, reason: str) -> None:
+        """Halt everything because nobody operates the cell; it ends as interrupted when its devices are at rest."""
+        self._stop("interrupted", Failure(kind="interrupted", message=reason))
+
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for the preparation; to be used if nothing else goes on."""
         self._next.wait(seconds)

@@ -54,6 +54,15 @@ class CellJournal:
         """Close the file; what was not committed is lost."""
         self._connection.close()
 
+    def has_operation(self, operation: str) -> bool:
+        """Whether an operation of this id was ever submitted; NotDurable if the journal cannot be read."""
+        if any(each[0] == operation for each in self._pending.operations):
+            return True
+        try:
+            return bool(self._connection.execute("SELECT 1 FROM operations WHERE id = ?", (operation,)).fetchall())
+        except sqlite3.Error as error:
+            raise NotDurable(str(describe_error(self.path, error))) from error
+
     def add_operation(self, operation: str, request: msgspec.Struct) -> None:
         """Record that an operation was submitted."""
         self._pending.operations.append((operation, time.time_ns(), self._encoder.encode(request)))

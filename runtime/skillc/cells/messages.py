@@ -1,0 +1,108 @@
+"""What a cell and whoever operates it tell each other: frames of MessagePack on two sockets.
+
+On the first socket go requests, each with a number, and come reports, among them an answer to each request. On the
+second one go stops, which no number of requests can hold up.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from skillc.cells.operation import CellStatus, Operation, OperationRequest
+from skillc_runtime.recording.commands import Command
+
+
+class _Message(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    pass
+
+
+class Submit(_Message, tag="submit", frozen=True, kw_only=True):
+    """Take an operation with an id that no other has."""
+
+    operation: str
+    request: OperationRequest
+
+
+class Give(_Message, tag="give", frozen=True, kw_only=True):
+    """Give a command to an operation."""
+
+    operation: str
+    command: Command
+
+
+class SetPace(_Message, tag="set-pace", frozen=True, kw_only=True):
+    """Let the cell's time pass at most `factor` times as fast as real time; None for as fast as it computes."""
+
+    factor: float | None
+
+
+class Acknowledge(_Message, tag="acknowledge", frozen=True, kw_only=True):
+    """The cause of a fault is removed: take operations again."""
+
+
+class End(_Message, tag="end", frozen=True, kw_only=True):
+    """Stop everything and end the process."""
+
+    reason: str
+
+
+Message: TypeAlias = Submit | Give | SetPace | Acknowledge | End
+
+
+class Request(msgspec.Struct, frozen=True):
+    """A message whose answer has the same number."""
+
+    number: int
+    message: Message
+
+
+class StopRequest(msgspec.Struct, frozen=True):
+    """Stop an operation, or all if None."""
+
+    reason: str
+    operation: str | None = None
+
+
+class Refused(msgspec.Struct, frozen=True, kw_only=True):
+    """Why nothing was done: the request is `invalid`, names something `unknown`, the state does not `allow` it, or the
+    cell is too `busy`; `allowed` are the commands that the state allows."""
+
+    kind: Literal["invalid", "unknown", "state", "busy"]
+    reason: str
+    allowed: tuple[str, ...] = ()
+
+
+class Answer(_Message, tag="answer", frozen=True, kw_only=True):
+    """The answer to a request: done, and durable, unless it was refused."""
+
+    number: int
+    refused: Refused | None = None
+
+
+class Happened(_Message, tag="happened", frozen=True, kw_only=True):
+    """An operation has new events, up to `operation.events` in the journal, or another state."""
+
+    operation: Operation
+
+
+class Status(_Message, tag="status", frozen=True, kw_only=True):
+    """The cell as a whole, when it is ready and whenever something in this has changed."""
+
+    status: CellStatus
+
+
+class Alive(_Message, tag="alive", frozen=True, kw_only=True):
+    """The loop of the cell has gone round `rounds` times; it stands still if that stays the same."""
+
+    rounds: int
+
+
+class NotStarted(_Message, tag="not-started", frozen=True, kw_only=True):
+    """The cell could not be started; the process ends."""
+
+    reason: str
+
+
+Report: TypeAlias = Answer | Happened | Status | Alive | NotStarted

@@ -1,0 +1,71 @@
+"""The process of a cell: `python -m skillc.cells.process REQUESTS STOPS`, the file descriptors of two sockets.
+
+The first frame on REQUESTS has the settings of the cell. What the process writes to the standard error output is for a
+log.
+"""
+
+from __future__ import annotations
+
+import signal
+import socket
+import sys
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+
+from skillc.cells.frames import FrameReader, send_frame
+from skillc.cells.host import CellSettings, open_cell
+from skillc.cells.journal.schema import JournalError
+from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
+from skillc.cells.messages import NotStarted
+from skillc.cells.service import CellService
+from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Source
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.transactions import StoreError
+
+CLOSE_S = 5.0
+"""How long the last reports may take to be sent, in s."""
+
+
+class _Log:
+    """A reporter that writes to the standard error output."""
+
+    def say(self, message: str) -> None:
+        print(message, file=sys.stderr, flush=True)
+
+    def show(self, diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> None:
+        for each in diagnostics:
+            self.say(f"{each.severity}: {each}")
+
+
+def main(requests: socket.socket, stops: socket.socket) -> int:
+    """Serve a cell until the other end is gone or asks for the end; return the exit code."""
+    settings = FrameReader(requests, CellSettings).read()
+    if settings is None:
+        return 1
+    try:
+        with open_cell(settings, _Log()) as host:
+            outbox = Outbox(requests)
+            listen_for_stops(stops, lambda request: host.stop(request.operation, request.reason))
+            service = CellService(host, Inbox(requests, outbox), outbox)
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                signal.signal(number, lambda received, _: service.end(f"by {signal.Signals(received).name}"))
+            service.run()
+        outbox.close(CLOSE_S)
+    except DiagnosticsError as error:
+        return _refuse(requests, "\n".join(map(str, error.diagnostics)))
+    except (ServiceError, JournalError, StoreError, SheetError, FrameError) as error:
+        return _refuse(requests, str(error))
+    return 0
+
+
+def _refuse(requests: socket.socket, reason: str) -> int:
+    with suppress(OSError):
+        send_frame(requests, NotStarted(reason=reason))
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(socket.socket(fileno=int(sys.argv[1])), socket.socket(fileno=int(sys.argv[2]))))

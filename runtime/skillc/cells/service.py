@@ -1,0 +1,142 @@
+"""Serves a cell: takes requests, ticks the host at its pace, answers once what happened is durable, and reports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from typing import assert_never
+
+from skillc.cells.host import CellHost
+from skillc.cells.mailbox import Inbox, Outbox
+from skillc.cells.messages import Acknowledge, Answer, End, Give, Happened, Refused, SetPace, Status, Submit
+from skillc.cells.messages import Request as CellRequest
+from skillc.cells.operation import CellStatus
+from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc_runtime.execution.cell_loop import Request, TooManyRequests
+from skillc_runtime.execution.pace import FAST, Pace
+
+IDLE_S = 0.2
+"""How long the loop waits for requests while nothing runs, in s of wall time."""
+BUSY_S = 0.02
+"""How long it waits at most while a tick is not due, or while nothing but planning goes on."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Pending:
+    """A request that is answered after the next tick; `command` is what a run has obeyed or refused then."""
+
+    number: int
+    command: Request | None = None
+
+
+class CellService:
+    """The loop of the process of a cell."""
+
+    def __init__(self, host: CellHost, inbox: Inbox, outbox: Outbox) -> None:
+        self._host, self._inbox, self._outbox = host, inbox, outbox
+        self._pace = Pace()
+        self._requested_end = "the server of the cell is gone"
+        self._ending: str | None = None
+        self._pending: list[_Pending] = []
+        self._status: CellStatus | None = None
+
+    def end(self, reason: str) -> None:
+        """Interrupt everything in the next round, and end; may be called from signal handlers."""
+        self._requested_end = reason
+        self._inbox.closed = True
+
+    def run(self) -> None:
+        """Serve until the process is asked to end, or whoever operates the cell is gone, and everything is at rest."""
+        idle = True
+        while self._ending is None or self._host.loop.runs:
+            self._outbox.rounds += 1
+            for request in self._inbox.take(self._find_wait(idle)):
+                self._take(request)
+            if self._inbox.closed and self._ending is None:
+                self._end(self._requested_end)
+            idle = not self._tick()
+            self._answer()
+            self._report()
+
+    def _find_wait(self, idle: bool) -> float:
+        """Return how long to wait for requests before the next round; `idle` if nothing happened in the last one."""
+        if not self._host.loop.runs:
+            return IDLE_S
+        return BUSY_S if idle else min(BUSY_S, self._find_remaining())
+
+    def _find_remaining(self) -> float:
+        """Return for how long the next tick is not due, in s of wall time; a cell that stops does not wait."""
+        runs = self._host.loop.runs
+        if any(run.state == "stopping" for run in runs):
+            return 0.0
+        standing = all(run.state == "paused" for run in runs)
+        return self._pace.remaining_s(self._host.loop.backend.clock.now, standing)
+
+    def _tick(self) -> bool:
+        """Tick if a tick is due, else only take requests; return whether anything goes on."""
+        loop = self._host.loop
+        if loop.runs and self._find_remaining() <= 0.0:
+            return loop.tick()
+        loop.obey()
+        return bool(loop.runs)
+
+    def _take(self, request: CellRequest) -> None:
+        """Do what is requested, as far as that is possible before the next tick."""
+        message, number = request.message, request.number
+        try:
+            match message:
+                case Submit(operation=operation, request=wanted):
+                    self._host.submit(operation, wanted)
+                    self._pending.append(_Pending(number))
+                case Give(operation=operation, command=command):
+                    self._pending.append(_Pending(number, self._host.request(operation, command)))
+                case SetPace(factor=factor):
+                    self._pace.change(FAST if factor is None else factor)
+                    self._pending.append(_Pending(number))
+                case Acknowledge():
+                    self._host.acknowledge()
+                    self._pending.append(_Pending(number))
+                case End(reason=reason):
+                    self._end(reason)
+                    self._pending.append(_Pending(number))
+                case _:
+                    assert_never(message)
+        except (ServiceError, TooManyRequests) as error:
+            self._outbox.send(Answer(number=number, refused=_refuse(error)))
+
+    def _end(self, reason: str) -> None:
+        """Interrupt all operations; the loop ends when everything is at rest."""
+        self._ending = reason
+        self._host.loop.interrupt(reason)
+
+    def _answer(self) -> None:
+        """Answer what was requested before the tick: it is durable now, unless the journal cannot be written."""
+        fault = self._host.loop.fault
+        for each in self._pending:
+            refused = None
+            if fault is not None:
+                refused = Refused(kind="state", reason=fault)
+            elif each.command is not None and each.command.refused is not None:
+                refusal = each.command.refused
+                refused = Refused(kind="state", reason=str(refusal), allowed=refusal.allowed)
+            self._outbox.send(Answer(number=each.number, refused=refused))
+        self._pending.clear()
+
+    def _report(self) -> None:
+        """Report what has changed."""
+        for operation in self._host.take_changed():
+            self._outbox.send(Happened(operation=operation))
+        status = self._host.describe(None if self._pace.factor == inf else self._pace.factor)
+        if status != self._status:
+            self._status = status
+            self._outbox.send(Status(status=status))
+
+
+def _refuse(error: ServiceError | TooManyRequests) -> Refused:
+    match error:
+        case TooManyRequests():
+            return Refused(kind="busy", reason=str(error))
+        case DiagnosticsError(diagnostics=diagnostics):
+            return Refused(kind="invalid", reason="\n".join(map(str, diagnostics)))
+        case _:
+            return Refused(kind="invalid", reason=str(error))

@@ -1,0 +1,138 @@
+"""A cell in a process of its own answers when things are durable, stops at once, and ends safely with its server."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager, closing
+from pathlib import Path
+
+import msgspec
+
+from cells.yard import write_yard
+from skillc.cells.host import CellSettings
+from skillc.cells.journal.reading import JournalReader
+from skillc.cells.messages import End, Give, Happened, NotStarted, Report, SetPace, Status, Submit
+from skillc.cells.operation import Operation, OperationRequest
+from skillc.cells.remote_cell import RemoteCell, start_cell
+from skillc_runtime.recording.commands import Pause, Resume, Stop
+
+CARRY = OperationRequest(task="carry_all")
+
+
+class Server:
+    """What has been reported by a cell."""
+
+    def __init__(self) -> None:
+        self.reports: list[Report] = []
+        self.news = asyncio.Event()
+
+    def __call__(self, report: Report) -> None:
+        self.reports.append(report)
+        self.news.set()
+
+    @property
+    def operations(self) -> dict[str, Operation]:
+        """The operations as they were reported last."""
+        return {each.operation.id: each.operation for each in self.reports if isinstance(each, Happened)}
+
+    async def see(self, kind: type[Report]) -> Report:
+        """Wait for a report of a kind."""
+        while not (found := [each for each in self.reports if isinstance(each, kind)]):
+            await self._hear()
+        return found[-1]
+
+    async def see_state(self, operation: str, state: str) -> Operation:
+        """Wait until an operation is in a state."""
+        while operation not in self.operations or self.operations[operation].state != state:
+            await self._hear()
+        return self.operations[operation]
+
+    async def _hear(self) -> None:
+        self.news.clear()
+        await asyncio.wait_for(self.news.wait(), 30.0)
+
+
+@asynccontextmanager
+async def serving(settings: CellSettings) -> AsyncIterator[tuple[RemoteCell, Server]]:
+    """Start a cell, and end it."""
+    server = Server()
+    with Path(settings.folder).with_name("log").open("w") as log:
+        cell = await start_cell(settings, log, server)
+    try:
+        yield cell, server
+    finally:
+        if not cell.gone.done():
+            await cell.request(End(reason="the test ends"))
+        await asyncio.wait_for(cell.gone, 30.0)
+
+
+def test_an_operation_runs_pauses_and_stops(tmp_path: Path) -> None:
+    async def operate() -> None:
+        async with serving(write_yard(tmp_path)) as (cell, server):
+            await server.see(Status)
+            assert (await cell.request(SetPace(factor=2.0))).refused is None
+            assert (await cell.request(Submit(operation="op", request=CARRY))).refused is None
+            refused = (await cell.request(Give(operation="op", command=Resume()))).refused
+            assert refused is not None and refused.kind == "state" and "stop" in refused.allowed
+            await server.see_state("op", "running")
+            assert (await cell.request(Give(operation="op", command=Pause()))).refused is None
+            await server.see_state("op", "paused")
+            assert (await cell.request(Give(operation="op", command=Resume()))).refused is None
+            cell.stop("enough", "op")
+            ended = await server.see_state("op", "stopped")
+            assert ended.failure is not None and ended.failure.message == "enough"
+            again = (await cell.request(Submit(operation="op", request=CARRY))).refused
+            assert again is not None and "already an operation op" in again.reason
+            assert (await cell.request(Give(operation="op", command=Stop()))).refused is not None
+
+    asyncio.run(operate())
+
+
+def test_what_cannot_be_done_says_why(tmp_path: Path) -> None:
+    requests = {
+        "there is no task `carry_none`": OperationRequest(task="carry_none"),
+        "goal:1:1": OperationRequest(goal="lab:Nowhere contain lab:crate-0"),
+        "exactly one of a task, a goal and a call": OperationRequest(),
+        "there is no skill `Lift`": OperationRequest(task="carry_all", breakpoints=("Lift",)),
+    }
+
+    async def operate() -> None:
+        async with serving(write_yard(tmp_path)) as (cell, server):
+            for number, (message, request) in enumerate(requests.items()):
+                refused = (await cell.request(Submit(operation=f"op-{number}", request=request))).refused
+                assert refused is not None and message in refused.reason, refused
+            assert server.operations == {}
+
+    asyncio.run(operate())
+
+
+def test_a_cell_without_its_server_comes_to_rest_and_says_so(tmp_path: Path) -> None:
+    settings = write_yard(tmp_path)
+
+    async def abandon() -> None:
+        async with serving(settings) as (cell, server):
+            await cell.request(SetPace(factor=1.0))
+            await cell.request(Submit(operation="op", request=CARRY))
+            await server.see_state("op", "running")
+            cell.abandon()
+            assert await asyncio.wait_for(cell.gone, 30.0) == 0
+
+    asyncio.run(abandon())
+    with closing(JournalReader(Path(settings.folder, "journal.sqlite"))) as reader:
+        last = reader.envelopes("op", reader.last_sequence("op") - 1)[0].event
+    assert (last.status, last.failure.message) == ("interrupted", "the server of the cell is gone")
+
+
+def test_a_scene_that_does_not_exist_is_reported(tmp_path: Path) -> None:
+    settings = msgspec.structs.replace(write_yard(tmp_path), scene="nowhere.ttl")
+
+    async def operate() -> None:
+        server = Server()
+        with (tmp_path / "log").open("w") as log:
+            cell = await start_cell(settings, log, server)
+        assert await asyncio.wait_for(cell.gone, 30.0) == 1
+        report = await server.see(NotStarted)
+        assert "there is no file nowhere.ttl" in report.reason
+
+    asyncio.run(operate())
