@@ -59,8 +59,8 @@ def test_help_lists_every_command() -> None:
 def test_an_unknown_command_is_named_with_those_that_exist() -> None:
     result = run("complie")
     assert result.exit_code == 2
-    assert "there is no command 'complie'" in result.stderr
-    assert "did you mean 'compile'?" in result.stderr
+    assert "there is no command `complie`" in result.stderr
+    assert "did you mean `compile`?" in result.stderr
 
 
 def test_check_of_a_sound_library_says_so_and_exits_0(library: Path) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from skillc_runtime.evaluation.measures.work import (
     InsertingWork,
+    PlacingWork,
     PolishingWork,
     PressingWork,
     TeachingWork,
@@ -57,6 +58,7 @@ GOOD: dict[str, Work] = {
     "teaching": TeachingWork(
         pose="lab:TeachingWork-1", position_error_m=0.001, greatest_n=18.0, mean_n=5.0, duration_share=0.4
     ),
+    "placing": PlacingWork(thing="lab:Part-1", error_m=0.002, turned_deg=1.0, missed_m=0.003),
 }
 """A piece of work of each kind that meets all targets."""
 

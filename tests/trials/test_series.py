@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import io
 import re
 from typing import get_args
 
 import pytest
 from msgspec.structs import replace
-from rich.console import Console
 
-from skillc_runtime.evaluation.trials import page, table
+from skillc.cli.layout import Page
+from skillc.cli.trials_output import format_series
+from skillc_runtime.evaluation.trials import page
 from skillc_runtime.evaluation.trials.series import judge_series
-from skillc_runtime.evaluation.trials.targets import METRICS
+from skillc_runtime.evaluation.trials.targets import METRICS, RUNNING
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 from trials.runners import GOOD, good, wiped, wiping
@@ -51,6 +51,7 @@ OTHERS: dict[str, list[tuple[dict[str, float], str]]] = {
         ({"mean_n": 11.0}, "mean force of the person 11 N, wanted at most 10 N"),
         ({"duration_share": 1.1}, "time 110 % of the skill's, wanted at most 100 % of the skill's"),
     ],
+    "placing": [],
 }
 
 
@@ -140,19 +141,17 @@ def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> N
 
 
 def shown(disturbance: Disturbance, *trials: Trial) -> str:
-    console = Console(width=200)
-    with console.capture() as capture:
-        console.print(table.render_table(judge_series("clean", disturbance, len(trials), trials)))
-    return capture.get()
+    return format_series(judge_series("clean", disturbance, len(trials), trials), Page(200), is_unicode=True)
 
 
 def test_the_table_has_every_metric_and_every_failed_seed() -> None:
     text = shown("none", good(1), good(2, wiping(tilt_rms_deg=0.75, lane_dwell_s=0.01)))
     assert "1 of 2 trials passed" in text
     for metric in METRICS["wiping"]:
-        assert re.search(rf"^{re.escape(metric.name)} .*{re.escape(metric.target_text)} ", text, re.MULTILINE)
+        wanted = "" if metric.target is None else f".*{metric.sense} {metric.target:g}  +\\d of \\d"
+        assert re.search(rf"^{re.escape(f'{metric.name}, {metric.unit}')} {wanted}", text, re.MULTILINE)
     assert "seed 2: tilt 0.75 deg rms, wanted at most 0.5 deg rms\n  reality 2" in text
-    assert "metric" not in shown("missing", FAILURE)
+    assert "tilt" not in shown("missing", FAILURE)
 
 
 def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
@@ -160,7 +159,7 @@ def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
     text = page.render_page(judge_series("clean", "none", 3, [good(1), good(2), odd]))
     measured = [metric for metric in METRICS["wiping"] if metric.of(wiping().wiping) is not None]
     bound = [metric for metric in measured if metric.target is not None]
-    assert text.count("<circle") == 2 * len(measured)
+    assert text.count("<circle") == 2 * len(measured) + 3 * len(RUNNING)
     assert text.count('class="target"') == len(bound) < len(measured)
     assert "&lt;b&gt;no&lt;/b&gt;" in text and "<b>" not in text
     assert "2 of 3 trials passed" in text
@@ -185,9 +184,7 @@ def test_a_success_with_a_false_claim_fails_and_is_named(disturbance: Disturbanc
     series = judge_series("sort", disturbance, 2, trials)
     assert series.false_successes == 1
     assert f"false success: {claim}" in series.failed[0].reasons
-    shown = io.StringIO()
-    Console(file=shown, width=200).print(table.render_table(series))
-    for text in (shown.getvalue(), page.render_page(series)):
+    for text in (format_series(series, Page(200), is_unicode=True), page.render_page(series)):
         assert "1 of 2 succeeded with a false claim" in text
         assert claim in text
 

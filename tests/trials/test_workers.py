@@ -96,7 +96,7 @@ def test_no_process_outlives_its_parent(number: signal.Signals, tmp_path: Path) 
     file, pids = tmp_path / "parent.py", tmp_path / "pids"
     file.write_text(PARENT.format(folder=str(pids)), encoding="utf-8")
     pids.mkdir()
-    environment = {**os.environ, "PYTHONPATH": str(TESTS)}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(TESTS), *sys.path])}
     parent = subprocess.Popen([sys.executable, file], env=environment, stderr=subprocess.DEVNULL)
     try:
         wait_until(lambda: len(list(pids.iterdir())) == 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import sys
@@ -10,6 +11,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
+from skillc.cli.layout import Page
+from skillc.cli.settings import output_settings
 from skillc.services.errors import RequestError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import MOST_BYTES
@@ -18,13 +21,21 @@ from skillc_dsl.source import Source
 if TYPE_CHECKING:
     from rich.console import Console
 
+LEAST_WIDTH = 40
+"""The least width for which text is laid out; narrower terminals wrap the rest themselves."""
+
 
 class Terminal:
-    """Prints the messages of services to stderr."""
+    """Prints the messages of services to stderr; if the command is quiet, only warnings and errors."""
 
     def say(self, message: str) -> None:
-        """Print a line."""
-        click.echo(message, err=True)
+        """Print a message: `error: ..`, `warning: ..`, or a remark."""
+        if message.startswith("error: "):
+            print_error(message.removeprefix("error: "))
+        elif message.startswith("warning: "):
+            print_labelled("warning", message.removeprefix("warning: "))
+        else:
+            print_remark(message)
 
     def show(self, diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> None:
         """Print diagnostics in full."""
@@ -34,35 +45,92 @@ class Terminal:
         click.echo(text, err=True, nl=False, color=True)
 
 
+def print_result(text: str) -> None:
+    """Print a text that was laid out for the page of stdout."""
+    click.echo(text, color=True)
+
+
+def print_remark(text: str) -> None:
+    """Print what is not a result, such as a count or the next steps, to stderr, unless the command is quiet."""
+    if not output_settings().quiet:
+        for line in page_of(sys.stderr).wrap(text, hanging="  "):
+            click.echo(line, err=True)
+
+
+def print_error(message: str) -> None:
+    """Print why a command fails to stderr."""
+    print_labelled("error", message)
+
+
+def print_labelled(severity: str, message: str) -> None:
+    """Print an error or a warning to stderr."""
+    page = page_of(sys.stderr)
+    label = page.paint(f"{severity}:", "bad" if severity == "error" else "warning")
+    first, *rest = page.wrap(f"{severity}: {message}", hanging="  ")
+    click.echo(f"{label}{first.removeprefix(f'{severity}:')}", err=True, color=True)
+    for line in rest:
+        click.echo(line, err=True)
+
+
 def print_json(value: Any) -> None:
     """Print plain data, or data that msgspec encodes, as one JSON document."""
     import msgspec
 
-    click.echo(msgspec.json.format(msgspec.json.encode(value), indent=2).decode())
+    encoded = msgspec.json.format(msgspec.json.encode(value), indent=2).decode()
+    click.echo(encoded if is_unicode(sys.stdout) else json.dumps(json.loads(encoded), indent=2))
 
 
-def rich_console(stderr: bool = False, quiet: bool = False) -> Console:
-    """Return a console that prints text unchanged: goals, names and paths may look like markup.
+def page_of(stream: TextIO) -> Page:
+    """Return the page that a stream prints on."""
+    return Page(page_width(stream), has_colours(stream))
+
+
+def rich_console(stream: TextIO) -> Console:
+    """Return a console for live displays on a stream, which prints text unchanged: names may look like markup.
 
     Spinners and columns of progress bars parse markup even with such a console: give them a `Text`.
     """
     from rich.console import Console
 
-    return Console(stderr=stderr, quiet=quiet, highlight=False, markup=False, emoji=False)
+    return Console(
+        file=stream,
+        force_terminal=stream.isatty(),
+        color_system="standard" if has_colours(stream) else None,
+        legacy_windows=False,
+        width=page_width(stream),
+        highlight=False,
+        markup=False,
+        emoji=False,
+    )
 
 
 def has_colours(stream: TextIO) -> bool:
-    """Whether to use colours: on a terminal that supports them, always with FORCE_COLOR, never with NO_COLOR."""
+    """Whether to use colours: as --color says, never with NO_COLOR, always with FORCE_COLOR, else on a terminal."""
+    wanted = output_settings().color
+    if wanted != "auto":
+        return wanted == "always"
     if os.environ.get("NO_COLOR"):
         return False
     return bool(os.environ.get("FORCE_COLOR")) or (stream.isatty() and os.environ.get("TERM") != "dumb")
+
+
+def shows_progress() -> bool:
+    """Whether to show displays that change: on a terminal that can do it, unless quiet or on a CI server."""
+    if output_settings().quiet or os.environ.get("TERM") == "dumb" or os.environ.get("CI"):
+        return False
+    return sys.stderr.isatty()
+
+
+def is_unicode(stream: TextIO) -> bool:
+    """Whether a stream takes all characters, and not only those of an old encoding such as ASCII."""
+    return (getattr(stream, "encoding", None) or "").lower().replace("-", "").startswith("utf")
 
 
 def page_width(stream: TextIO) -> int | None:
     """Return the width of the terminal in cells, or COLUMNS if it is set; None if the output has no width."""
     if not stream.isatty() and not os.environ.get("COLUMNS", "").isdigit():
         return None
-    return max(shutil.get_terminal_size().columns, 40)
+    return max(shutil.get_terminal_size().columns, LEAST_WIDTH)
 
 
 def read_stdin() -> bytes:

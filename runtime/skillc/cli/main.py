@@ -7,16 +7,18 @@ import importlib
 import pkgutil
 import signal
 import sys
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 import click
 
 from skillc.cli import streams
+from skillc.cli.command import Group
+from skillc.cli.console import print_error
 from skillc.cli.defaults import WITH_DEFAULTS, read_defaults
 from skillc.cli.interrupts import Interrupted, raising_on_signals
 from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
+from skillc.cli.usage_errors import print_click_error
 from skillc.services import crash_reports
 from skillc.services.errors import OutputError
 
@@ -26,20 +28,37 @@ INTERNAL = 70
 BROKEN_PIPE = 141
 """The exit code that shells give to a process ended by SIGPIPE."""
 
+SECTIONS = {
+    "Projects": ("new", "add", "tasks", "lock"),
+    "Skills": ("check", "fmt", "explain", "graph", "doc", "compile", "shapes"),
+    "Tasks": ("plan", "run", "why", "trials", "demo"),
+    "Scenes": ("world", "scene"),
+    "Tools": ("doctor", "lsp"),
+}
+"""The sections of the help, with their commands in the order in which they are listed."""
 
-class Commands(click.Group):
+
+class Commands(Group):
     """A group whose commands are the modules of `commands`; each has a click command named `command`."""
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
-        """Run the command line; end it if the standard output cannot be written to."""
+        """Run the command line and exit; end it if the standard output cannot be written to."""
         try:
             with streams.guard_streams():
-                return super().main(*args, **kwargs)
+                sys.exit(self._run(*args, **kwargs))
         except OutputError as error:
             if isinstance(error.reason, BrokenPipeError):
                 sys.exit(BROKEN_PIPE)
-            click.echo(f"error: {error}", err=True)
+            print_error(str(error))
             sys.exit(1)
+
+    def _run(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the command line; return the exit code."""
+        try:
+            return super().main(*args, **{**kwargs, "standalone_mode": False})
+        except click.ClickException as error:
+            print_click_error(error)
+            return error.exit_code
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; an internal error becomes one message and a crash report."""
@@ -70,20 +89,21 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command; for an unknown name, fail with the names of all commands."""
-        if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
-            near = get_close_matches(args[0], self.list_commands(ctx), n=1)
-            hint = f"did you mean '{near[0]}'?" if near else f"the commands are {', '.join(self.list_commands(ctx))}"
-            ctx.fail(f"there is no command '{args[0]}'; {hint}")
-        if args and args[0] in WITH_DEFAULTS:
+        """Find the command, with the defaults that the project here sets for it."""
+        found = super().resolve_command(ctx, args)
+        if args[0] in WITH_DEFAULTS:
             ctx.default_map = {args[0]: read_defaults(args[0])}
-        return super().resolve_command(ctx, args)
+        return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """List the commands with the first line of each module, read without importing it."""
-        rows = [(name, _first_line(COMMANDS / f"{name}.py")) for name in self.list_commands(ctx)]
-        with formatter.section("Commands"):
-            formatter.write_dl(rows)
+        """List the commands in sections, with the first line of each module, read without importing it."""
+        left = [name for name in self.list_commands(ctx) if not any(name in names for names in SECTIONS.values())]
+        widest = max(map(len, self.list_commands(ctx)))
+        for title, names in {**SECTIONS, "Other commands": tuple(left)}.items():
+            if names:
+                with formatter.section(title):
+                    rows = [(f"{name:{widest}}", _first_line(COMMANDS / f"{name}.py")) for name in names]
+                    formatter.write_dl(rows)
 
 
 def _first_line(path: Path) -> str:
@@ -95,6 +115,8 @@ def _first_line(path: Path) -> str:
 @click.version_option(package_name="skillc", message="skillc %(version)s")
 def skillc() -> None:
     """A compiler and runtime for robot skills.
+
+    `skillc new NAME` creates a project, `skillc COMMAND --help` describes a command.
 
     Exit codes: 0 success, 1 errors in the input, 2 wrong command line, 3 task failed or no plan, 70 internal error,
     130 interrupted (143 by SIGTERM, 129 by SIGHUP), 141 output closed.

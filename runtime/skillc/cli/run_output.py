@@ -1,21 +1,21 @@
-"""Runs a task with progress on stderr, and prints its result as a table."""
+"""Runs a task with progress on stderr, and prints its result."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import click
-
-from skillc.cli.console import Terminal, rich_console
+from skillc.cli.console import Terminal, page_of, print_result
 from skillc.cli.keyboard import is_operable
+from skillc.cli.result_output import format_ending, format_result
 from skillc.cli.run_progress import RunProgress
+from skillc.cli.settings import output_settings
 from skillc.services.errors import RequestError
 from skillc.services.run_report import RunResult
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.table import render_table
 from skillc_runtime.execution.pace import Pace
 
 
@@ -38,10 +38,11 @@ def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, pace
         return run_task(loaded, options, progress, Terminal())
 
 
-def print_results(results: Sequence[TaskResult], folder: Path | None, verbose: bool = False) -> None:
-    """Print a table for each result, with all details of failures if `verbose`, and the path of its report."""
-    console = rich_console()
-    for result in results:
-        console.print(render_table(result, verbose))
-        if folder is not None:
-            click.echo(f"report: {folder / 'report.html'}\n")
+def print_results(results: Sequence[TaskResult], folder: Path | None) -> None:
+    """Print how each task ended with its steps and numbers, only how it ended if quiet, and the path of its report."""
+    page, settings = page_of(sys.stdout), output_settings()
+    report = "" if folder is None else f"report: {folder / 'report.html'}"
+    for number, result in enumerate(results):
+        text = format_ending(result, page) if settings.quiet else format_result(result, page, settings.verbose)
+        parts = [text, report] if report else [text]
+        print_result(("\n" if number else "") + ("\n" if settings.quiet else "\n\n").join(parts))

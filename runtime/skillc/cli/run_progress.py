@@ -13,7 +13,7 @@ from rich.live import Live
 from rich.spinner import Spinner
 from rich.text import Text
 
-from skillc.cli.console import rich_console
+from skillc.cli.console import rich_console, shows_progress
 from skillc.cli.interrupts import Interrupted, noting_signals
 from skillc.cli.keyboard import Keyboard, is_operable
 from skillc.cli.run_display import compose_display
@@ -48,7 +48,7 @@ class RunProgress:
     def __init__(self, title: str, quiet: bool, pace: Pace | None = None) -> None:
         """Show nothing and take no keys if `quiet`."""
         self.pace = pace or Pace()
-        self._console = rich_console(stderr=True)
+        self._console = rich_console(sys.stderr)
         self._title, self._quiet = title, quiet
         self._calls: dict[int, tuple[str, ...]] = {0: ()}
         self._spinner = Spinner("dots")
@@ -59,7 +59,7 @@ class RunProgress:
         self._stopped = False
 
     def __enter__(self) -> RunProgress:
-        if not self._quiet and sys.stderr.isatty():
+        if not self._quiet and shows_progress():
             self._live = Live(self._spinner, console=self._console, refresh_per_second=REFRESHES_PER_S, transient=True)
             self._live.start()
         return self

@@ -7,7 +7,8 @@ from types import TracebackType
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from skillc.cli.console import rich_console
+from skillc.cli.console import rich_console, shows_progress
+from skillc.cli.settings import output_settings
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 
@@ -16,7 +17,7 @@ class TrialProgress:
     """Shows each finished trial: a bar on a terminal, a line elsewhere, nothing if `quiet`."""
 
     def __init__(self, task: str, disturbance: Disturbance, count: int, done: int, quiet: bool) -> None:
-        self._console = rich_console(stderr=True, quiet=quiet)
+        self._console = rich_console(sys.stderr)
         self._disturbance, self._count, self._done = disturbance, count, done
         columns = (
             TextColumn("{task.description}", markup=False),
@@ -24,7 +25,9 @@ class TrialProgress:
             MofNCompleteColumn(),
             TimeRemainingColumn(),
         )
-        self._bar = Progress(*columns, console=self._console, disable=quiet or not sys.stderr.isatty())
+        self._is_quiet = quiet or output_settings().quiet
+        hidden = self._is_quiet or not shows_progress()
+        self._bar = Progress(*columns, console=self._console, disable=hidden, transient=True)
         self._row = self._bar.add_task(task, total=self._count, completed=done)
 
     def __enter__(self) -> TrialProgress:
@@ -41,6 +44,6 @@ class TrialProgress:
         self._done += 1
         self._bar.advance(self._row)
         why = find_unmet_criteria(trial, self._disturbance)
-        if why or self._bar.disable:
+        if (why or self._bar.disable) and not self._is_quiet:
             line = f"seed {trial.seed}: {'; '.join(why) or 'passed'} ({self._done} of {self._count})"
             self._console.print(line, soft_wrap=True)

@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.console import print_remark
 from skillc.cli.diagnostics_output import FORMS, exit_code, print_diagnostics
 from skillc.cli.options import PATH
 from skillc.services.checking import (
@@ -90,7 +91,7 @@ def _show_fixes(request: CheckRequest, unsafe: bool) -> int:
 
     fixes = find_fixes(request, unsafe)
     click.echo(fixes.diff(), nl=False)
-    click.echo(f"{format_count(fixes.count, 'problem')} can be fixed", err=True)
+    print_remark(f"{format_count(fixes.count, 'problem')} can be fixed")
     return max(1 if fixes.count else 0, exit_code(fixes.remaining))
 
 
@@ -103,7 +104,7 @@ def _fix(request: CheckRequest, unsafe: bool, form: str) -> int:
     fixes = find_fixes(request, unsafe)
     files = 0 if request.stdin else write_fixes(fixes)
     where = f" in {format_count(files, 'file')}" if files else ""
-    click.echo(f"fixed {format_count(fixes.count, 'problem')}{where}", err=True)
+    print_remark(f"fixed {format_count(fixes.count, 'problem')}{where}")
     result = check_sources(request, read_libraries(request) if fixes.beside else fixes.libraries)
     if not request.stdin:
         return _show(result, form)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.console import print_error, print_remark
 from skillc.cli.options import PATH
 
 if TYPE_CHECKING:
@@ -61,12 +62,12 @@ def _write(files: Sequence[FormattedFile]) -> int:
         try:
             file.write()
         except ServiceError as error:
-            click.echo(f"error: {error}", err=True)
+            print_error(str(error))
             failed = error.exit_code
         else:
-            click.echo(f"formatted {file.source.path}", err=True)
+            print_remark(f"formatted {file.source.path}")
     if not changed and not failed and files[0].path is not None:
-        click.echo(f"{format_count(len(files), 'file')} already formatted", err=True)
+        print_remark(f"{format_count(len(files), 'file')} already formatted")
     return failed
 
 
@@ -90,5 +91,5 @@ def _show_unformatted(files: Sequence[FormattedFile]) -> int:
     click.echo(render_diagnostics(warnings, {}, "concise"), nl=False)
     failed = _show_problems(files)
     if warnings:
-        click.echo(f"{format_count(len(warnings), 'file')} not formatted; run `skillc fmt`", err=True)
+        print_remark(f"{format_count(len(warnings), 'file')} not formatted; run `skillc fmt`")
     return 1 if warnings or failed else 0

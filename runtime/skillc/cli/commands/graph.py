@@ -13,6 +13,7 @@ from pathlib import Path
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.console import print_error
 from skillc.cli.options import PATH
 
 FILE = click.Path(path_type=Path, dir_okay=False)
@@ -40,7 +41,7 @@ def command(path: Path, name: str, with_plan: bool, form: str | None, output: Pa
     if with_plan:
         plan = draw_plan(path, name, Terminal())
         if not isinstance(plan, PictureBox):
-            click.echo(plan.message, err=True)
+            print_error(plan.message)
             return 3
         box = replace(box, children=(*box.children, plan))
     wanted = form or ("mermaid" if output and output.suffix in {".mmd", ".mermaid"} else "svg")

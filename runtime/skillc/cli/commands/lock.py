@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.console import print_remark
 from skillc.cli.options import PATH
 
 
@@ -26,4 +27,4 @@ def command(path: Path) -> None:
         raise RequestError(f"{path.resolve()} is in no project: there is no skillc.toml")
     click.echo(write_lock(project))
     count = len(lock_libraries(project))
-    click.echo("1 library locked" if count == 1 else f"{count} libraries locked", err=True)
+    print_remark("1 library locked" if count == 1 else f"{count} libraries locked")

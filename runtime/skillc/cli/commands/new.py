@@ -11,6 +11,7 @@ from pathlib import Path
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.console import print_remark
 from skillc.cli.options import PATH
 
 
@@ -34,4 +35,5 @@ def command(name: Path | None, template: str, list_: bool) -> None:
         raise click.UsageError("name the folder of the new project; --list lists the templates")
     for path in create_library(name, template):
         click.echo(path)
-    click.echo(f"\nNext steps:\n  cd {name}\n  skillc check\n  skillc run", err=True)
+    for line in ("", "Next steps:", f"  cd {name}", "  skillc check", "  skillc run"):
+        print_remark(line)

@@ -17,6 +17,7 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.options import PATH, json_option, planner_options, store_options
+from skillc.cli.settings import output_settings
 
 if TYPE_CHECKING:
     from skillc.services.planning import Measure
@@ -78,7 +79,8 @@ def command(
 def _notice_if_slow(deadline_s: float) -> Iterator[None]:
     """Print to stderr that planning is in progress once it has taken longer than NOTICE_AFTER_S."""
     text = f"planning, for at most {deadline_s:g} s .."
-    notice = threading.Timer(NOTICE_AFTER_S, lambda: click.echo(text, err=True))
+    wanted = not output_settings().quiet
+    notice = threading.Timer(NOTICE_AFTER_S, lambda: click.echo(text, err=True) if wanted else None)
     notice.daemon = True
     notice.start()
     try:

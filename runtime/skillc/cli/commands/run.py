@@ -61,7 +61,6 @@ if TYPE_CHECKING:
 )
 @operating_options
 @click.option("--strict", is_flag=True, help="Exit with code 3 also if the success rests on an assumption.")
-@click.option("-v", "--verbose", is_flag=True, help="Print all that was tried before a failure, with source lines.")
 @json_option
 def command(
     task: str | None,
@@ -83,7 +82,6 @@ def command(
     step: bool,
     pause_at: tuple[str, ...],
     strict: bool,
-    verbose: bool,
     as_json: bool,
 ) -> int:
     """Run TASK (`LIBRARY:NAME`, or one of the project here, or a shipped one) in simulation, or --goal or --skill."""
@@ -108,7 +106,7 @@ def command(
     if as_json:
         print_json(ran.result)
     else:
-        print_results([ran.result], out if ran.written else None, verbose)
+        print_results([ran.result], out if ran.written else None)
     if ran.result.status != "succeeded" or (strict and not ran.result.verified):
         return 3
     return 0 if ran.written else 1

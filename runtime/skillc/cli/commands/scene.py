@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from skillc.cli.command import Command
+from skillc.cli.command import Command, Group
+from skillc.cli.console import print_remark
 from skillc.cli.options import FOLDER, PATH, add_ontology_option, json_option
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ LIBRARY = click.option(
 )
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=Group, context_settings={"help_option_names": ["-h", "--help"]})
 def command() -> None:
     """Write scenes: Turtle files that say what there is in a cell, where it is, and how large it is."""
 
@@ -107,7 +108,7 @@ def new(scene: Path, arm: str | None) -> None:
     from skillc.services.new_scene import create_scene
 
     create_scene(scene, arm)
-    click.echo(f"{scene}: created", err=True)
+    print_remark(f"{scene}: created")
 
 
 @command.command(cls=Command)
@@ -132,7 +133,7 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
         name, cls, given["label"], given["size"] or (), given["weight"], given["shape"], given["inside"]
     )
     with _opened(scene, library) as (path, state):
-        click.echo(f"{scene}: {add_thing(path, state, thing, _pose(given))} added", err=True)
+        print_remark(f"{scene}: {add_thing(path, state, thing, _pose(given))} added")
 
 
 @command.command(cls=Command)
@@ -145,7 +146,7 @@ def move(scene: Path, name: str, library: Path | None, **given: Any) -> None:
     from skillc.services.scene_things import move_thing
 
     with _opened(scene, library) as (path, state):
-        click.echo(f"{scene}: {move_thing(path, state, name, _pose(given))} moved", err=True)
+        print_remark(f"{scene}: {move_thing(path, state, name, _pose(given))} moved")
 
 
 @command.command(cls=Command)
@@ -157,7 +158,7 @@ def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
     from skillc.services.scene_things import remove_things
 
     with _opened(scene, library) as (path, state):
-        click.echo(f"{scene}: {', '.join(remove_things(path, state, names))} removed", err=True)
+        print_remark(f"{scene}: {', '.join(remove_things(path, state, names))} removed")
 
 
 @command.command(cls=Command)
@@ -174,7 +175,7 @@ def edit(scene: Path, edits: tuple[str, ...], library: Path | None) -> None:
     from skillc.services.scene_edit import edit_file
 
     with _opened(scene, library) as (path, state):
-        click.echo(edit_file(path, state, edits), err=True)
+        print_remark(edit_file(path, state, edits))
 
 
 @command.command("import", cls=Command)
@@ -193,9 +194,9 @@ def import_(scene: Path, source: Path, library: Path | None, **given: Any) -> No
     with _opened(scene, library) as (path, state):
         found = import_scenery(path, state, source, _pose(given))
     solids = f"{len(found.solids)} solid{'s' * (len(found.solids) != 1)}"
-    click.echo(f"{scene}: {solids} added from {source} ({found.format})", err=True)
+    print_remark(f"{scene}: {solids} added from {source} ({found.format})")
     for note in found.notes:
-        click.echo(f"  {note}", err=True)
+        print_remark(f"  {note}")
 
 
 @command.command(cls=Command)
@@ -217,9 +218,9 @@ def show(scene: Path, out: Path, library: Path | None, as_json: bool) -> None:
         click.echo(format_placed(scene_show.list_placed(opened), as_json))
         drawn = scene_show.draw_pictures(opened, out)
     for each in drawn.files:
-        click.echo(each, err=True)
+        print_remark(str(each))
     if drawn.not_rendered is not None:
-        click.echo(f"no PNG: {drawn.not_rendered}", err=True)
+        print_remark(f"no PNG: {drawn.not_rendered}")
 
 
 for _command in (add, move, remove, edit, import_, show):

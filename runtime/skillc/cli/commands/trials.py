@@ -6,6 +6,7 @@ Exit code 3 if a trial did not pass.
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import get_args
 
@@ -53,11 +54,11 @@ def command(
 
     Each seed draws how the simulation differs from the world model, within the ranges that the scene states.
     """
-    from skillc.cli.console import Terminal, print_json, rich_console
+    from skillc.cli.console import Terminal, is_unicode, page_of, print_json, print_result
     from skillc.cli.trial_progress import TrialProgress
+    from skillc.cli.trials_output import format_series
     from skillc.services.task_list import require_task
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
-    from skillc_runtime.evaluation.trials.table import render_table
 
     def progress(name: str, done: int) -> TrialProgress:
         return TrialProgress(name, disturb, number, done, quiet=as_json)
@@ -68,7 +69,7 @@ def command(
     if as_json:
         print_json(result)
     else:
-        rich_console().print(render_table(result))
+        print_result(format_series(result, page_of(sys.stdout), is_unicode(sys.stdout)))
     if out is not None:
         write_page(result, out)
     return 0 if result.is_good else 3

@@ -60,4 +60,16 @@ class TeachingWork(msgspec.Struct, frozen=True, kw_only=True, tag="teaching"):
     duration_share: float | None
 
 
-Work: TypeAlias = WipingWork | PolishingWork | PressingWork | InsertingWork | TeachingWork
+class PlacingWork(msgspec.Struct, frozen=True, kw_only=True, tag="placing"):
+    """A thing was put down: how far it is from its believed pose, in m and degrees, and from the intended place, in m.
+
+    `missed_m` is None if no place was intended.
+    """
+
+    thing: str
+    error_m: float
+    turned_deg: float
+    missed_m: float | None
+
+
+Work: TypeAlias = WipingWork | PolishingWork | PressingWork | InsertingWork | TeachingWork | PlacingWork

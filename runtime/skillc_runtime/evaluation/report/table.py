@@ -1,39 +1,11 @@
-"""A task's result as a table for the terminal."""
+"""The result of a task as text: the rows of a table, for the terminal and the report."""
 
 from __future__ import annotations
 
-from rich.console import Group, RenderableType
-from rich.padding import Padding
-from rich.table import Table
-from rich.text import Text
-
 from skillc_runtime.evaluation.report.result import ChoiceResult, PlacementResult, StepResult, TaskResult, WipingResult
 from skillc_runtime.recording.failure_text import list_details
-from skillc_runtime.recording.known_facts import format_evidence, format_status, format_unverified, unverified_facts
-from skillc_runtime.world.state.labelled_text import format_fact, format_value
-
-END_STYLES = {"succeeded": "bold green", "failed": "bold red", "refused": "bold red"}
-STEP_STYLES = {"success": "bold green", "failure": "bold red", "halted": "bold yellow"}
-
-
-def render_table(result: TaskResult, detailed: bool = False) -> RenderableType:
-    """Return the table of one task: the plan with the chosen implementations, then the results.
-
-    A failure is one sentence; if `detailed`, its causes and the calls that led to it follow.
-    """
-    words = format_status(result.status, result.verified)
-    title = Text.assemble((result.task, "bold"), "  ", (words, END_STYLES.get(words, "bold yellow")))
-    parts: list[RenderableType] = [title]
-    parts += [Text(format_unverified(fact), style="yellow") for fact in unverified_facts(result.facts)]
-    if result.failure:
-        parts.append(Text(result.failure, style="red"))
-    if detailed:
-        parts += [Text(f"  {line}", style="dim") for line in list_failure_details(result)]
-    if result.plan:
-        parts.append(_render_plan(result))
-    if result.sim_time_s:
-        parts.append(_render_numbers(result))
-    return Group(*parts, "")
+from skillc_runtime.recording.known_facts import format_evidence
+from skillc_runtime.world.state.labelled_text import format_fact
 
 
 def list_failure_details(result: TaskResult) -> list[str]:
@@ -43,38 +15,11 @@ def list_failure_details(result: TaskResult) -> list[str]:
     return [*details, f"in {calls}"] if calls else details
 
 
-def _render_plan(result: TaskResult) -> RenderableType:
-    """Return each step with its status and implementation, and why that was chosen; below it its arguments."""
-    lines: list[RenderableType] = []
-    for number, step in enumerate(result.plan, 1):
-        arguments = ", ".join(f"{name}: {format_value(value)}" for name, value in step.arguments.items())
-        how = f"{step.implementation}: {format_choice_reason(step)}" if step.implementation else _describe_not_run(step)
-        lines += [
-            Text.assemble(f"{number} {step.skill:<16}", (f"{step.status:<9}", STEP_STYLES.get(step.status, "")), how),
-            Padding(Text(arguments, style="dim"), (0, 0, 0, 4)),
-        ]
-    lines += [Text(f"  {each.skill:<25}{each.implementation}: {format_choice_reason(each)}") for each in result.choices]
-    return Group(*lines)
-
-
-def _describe_not_run(step: StepResult) -> str:
-    return "achieved already" if step.status == "skipped" else "did not start"
-
-
 def format_choice_reason(taken: StepResult | ChoiceResult) -> str:
     """Return why an implementation was chosen."""
     if taken.rejected:
         return "; ".join(f"not {each.implementation}: {each.reason}" for each in taken.rejected)
     return "the only one" if isinstance(taken, StepResult) and not taken.alternatives else "the first that fits"
-
-
-def _render_numbers(result: TaskResult) -> Table:
-    table = Table(box=None, pad_edge=False, show_header=False)
-    table.add_column(style="dim")
-    table.add_column()
-    for name, value in list_table_rows(result):
-        table.add_row(name, value)
-    return table
 
 
 def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:

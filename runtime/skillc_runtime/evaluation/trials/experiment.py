@@ -12,7 +12,7 @@ from msgspec import structs
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.evaluation.measures import buttons, poses, sockets, surfaces
+from skillc_runtime.evaluation.measures import buttons, placements, poses, sockets, surfaces
 from skillc_runtime.evaluation.measures.claims import find_false_claims
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
@@ -43,7 +43,7 @@ from skillc_runtime.world.state.terms import ARM_DEVICE, CONTACT_FORCE_LIMIT, SU
 from skillc_runtime.world.state.world_state import WorldState
 
 MEASURES = (surfaces.measure, buttons.measure, sockets.measure, poses.measure)
-"""The measures of all kinds of work, in the order in which trials list them."""
+"""The measures of the kinds of work that need evidence, in the order in which trials list them."""
 
 
 SETTLING_S = 0.5
@@ -97,7 +97,10 @@ class TrialRunner:
             verified=result.verified,
             assumed=tuple(format_fact(fact.fact) for fact in unverified_facts(result.facts)),
             variation=result.variation,
-            works=_measure_work(RunEvidence(self._library, state, truth, trees, choices, wiping_results)),
+            works=(
+                *_measure_work(RunEvidence(self._library, state, truth, trees, choices, wiping_results)),
+                *placements.measure(result.placements),
+            ),
             coverage=_least_coverage(state, truth),
             greatest_force_n=_greatest_force_n(state, truth),
             force_limit_n=_force_limit_n(state),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from skillc_runtime.evaluation.trials.series import Series, Spread
-from skillc_runtime.evaluation.trials.table import format_false_successes, format_unverified
+from skillc_runtime.evaluation.trials.summary import format_false_successes, format_unverified
 
 WIDTH, HEIGHT, MARGIN = 420, 34, 8
 """The size of a drawing in px."""

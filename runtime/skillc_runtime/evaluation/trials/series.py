@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from statistics import median
+from statistics import fmean, quantiles
 from typing import Any
 
 import msgspec
 
+from skillc_runtime.evaluation.trials.confidence import Interval, compute_mean_interval, compute_proportion_interval
 from skillc_runtime.evaluation.trials.targets import Metric, list_trial_values
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
@@ -16,7 +17,9 @@ from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 class Spread(msgspec.Struct, frozen=True, kw_only=True):
     """A metric of one object over all trials in which it was measured; `met` is the number that meet the target.
 
-    `target` is the target as text, `bound` its value, None without a target; `values` are in the order of the seeds.
+    `low_quartile` and `high_quartile` enclose the middle half of the values; `mean_interval` is the confidence
+    interval of the `mean`, None for a single value. `target` is the target as text, `bound` its value, None without a
+    target; `values` are in the order of the seeds.
     """
 
     metric: str
@@ -27,6 +30,10 @@ class Spread(msgspec.Struct, frozen=True, kw_only=True):
     least: float
     median: float
     greatest: float
+    low_quartile: float
+    high_quartile: float
+    mean: float
+    mean_interval: Interval | None
     met: int
     values: tuple[float, ...]
     median_missed: str | None = None
@@ -43,8 +50,9 @@ class FailedSeed(msgspec.Struct, frozen=True, kw_only=True):
 class Series(msgspec.Struct, frozen=True, kw_only=True):
     """All trials of one task: `wanted` were requested, `done` were run, and `passed` of these met all criteria.
 
-    In `unverified` trials the task finished, but the facts `assumed` were not sensed. `false_successes` are trials that
-    succeeded although the world model claims something false about things.
+    `pass_interval` is the confidence interval of the probability to pass, from the trials that were done; None if none
+    was. In `unverified` trials the task finished, but the facts `assumed` were not sensed. `false_successes` are trials
+    that succeeded although the world model claims something false about things.
     """
 
     task: str
@@ -52,6 +60,7 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     wanted: int
     done: int
     passed: int
+    pass_interval: Interval | None
     spreads: tuple[Spread, ...]
     failed: tuple[FailedSeed, ...]
     trials: tuple[Trial, ...]
@@ -70,12 +79,14 @@ def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Seque
     ordered = tuple(sorted(trials, key=lambda trial: trial.seed))
     judged = [(trial, find_unmet_criteria(trial, disturbance)) for trial in ordered]
     failed = tuple(FailedSeed(seed=t.seed, reasons=why, variation=t.variation) for t, why in judged if why)
+    passed = len(ordered) - len(failed)
     return Series(
         task=task,
         disturbance=disturbance,
         wanted=wanted,
         done=len(ordered),
-        passed=len(ordered) - len(failed),
+        passed=passed,
+        pass_interval=compute_proportion_interval(passed, len(ordered)) if ordered else None,
         spreads=compute_spreads(ordered, judged_by_targets=disturbance == "none"),
         failed=failed,
         trials=ordered,
@@ -96,8 +107,8 @@ def compute_spreads(trials: Sequence[Trial], judged_by_targets: bool = True) -> 
     )
 
 
-def _compute_spread(metric: Metric[Any], subject: str, values: Sequence[float], judged_by_targets: bool) -> Spread:
-    middle = median(values)
+def _compute_spread(metric: Metric[Any], subject: str, values: list[float], judged_by_targets: bool) -> Spread:
+    low, middle, high = quantiles(values, n=4, method="inclusive") if len(values) > 1 else values * 3
     target = metric.median_target
     missed = target is not None and middle > target and judged_by_targets
     return Spread(
@@ -109,6 +120,10 @@ def _compute_spread(metric: Metric[Any], subject: str, values: Sequence[float], 
         least=min(values),
         median=middle,
         greatest=max(values),
+        low_quartile=low,
+        high_quartile=high,
+        mean=fmean(values),
+        mean_interval=compute_mean_interval(values),
         met=sum(map(metric.is_met, values)),
         values=tuple(values),
         median_missed=f"median {middle:.3g} {metric.unit}, wanted at most {target:g}" if missed else None,

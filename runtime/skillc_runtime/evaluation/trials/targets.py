@@ -8,6 +8,7 @@ from typing import Any, Generic, Literal, TypeVar, assert_never
 
 from skillc_runtime.evaluation.measures.work import (
     InsertingWork,
+    PlacingWork,
     PolishingWork,
     PressingWork,
     TeachingWork,
@@ -87,19 +88,32 @@ TEACHING: tuple[Metric[TeachingWork], ...] = (
     Metric("time", "% of the skill's", lambda w: _percent(w.duration_share, 1.0), "at most", 100.0),
 )
 
+PLACING: tuple[Metric[PlacingWork], ...] = (
+    Metric("error of placement", "mm", lambda w: 1e3 * w.error_m, "at most"),
+    Metric("turned from the believed pose", "deg", lambda w: w.turned_deg, "at most"),
+    Metric("beside the intended place", "mm", lambda w: None if w.missed_m is None else 1e3 * w.missed_m, "at most"),
+)
+
+RUNNING: tuple[Metric[Trial], ...] = (
+    Metric("simulated time", "s", lambda t: t.sim_time_s or None, "at most"),
+    Metric("peak force", "N", lambda t: t.greatest_force_n or None, "at most"),
+)
+"""The metrics of every task that ran: its time, and the force on its tools if there was any."""
+
 METRICS: Mapping[str, tuple[Metric[Any], ...]] = {
     "wiping": WIPING,
     "polishing": (*POLISHING, *WIPING),
     "pressing": PRESSING,
     "inserting": INSERTING,
     "teaching": TEACHING,
+    "placing": PLACING,
 }
 """All metrics of each kind of work."""
 
 
 @dataclass(frozen=True, slots=True)
 class MetricValue:
-    """The value of a metric of one piece of work; `subject` is the object that was worked on."""
+    """The value of a metric of one piece of work; `subject` is the object that was worked on, empty for a run."""
 
     metric: Metric[Any]
     subject: str
@@ -107,9 +121,10 @@ class MetricValue:
 
 
 def list_trial_values(trial: Trial) -> Iterator[MetricValue]:
-    """Yield all measurements of a trial."""
+    """Yield all measurements of a trial: of each piece of work, then of the whole run, whose subject is empty."""
     for work in trial.works:
         yield from list_work_values(work)
+    yield from _list_values(RUNNING, trial, "")
 
 
 def list_work_values(work: Work) -> Iterator[MetricValue]:
@@ -126,6 +141,8 @@ def list_work_values(work: Work) -> Iterator[MetricValue]:
             yield from _list_values(INSERTING, work, socket)
         case TeachingWork(pose=pose):
             yield from _list_values(TEACHING, work, pose)
+        case PlacingWork(thing=thing):
+            yield from _list_values(PLACING, work, thing)
         case _:
             assert_never(work)
 
