@@ -11,10 +11,11 @@ from dataclasses import asdict
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.completions import complete_diagnostic
 
 
 @click.command(cls=Command)
-@click.argument("name", required=False)
+@click.argument("name", required=False, shell_complete=complete_diagnostic)
 @click.option("--json", "as_json", is_flag=True, help="Print the page, or all pages, as JSON.")
 def command(name: str | None, as_json: bool) -> None:
     """Explain the diagnostic NAME, such as `unknown-class`; without NAME, list all diagnostics."""

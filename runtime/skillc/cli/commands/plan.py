@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.completions import complete_task
 from skillc.cli.options import PATH, json_option, planner_options, store_options
 from skillc.cli.settings import output_settings
 
@@ -26,7 +27,7 @@ NOTICE_AFTER_S = 2.0
 
 
 @click.command(cls=Command)
-@click.argument("task", required=False)
+@click.argument("task", required=False, shell_complete=complete_task)
 @click.option("--scene", type=PATH, help="The scene to plan in; by default the task's.")
 @click.option("--goal", help="The goal to plan for, as a condition or as PDDL.")
 @click.option("--library", type=PATH, help="The library with the skills to plan with; by default the shipped one.")

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.completions import complete_task
 from skillc.cli.options import (
     FOLDER,
     PATH,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 
 @click.command(cls=Command)
-@click.argument("task", required=False)
+@click.argument("task", required=False, shell_complete=complete_task)
 @click.option("--scene", type=PATH, help="The scene to run in; by default the task's.")
 @click.option("--goal", help="The goal to plan for, as a condition or as PDDL.")
 @click.option("--skill", help="The skill call to run instead of a goal, such as `Wipe(surface: lab:Table-1)`.")

@@ -13,12 +13,13 @@ from typing import get_args
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.completions import complete_task
 from skillc.cli.options import FOLDER, json_option
 from skillc_runtime.evaluation.trials.trial import Disturbance
 
 
 @click.command(cls=Command)
-@click.argument("task", required=False)
+@click.argument("task", required=False, shell_complete=complete_task)
 @click.option("-n", "--number", type=click.IntRange(min=1), default=50, show_default=True, help="The number of trials.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="The seed of the first trial.")
 @click.option("--jobs", type=click.IntRange(min=1), help="The number of parallel trials.  [default: one per core]")

@@ -1,0 +1,120 @@
+"""The wheel, and what the Dockerfile installs, in clean environments outside the checkout: they check, compile, run."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.wheel
+
+ROOT = Path(__file__).parents[2]
+LIBRARY = """
+use rparts
+import "motion.skill"
+prefix lab: <http://example.org/lab#>
+
+## Take the home posture.
+skill GoHome {
+    in arm: ArmDevice
+    noplan
+}
+
+impl directly of GoHome {
+    do TakePosture(arm)
+}
+
+task go_home {
+    scene "iiwa_table.ttl"
+    do    GoHome(arm: lab:Iiwa-1)
+}
+"""
+
+
+def call(*command: str | Path, cwd: Path, env: dict[str, str] | None = None) -> str:
+    done = subprocess.run(
+        [str(part) for part in command], cwd=cwd, capture_output=True, text=True, check=False, env=env
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_the_wheel_works_in_a_clean_environment(tmp_path: Path) -> None:
+    call(
+        sys.executable, "-m", "build", "--wheel", "--installer", "uv", "--outdir", tmp_path / "dist", ROOT, cwd=tmp_path
+    )
+    wheel = next((tmp_path / "dist").glob("skillc-*.whl"))
+    check_contents(wheel)
+    venv.create(tmp_path / "env", with_pip=False)
+    python, skillc = tmp_path / "env/bin/python", tmp_path / "env/bin/skillc"
+    constraints = ROOT / "constraints.txt"
+    call(uv(), "pip", "install", "-q", "--python", python, "--constraint", constraints, wheel, cwd=tmp_path)
+    assert call(python, "-m", "skillc", "--version", cwd=tmp_path) == call(skillc, "--version", cwd=tmp_path)
+    assert "_skillc_completion" in call(skillc, "completion", "bash", cwd=tmp_path)
+    library = tmp_path / "mine"
+    library.mkdir()
+    (library / "home.skill").write_text(LIBRARY, encoding="utf-8")
+    call(skillc, "check", library, cwd=tmp_path)
+    assert "A class does not exist" in call(skillc, "explain", "unknown-class", cwd=tmp_path)
+    call(skillc, "compile", library, "-o", tmp_path / "build", cwd=tmp_path)
+    assert json.loads((tmp_path / "build/library.json").read_text(encoding="utf-8"))["name"] == "mine"
+    result = json.loads(call(skillc, "run", "mine:go_home", "--json", cwd=tmp_path))
+    assert result["status"] == "succeeded"
+    assert result["sim_time_s"] > 0.1
+    plan = json.loads(call(skillc, "plan", "clean_table", "--json", cwd=tmp_path))
+    assert [step["skill"] for step in plan["plan"]] == ["Pick", "Wipe"]
+    assert "A*" in plan["planner"]
+
+
+def check_contents(wheel: Path) -> None:
+    """Check that a wheel has its licence, its author and addresses, and that each of its packages is typed."""
+    with zipfile.ZipFile(wheel) as opened:
+        names = opened.namelist()
+        metadata = next(opened.read(each).decode() for each in names if each.endswith(".dist-info/METADATA"))
+    assert any(each.endswith(".dist-info/licenses/LICENSE") for each in names)
+    packages = {each.partition("/")[0] for each in names if ".dist-info" not in each}
+    assert {f"{each}/py.typed" for each in packages} <= set(names)
+    for line in ("Author: skillc contributors", "License-Expression: Apache-2.0", "Project-URL: Source, https://"):
+        assert line in metadata
+
+
+def test_what_the_dockerfile_installs_works(tmp_path: Path) -> None:
+    lines = (ROOT / "Dockerfile").read_text("utf-8").splitlines()
+    source, target = tmp_path / "src", tmp_path / "env"
+    source.mkdir()
+    ignore = shutil.ignore_patterns("__pycache__")
+    for name in (each for line in lines if line.startswith("COPY ") for each in line.split()[1:-1]):
+        if (ROOT / name).is_dir():
+            shutil.copytree(ROOT / name, source / name, ignore=ignore)
+        else:
+            shutil.copy(ROOT / name, source)
+    venv.create(target, with_pip=False)
+    (install,) = (line.removeprefix("RUN ") for line in lines if line.startswith("RUN pip "))
+    words = shlex.split(re.sub("^pip install --no-cache-dir", "install -q", install))
+    call(uv(), "pip", words[0], "--python", target / "bin/python", *words[1:], cwd=source)
+    (entry,) = (json.loads(line.removeprefix("ENTRYPOINT ")) for line in lines if line.startswith("ENTRYPOINT "))
+    work = tmp_path / "work"
+    work.mkdir()
+    env = {**os.environ, "PATH": f"{target / 'bin'}:{os.environ['PATH']}"}
+    env.pop("PYTHONPATH", None)
+    program = shutil.which(entry[0], path=env["PATH"])
+    assert program is not None and program.startswith(str(target))
+    call(program, "new", "cell", "--template", "pick-place", cwd=work, env=env)
+    assert json.loads(call(program, "run", "--json", cwd=work / "cell", env=env))["status"] == "succeeded"
+    found = {each["name"]: each["found"] for each in json.loads(call(program, "doctor", "--json", cwd=work, env=env))}
+    assert found["Fast Downward"] and found["av"] and found["aries"], found
+
+
+def uv() -> str:
+    """Return the uv that set this checkout up, or the one on the path."""
+    local = ROOT / ".tools/bin/uv"
+    return str(local) if local.is_file() else "uv"
