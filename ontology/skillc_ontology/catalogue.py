@@ -47,9 +47,10 @@ def user_files() -> tuple[tuple[str, Path], ...]:
 
 
 def sheet_files() -> tuple[tuple[str, str], ...]:
-    """Return the documents that are part of every world: the packaged files and the user's data sheets."""
+    """Return the texts that are part of every world: the packaged files and the user's data sheets, in any format."""
+    places = (folder / name for folder in user_folders() for name in SHEET_FOLDERS)
     own = (
-        path for folder in user_folders() for name in SHEET_FOLDERS for path in sorted((folder / name).glob("*.ttl"))
+        path for place in places for path in sorted(place.glob("*")) if path.suffix in ENDINGS and not _is_model(path)
     )
     return (*vocabulary_files(), *((str(path), path.read_text("utf-8", errors="replace")) for path in own))
 

@@ -37,7 +37,8 @@ WRONG = [
     (TEXT.replace(LABEL, b'"rough t\xe4ble"'), "unreadable-scene", LABEL_LINE),
     (TEXT.decode().encode("utf-16"), "unreadable-scene", 1),
     (TEXT.decode().encode("utf-16-le"), "unreadable-scene", 1),
-    (b'<?xml version="1.0"?><rdf:RDF/>', "not-turtle", 1),
+    (b'<?xml version="1.0"?><rdf:RDF/>', "unreadable-scene", 1),
+    (b'{"@context": {}}', "empty-scene", 1),
     (b"lab:x a lab:y .", "unknown-prefix", 1),
     (b"\x00\x01\x02", "unreadable-scene", 1),
 ]

@@ -145,14 +145,12 @@ _FORMATS = {
     "HTML": re.compile(r"\s*<(?:html|head|body)\b", re.IGNORECASE),
     "a skill library": re.compile(r"(?:\s|#[^\n]*\n)*(?:use\s+\w+\s*(?:,|\n)|(?:skill|task|import|impl)\s+[\"\w])"),
 }
-_CONVERTERS = {"RDF/XML": "xml", "JSON": "json-ld"}
+_CONVERTIBLE = ("RDF/XML", "JSON")
 
 
 def detect_other_format(text: str) -> tuple[str, str] | None:
     """Return the name of the text's format and what to do about it; None if it may be Turtle."""
     for name, pattern in _FORMATS.items():
         if pattern.match(text):
-            option = _CONVERTERS.get(name)
-            help_ = f"convert it: `rdfpipe -i {option} -o turtle FILE`" if option else "use a Turtle file"
-            return name, help_
+            return name, "convert it to Turtle" if name in _CONVERTIBLE else "use a Turtle file"
     return None

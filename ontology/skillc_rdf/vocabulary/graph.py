@@ -14,13 +14,13 @@ Node = ox.NamedNode | ox.BlankNode | ox.Literal | ox.Triple
 class Graph:
     """Triples, indexed by subject and predicate."""
 
-    def __init__(self, triples: Iterable[ox.Triple | ox.Quad] = ()) -> None:
+    def __init__(self, triples: Iterable[ox.Triple] = ()) -> None:
         self._objects: dict[tuple[Node, str], list[Node]] = defaultdict(list)
         self._subjects: dict[str, dict[Node, None]] = defaultdict(dict)
         self._instances: dict[str, list[Node]] = defaultdict(list)
         self.add(triples)
 
-    def add(self, triples: Iterable[ox.Triple | ox.Quad]) -> None:
+    def add(self, triples: Iterable[ox.Triple]) -> None:
         """Add triples."""
         for triple in triples:
             self._objects[triple.subject, triple.predicate.value].append(triple.object)

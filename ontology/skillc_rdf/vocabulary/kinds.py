@@ -50,7 +50,7 @@ OF_CLASSES = frozenset({SUBCLASS, DISJOINT, f"{OWL}complementOf"})
 """Predicates both of whose ends are classes."""
 
 
-def infer_declarations(graph: Graph, triples: Sequence[ox.Quad]) -> tuple[ox.Triple, ...]:
+def infer_declarations(graph: Graph, triples: Sequence[ox.Triple]) -> tuple[ox.Triple, ...]:
     """Return the missing declarations of the terms in a user's ontologies.
 
     `graph` has all triples, `triples` are the user's among them.
@@ -82,7 +82,7 @@ def _by_range(graph: Graph, iri: str) -> str:
     return PROPERTY if data or any(graph.objects(r, f"{OWL}oneOf") for r in ranges) else RELATION
 
 
-def _used(triples: Sequence[ox.Quad], kinds: dict[str, str]) -> Iterator[tuple[str, str]]:
+def _used(triples: Sequence[ox.Triple], kinds: dict[str, str]) -> Iterator[tuple[str, str]]:
     """Yield terms with the kinds that their uses imply."""
     alike: dict[str, list[str]] = defaultdict(list)
     for each in triples:

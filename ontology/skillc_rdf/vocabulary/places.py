@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cached_property
-from urllib.parse import urljoin
-from xml.parsers import expat
 
 import pyoxigraph as ox
 
 from skillc_dsl.source import Source, Span
+from skillc_rdf.formats.detect import detect_format
+from skillc_rdf.formats.subjects import find_elements
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
-from skillc_rdf.vocabulary.formats import detect_format
-from skillc_rdf.vocabulary.iris import RDF
 from skillc_rdf.vocabulary.positions import find_subjects
 from skillc_rdf.vocabulary.types import Position, local_name
-
-_XML_BASE = "http://www.w3.org/XML/1998/namespace base"
 
 
 class TermPositions:
@@ -34,7 +30,8 @@ class TermPositions:
         found: dict[str, Position] = {}
         for source in self._sources:
             if detect_format(source) == ox.RdfFormat.RDF_XML:
-                found = {**dict(_elements(source)), **found}
+                elements = reversed(list(find_elements(source)))
+                found = {iri: Position(at.path, at.line, at.column) for iri, at in elements} | found
         return {**found, **find_subjects(self._turtle)}
 
     def position(self, iri: str) -> Position:
@@ -86,27 +83,6 @@ class TermPositions:
                     return Span(source.path, line, 1, line, 2)
         path = self._sources[0].path if self._sources else iri
         return Span(path, 1, 1, 1, 2)
-
-
-def _elements(source: Source) -> Iterator[tuple[str, Position]]:
-    """Yield the IRIs and positions of the elements of RDF/XML about an IRI, in reverse order."""
-    found: list[tuple[str, Position]] = []
-    bases: list[str] = []
-    parser = expat.ParserCreate(namespace_separator=" ")
-
-    def start(_name: str, attributes: dict[str, str]) -> None:
-        bases.append(attributes.get(_XML_BASE, bases[-1] if bases else ""))
-        named = attributes.get(f"{RDF} about")
-        if f"{RDF} ID" in attributes:
-            named = f"#{attributes[f'{RDF} ID']}"
-        if named is not None:
-            place = Position(source.path, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
-            found.append((urljoin(bases[-1], named), place))
-
-    parser.StartElementHandler = start
-    parser.EndElementHandler = lambda _name: bases.pop() and None
-    parser.Parse(source.text, True)
-    yield from reversed(found)
 
 
 def _iri(node: object) -> str:

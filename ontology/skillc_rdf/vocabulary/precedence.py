@@ -41,14 +41,14 @@ class Split(NamedTuple):
     """The statements of an ontology that take effect, and the shipped terms of those that are ignored."""
 
     ontology: Ontology
-    counting: tuple[ox.Quad, ...]
+    counting: tuple[ox.Triple, ...]
     passed: tuple[str, ...]
 
 
 def split_statements(ontology: Ontology, shipped: Iterable[Ontology], standing: frozenset[str]) -> Split:
     """Divide the statements of an ontology; `standing` are the shipped terms."""
     known = {(each.subject, each.predicate, each.object) for other in shipped for each in other.triples}
-    counting: list[ox.Quad] = []
+    counting: list[ox.Triple] = []
     passed: list[str] = []
     lists = _lists_of_shipped(ontology, standing)
     for each in ontology.triples:
@@ -91,14 +91,14 @@ def _lists_of_shipped(ontology: Ontology, standing: frozenset[str]) -> dict[ox.B
     return found
 
 
-def _links(triple: ox.Quad, standing: frozenset[str]) -> bool:
+def _links(triple: ox.Triple, standing: frozenset[str]) -> bool:
     """Whether a statement about a shipped term links it to one of the user's."""
     if triple.predicate.value not in LINKS or not isinstance(triple.object, ox.NamedNode):
         return False
     return triple.object.value not in standing and not triple.object.value.startswith(BUILT_IN)
 
 
-def _is_axiom(triple: ox.Quad) -> bool:
+def _is_axiom(triple: ox.Triple) -> bool:
     """Whether a statement is an axiom rather than an annotation."""
     if triple.predicate.value != TYPE:
         return triple.predicate.value in AXIOMS

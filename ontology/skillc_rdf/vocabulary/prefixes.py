@@ -11,7 +11,7 @@ import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source, Span
-from skillc_rdf.vocabulary.formats import detect_format
+from skillc_rdf.formats.detect import detect_format
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import BUILT_IN, KINDS, OWL, TYPE, VANN
 from skillc_rdf.vocabulary.reading import Ontology

@@ -65,7 +65,7 @@ def report_missing_imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Di
                 )
 
 
-def _kinds(triple: ox.Quad, graph: Graph) -> Iterator[str]:
+def _kinds(triple: ox.Triple, graph: Graph) -> Iterator[str]:
     said = triple.predicate.value
     if said in PREDICATES or (said == RESTRICTIONS and not _are_bounds(triple.object, graph)):
         yield _short(said)

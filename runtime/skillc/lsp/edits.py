@@ -9,7 +9,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
 
 from skillc.lsp import diagnostics as problems
-from skillc.lsp.files import Root, is_turtle
+from skillc.lsp.files import Root, is_rdf
 from skillc.lsp.libraries import FileView, parse
 from skillc.lsp.positions import PositionConverter
 from skillc.lsp.scenes import read_scene_texts
@@ -83,7 +83,7 @@ def rename(session: Session, params: types.RenameParams) -> types.WorkspaceEdit:
 
 def offer_code_actions(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
     """Offer the fixes of the diagnostics in a range, and one action for all safe fixes of the file."""
-    if is_turtle(session.file(params.text_document.uri)):
+    if is_rdf(session.file(params.text_document.uri)):
         return _in_turtle(session, params)
     view = session.libraries.view(params.text_document.uri)
     here = [problem for problem in view.analysis.problems if problem.span.path == view.path]
@@ -147,7 +147,13 @@ def _item(offer: Offer, order: int, place: types.Range) -> types.CompletionItem:
 
 def _scenes_beside(view: FileView) -> Iterable[str]:
     folder = (view.root.folder / view.path).parent
-    return (file.relative_to(folder).as_posix() for pattern in ("*.ttl", "*/*.ttl") for file in folder.glob(pattern))
+    files = (
+        file
+        for pattern in ("*", "*/*")
+        for file in folder.glob(pattern)
+        if file.suffix in catalogue.ENDINGS and file.suffix != ".xml"
+    )
+    return (file.relative_to(folder).as_posix() for file in files)
 
 
 def _quick_fix(session: Session, root: Root, lines: PositionConverter, problem: Diagnostic) -> types.CodeAction:

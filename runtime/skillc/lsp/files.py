@@ -55,12 +55,12 @@ def find_root(file: Path, folders: Sequence[Path]) -> Root:
 
 def read_sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
     """Return the texts of a library by path relative to its folder; `buffers` replace the files on disk."""
-    own = [file for file in buffers if root.holds(file) and not is_turtle(file)]
+    own = [file for file in buffers if root.holds(file) and not is_rdf(file)]
     files = sorted({*_on_disk(root), *own})
     return {path: _source(file, path, buffers) for file, path in ((f, _relative(f, root)) for f in files)}
 
 
-def is_turtle(file: Path) -> bool:
+def is_rdf(file: Path) -> bool:
     """Whether the name of a file is that of a scene or a vocabulary."""
     return file.suffix in catalogue.ENDINGS
 

@@ -59,7 +59,7 @@ class Libraries:
         file = self.file(uri)
         opened = file not in self.buffers
         self.buffers[file] = normalise_text(text)
-        if opened or files.is_turtle(file):
+        if opened or files.is_rdf(file):
             self.forget(file)
             return file
         for root, known in self._sources.items():

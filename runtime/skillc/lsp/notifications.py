@@ -5,8 +5,9 @@ from __future__ import annotations
 from lsprotocol import types
 
 from skillc.lsp.session import Session
+from skillc_ontology import catalogue
 
-_WATCHED = ("**/*.skill", "**/*.ttl", "**/skillc.toml")
+_WATCHED = ("**/*.skill", *(f"**/*{ending}" for ending in catalogue.ENDINGS), "**/skillc.toml")
 
 
 def on_initialized(session: Session, params: types.InitializedParams) -> None:

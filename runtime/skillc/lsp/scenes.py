@@ -61,7 +61,7 @@ def find_problems(scenes: TaskScenes | None, analysis: Analysis) -> tuple[Diagno
 def read_scene_texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
     """Return the texts of the scenes and manifests that diagnostics point into, by the diagnostics' paths."""
     paths = {span.path for each in found for span in (each.span, *(label.span for label in each.labels))}
-    wanted = sorted(path for path in paths if path.endswith((".ttl", ".toml")) and Path(path).is_file())
+    wanted = sorted(path for path in paths if path.endswith((*catalogue.ENDINGS, ".toml")) and Path(path).is_file())
     return {path: _text(Path(path), buffers) for path in wanted}
 
 

@@ -14,7 +14,7 @@ from pygls.lsp.server import LanguageServer
 from skillc.lsp import edits as writing
 from skillc.lsp import notifications as documents
 from skillc.lsp import queries as reading
-from skillc.lsp.files import is_turtle
+from skillc.lsp.files import is_rdf
 from skillc.lsp.messages import MessageReader, MessageWriter, Protocol
 from skillc.lsp.session import Session
 from skillc.services.errors import OutputError
@@ -80,7 +80,7 @@ def make_session() -> Session:
 def _for_skill_files(answer: Handler, session: Session, params: Any) -> object:
     """Answer a request about a skill file; return None for a scene or a vocabulary."""
     document = getattr(params, "text_document", None)
-    if document is not None and is_turtle(session.file(document.uri)):
+    if document is not None and is_rdf(session.file(document.uri)):
         return None
     return answer(session, params)
 

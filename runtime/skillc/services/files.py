@@ -63,6 +63,23 @@ def rewrite_file(path: Path, old: str, new: str) -> None:
         raise ServiceError(f"{path} cannot be written: {error.strerror}; it is unchanged") from error
 
 
+def write_file(path: Path, text: str) -> None:
+    """Write a file, completely or not at all, and the folders above it. ServiceError if it cannot be written."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if path.exists() and not path.is_file():
+            path.write_text(text, encoding="utf-8")  # a pipe or a device
+            return
+        new = path.with_name(f".{path.name}.{os.getpid()}.new")
+        try:
+            new.write_text(text, encoding="utf-8", newline="\n")
+            new.replace(path)
+        finally:
+            new.unlink(missing_ok=True)
+    except OSError as error:
+        raise ServiceError(f"{path} cannot be written: {error.strerror}") from error
+
+
 def _encode(text: str, before: bytes) -> bytes:
     """Return the bytes of a text with the line ends and byte order mark of the file's content `before`."""
     dos = before.count(b"\r\n") > before.count(b"\n") // 2

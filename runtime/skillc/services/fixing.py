@@ -166,7 +166,7 @@ def _change(path: Path, fixes: Sequence[Fix]) -> FileChange:
 
 
 def _is_own_turtle(path: Path) -> bool:
-    turtle = path.suffix == ".ttl" and path.is_file()
+    turtle = path.suffix in catalogue.ENDINGS and path.is_file()
     return turtle and not path.resolve().is_relative_to(catalogue.ROOT.resolve())
 
 

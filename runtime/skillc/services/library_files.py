@@ -19,7 +19,9 @@ from skillc_ontology import catalogue
 
 SHIPPED = projects.SHIPPED
 _STDIN = Path("stdin.skill")
-_VOCABULARY = re.compile(r"^[^#\n]*(?:owl:Ontology\b|owl#Ontology[>\"])", re.MULTILINE)
+_IN_TURTLE = re.compile(r"^(?:<[^>\n]*>|[^#<\n])*?(?:owl:Ontology\b|<[^>\n]*owl#Ontology>)", re.MULTILINE)
+_NOT_TURTLE = ("<?xml", "<!", "<rdf:", "{", "[")
+_ELSEWHERE = re.compile(r"(?:owl:|owl#|&owl;)Ontology[\"\s/>]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +152,8 @@ def is_vocabulary(path: Path) -> bool:
         text = read_file(path).decode("utf-8", errors="replace")
     except OSError:
         return False
-    return bool(_VOCABULARY.search(text)) and not is_generated(text)
+    written = _ELSEWHERE if text.lstrip("\ufeff \t\r\n").startswith(_NOT_TURTLE) else _IN_TURTLE
+    return bool(written.search(text)) and not is_generated(text)
 
 
 def read_vocabularies(files: Iterable[tuple[str, Path]]) -> tuple[Source, ...]:

@@ -15,6 +15,7 @@ from skillc.services.files import rewrite_file
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import decode
 from skillc_ontology import catalogue
+from skillc_rdf.formats.detect import detect_format
 from skillc_rdf.turtle.editing import INDENT, Editor
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Node, Parsed
@@ -39,7 +40,13 @@ class SceneFile:
         if catalogue.ROOT in path.resolve().parents:
             raise ServiceError(f"the shipped scene {path.name} cannot be changed; copy it and edit the copy")
         self.path, self.state = path, state
-        self._before = decode(str(path), path.read_bytes()).text
+        source = decode(str(path), path.read_bytes())
+        form = detect_format(source)
+        if form != ox.RdfFormat.TURTLE:
+            turtle = path.with_suffix(".ttl")
+            convert = f"`skillc world {path} --export turtle -o {turtle}`"
+            raise ServiceError(f"{path} is {form.name}, and only Turtle can be edited; convert it first: {convert}")
+        self._before = source.text
         self.editor = Editor(self._before, BASE, lambda iri: state.vocabulary.aliases.get(iri, iri))
 
     @property

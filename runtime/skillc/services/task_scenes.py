@@ -58,7 +58,7 @@ class TaskScenes:
 def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[Scene | None]:
     """Read a scene file, or `text` in its place."""
     try:
-        document = Document.read(path) if text is None else Document(str(path), text)
+        document = Document.read(path) if text is None else Document.of(str(path), text)
         scene = read_with_sheets(document, vocabulary)
     except SceneError as error:
         return Outcome(None, tuple(scene_diagnostics.with_shown_paths(error.problems)))

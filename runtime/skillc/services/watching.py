@@ -14,8 +14,9 @@ from skillc.services.checking import CheckRequest, CheckResult, check_sources, r
 from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles
 from skillc.services.reporting import Reporter
+from skillc_ontology import catalogue
 
-_ENDINGS = (".skill", ".ttl", ".py", ".toml", ".lock")
+_ENDINGS = (".skill", *catalogue.ENDINGS, ".py", ".toml", ".lock")
 _PAUSE_MS = 300
 """How often folders are polled for their existence, in ms."""
 Folders: TypeAlias = frozenset[tuple[Path, int]]

@@ -1,4 +1,4 @@
-"""Reads Turtle files as statements with their positions; SceneError is the error for a scene with mistakes."""
+"""Reads RDF files as statements with their positions; SceneError is the error for a scene with mistakes."""
 
 from __future__ import annotations
 
@@ -11,10 +11,13 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.source import Span
+from skillc_dsl.source import Source, Span
+from skillc_rdf.formats.detect import detect_format
+from skillc_rdf.formats.read import UnreadableError, read_content
 from skillc_rdf.turtle.parser import parse as parse_turtle
 from skillc_rdf.turtle.statements import Parsed, Statement
 from skillc_rdf.turtle.terms import OWL, RDF, RDFS, XSD
+from skillc_runtime.scene.conversion import Origin, convert, lead_back
 from skillc_runtime.scene.memory import BULK_BYTES, TooLittleMemory, check_available
 
 BASE = "file:///scene"
@@ -38,10 +41,24 @@ class SceneError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A Turtle file: its path or name in messages, and its text."""
+    """A text in Turtle: its path or name in messages, and where it comes from if that was in another format."""
 
     path: str
     text: str
+    origin: Origin | None = None
+
+    @staticmethod
+    def of(path: str, text: str) -> Document:
+        """Return a text in any format as a document; SceneError when it cannot be read."""
+        source = Source(path, text)
+        form = detect_format(source)
+        if form == ox.RdfFormat.TURTLE:
+            return Document(path, text)
+        try:
+            return Document(path, *convert(source, read_content(source, BASE)))
+        except UnreadableError as error:
+            place = Span(path, error.line, error.column, error.line, error.column + 1)
+            raise SceneError([Diagnostic("unreadable-scene", place, str(error), error.help)]) from error
 
     @staticmethod
     def read(path: Path) -> Document:
@@ -60,7 +77,7 @@ class Document:
             raise SceneError([_not_utf8(path, data, error.start)]) from error
         if "\0" in text[:2]:
             raise SceneError([_not_utf8(path, data, 0)])
-        return Document(str(path), text)
+        return Document.of(str(path), text)
 
 
 def parse(document: Document, prefixes: Mapping[str, str] | None = None) -> Parsed:
@@ -94,7 +111,8 @@ def unreadable_problem(path: str, reason: str, line: int = 1, column: int = 1) -
 
 @lru_cache(maxsize=CACHED)
 def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed:
-    return parse_turtle(document.path, document.text, BASE, dict(prefixes))
+    parsed = parse_turtle(document.path, document.text, BASE, dict(prefixes))
+    return lead_back(parsed, document.text, document.origin, BASE) if document.origin else parsed
 
 
 def _not_utf8(path: Path, data: bytes, start: int) -> Diagnostic:

@@ -19,6 +19,7 @@ from skillc_runtime.scene.checks.classes import check_class_parents, have_valid_
 from skillc_runtime.scene.checks.identity import IdentityChecker
 from skillc_runtime.scene.checks.ineffective import check_ineffective, check_language_tags, check_missing_classes
 from skillc_runtime.scene.checks.terms import check_spelling, check_unnamed
+from skillc_runtime.scene.conversion import name_subjects
 from skillc_runtime.scene.documents import Document, SceneError, parse, unreadable_problem, with_canonical_terms
 from skillc_runtime.scene.interpretation import interpret_table
 from skillc_runtime.scene.memory import PLACED_BYTES, TooLittleMemory, check_available
@@ -125,7 +126,7 @@ def load_sheets(vocabulary: Vocabulary) -> WorldState:
 
 def sheet_documents() -> list[Document]:
     """Return the packaged vocabularies and data sheets, and the data sheets in the user's folders."""
-    return [Document(name, text) for name, text in sheet_files()]
+    return [Document.of(name, text) for name, text in sheet_files()]
 
 
 def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
@@ -150,7 +151,8 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
     lost = individuals_of_unknown_classes(said, own, vocabulary)
     clear = tuple(each for each in select_facts(said, vocabulary) if iri_of(each.subject) not in lost)
     scene = _build_scene(clear, vocabulary, [*syntax, *terms], _doubtful_individuals(parsed) | lost)
-    return _with_scene_warnings(scene, written, own)
+    scene = _with_scene_warnings(scene, written, own)
+    return replace(scene, problems=_sort_problems(name_subjects(scene.problems, said, vocabulary.short)))
 
 
 def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:

@@ -1,4 +1,4 @@
-"""Show, search, query, compare or draw a scene or a stored world.
+"""Show, search, query, compare, draw or export a scene or a stored world.
 
 By default lists the individuals with their types, relations and properties.
 
@@ -19,6 +19,8 @@ from skillc.cli.options import PATH, json_option, store_options
 if TYPE_CHECKING:
     from skillc.services.scenes import OpenScene
 
+FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
+
 
 @click.command(cls=Command)
 @click.argument("scene", required=False, type=PATH)
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 @click.option("--show", "names", multiple=True, help="Show all facts about an individual, including derived ones.")
 @click.option("--diff", "other", type=PATH, help="Show the differences between this scene and another one.")
 @click.option("--graph", type=click.Path(path_type=Path, dir_okay=False), help="Draw the scene as an SVG file.")
+@click.option("--export", "form", type=click.Choice(FORMATS), help="Write the scene in an RDF format.")
+@click.option("-o", "--output", type=click.Path(path_type=Path, dir_okay=False), help="The file to export to.")
 @click.option("--edit", "edits", multiple=True, hidden=True)
 @click.option(
     "--library",
@@ -43,6 +47,8 @@ def command(
     names: tuple[str, ...],
     other: Path | None,
     graph: Path | None,
+    form: str | None,
+    output: Path | None,
     edits: tuple[str, ...],
     library: Path | None,
     store: str | None,
@@ -50,7 +56,10 @@ def command(
     everything: bool,
     as_json: bool,
 ) -> None:
-    """Show SCENE, a Turtle file or the name of a shipped scene, or the world that a store holds.
+    """Show SCENE, a file or the name of a shipped scene, or the world that a store holds.
+
+    A scene is Turtle, RDF/XML, JSON-LD, N-Triples or TriG; the format is told by its content. `--export` writes it in
+    one of them, without the facts of data sheets, which are part of every world (with `--all`, with them).
 
     In a project, SCENE may be left out if the manifest names one, and is also looked up in the project's folder.
 
@@ -61,19 +70,26 @@ def command(
     `skillc scene` writes scenes.
     """
     from skillc.cli.console import Terminal
-    from skillc.services import scenes
+    from skillc.services import scene_export, scenes
     from skillc.services.stores import StoreChoice
 
     choice = StoreChoice(store, reset)
     if edits:
         words_of_edits = " ".join(map(shlex.quote, edits))
         raise click.UsageError(f"`world` only reads; write `skillc scene edit {scene or 'SCENE'} {words_of_edits}`")
-    if sum(map(bool, (sparql is not None, words is not None, names, other, graph))) > 1:
-        raise click.UsageError("--query, --search, --show, --diff and --graph cannot be combined")
+    if sum(map(bool, (sparql is not None, words is not None, names, other, graph, form))) > 1:
+        raise click.UsageError("--query, --search, --show, --diff, --graph and --export cannot be combined")
+    if output and not form:
+        raise click.UsageError("--output requires --export FORMAT")
     with scenes.open_scene(scene, library, choice, everything, Terminal()) as opened:
         if graph:
             scenes.draw_scene(opened, graph)
             click.echo(graph)
+        elif form and output:
+            scene_export.write_export(opened, form, output, everything)
+            click.echo(output)
+        elif form:
+            click.echo(scene_export.export_scene(opened, form, everything), nl=False)
         else:
             click.echo(_format_view(opened, sparql, other, names, words, as_json))
 

@@ -14,19 +14,13 @@ import msgspec
 from skillc.services.errors import ServiceError
 from skillc.services.project.project import Project, is_nested_project
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_ontology import catalogue
 
 LOCK = "skillc.lock"
 _HEAD = "# Written by `skillc lock`; `skillc check` compares it with the libraries that are used. Commit this file.\n"
 _ENDINGS = (
     ".skill",
-    ".ttl",
-    ".owl",
-    ".rdf",
-    ".nt",
-    ".nq",
-    ".trig",
-    ".jsonld",
-    ".xml",
+    *catalogue.ENDINGS,
     ".urdf",
     ".py",
     ".toml",

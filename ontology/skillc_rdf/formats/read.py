@@ -1,0 +1,111 @@
+"""Reads the triples of a text in any format that is supported; all graphs of a file are one.
+
+What parsers of other formats do not survive (entities that expand to gigabytes, brackets nested thousands deep) and
+what they would need the network for is reported before they start.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from urllib.parse import quote
+from xml.parsers import expat
+
+import pyoxigraph as ox
+
+from skillc_dsl.source import Source
+from skillc_rdf.formats import json_ld
+from skillc_rdf.formats.detect import UnsupportedFormat, detect_format
+
+DEEPEST = 200
+"""The greatest depth of nested elements, objects and lists."""
+MOST_MEGABYTES = 16
+"""The greatest length of one text in a file, in MB, which is the parser's."""
+_SINGLE_QUOTED = re.compile(r"(<!ENTITY\s+[\w.-]+\s+)'([^'\"]*)'")
+_ENCODING = re.compile(r"(<\?xml[^>]*?)\s+encoding\s*=\s*[\"'][\w.-]+[\"']")
+
+
+class UnreadableError(ValueError):
+    """A text that cannot be read; the message says why, with the line and the column from 1."""
+
+    def __init__(self, message: str, help: str = "", line: int = 1, column: int = 1) -> None:
+        super().__init__(message)
+        self.help, self.line, self.column = help, line, column
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """The triples of a text in order, the graphs that it names, and the prefixes that it declares."""
+
+    triples: tuple[ox.Triple, ...]
+    prefixes: dict[str, str]
+
+
+def read_content(source: Source, base: str | None = None) -> Content:
+    """Read a text; relative IRIs are resolved against `base`, by default the file's. UnreadableError."""
+    form = detect_format(source)
+    if isinstance(form, UnsupportedFormat):
+        raise UnreadableError(f"this file is {form.name}, which is not supported", form.help)
+    try:
+        text = _checked(source.text, form)
+        parser = ox.parse(text, form, base_iri=base or _file_iri(source), rename_blank_nodes=True)
+        triples = tuple(each.triple for each in parser)
+    except SyntaxError as error:
+        reason = (error.msg or "").rpartition(": ")[2] or "it is not complete"
+        raise _wrong(form, reason, error.lineno or 1, error.offset or 1) from error
+    except MemoryError as error:
+        raise UnreadableError(f"a text in this file is longer than {MOST_MEGABYTES} MB", "shorten the text") from error
+    prefixes = json_ld.find_prefixes(source.text) if form == ox.RdfFormat.JSON_LD else parser.prefixes
+    return Content(triples, {name: iri for name, iri in prefixes.items() if name})
+
+
+def _checked(text: str, form: ox.RdfFormat) -> str:
+    """Return a text that the parser can be given; UnreadableError."""
+    if form == ox.RdfFormat.RDF_XML:
+        return _checked_xml(text)
+    if form == ox.RdfFormat.JSON_LD:
+        problem = json_ld.find_problem(text, DEEPEST)
+        if problem is not None:
+            raise UnreadableError(*problem)
+    return text
+
+
+def _checked_xml(text: str) -> str:
+    """Return XML as the parser needs it; UnreadableError if it is not well-formed, or refers to other files."""
+    parser = expat.ParserCreate()
+    depth = 0
+
+    def start(_name: str, _attributes: object) -> None:
+        nonlocal depth
+        depth += 1
+        if depth > DEEPEST:
+            line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+            raise UnreadableError("this file cannot be read: it is nested too deeply", json_ld.FLATTEN, line, column)
+
+    def end(_name: str) -> None:
+        nonlocal depth
+        depth -= 1
+
+    def entity(name: str, _is_parameter: int, value: str | None, *_where: object) -> None:
+        if value is None:
+            help_ = f"write the text of `{name}` into the file"
+            line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+            raise UnreadableError(f"the entity `{name}` is in another file, which is not read", help_, line, column)
+
+    parser.StartElementHandler, parser.EndElementHandler, parser.EntityDeclHandler = start, end, entity
+    try:
+        parser.Parse(text, True)
+    except expat.ExpatError as error:
+        reason = expat.errors.messages.get(error.code, str(error))
+        raise _wrong(ox.RdfFormat.RDF_XML, reason, error.lineno, error.offset + 1) from error
+    text = _SINGLE_QUOTED.sub(r'\1"\2"', text)
+    return _ENCODING.sub(r"\1", text, count=1) if text.isascii() else text
+
+
+def _file_iri(source: Source) -> str:
+    return f"file:///{quote(source.path.lstrip('/'))}"
+
+
+def _wrong(form: ox.RdfFormat, reason: str, line: int, column: int) -> UnreadableError:
+    help_ = "correct the file; until then all of it is ignored"
+    return UnreadableError(f"this file is not {form.name}: {reason}", help_, line, column)

@@ -1,0 +1,1 @@
+"""Scenes and the Turtle they are written in."""
