@@ -83,6 +83,6 @@ clean:           ## remove the environment and all output
 
 # Compile what the tests import once, on all cores; otherwise each test process does it. Some files need another Python.
 .venv/.dev: .venv/.runtime
-	$(INSTALL) -e '.[planner,temporal,motion,fast,meshes,video,data,editor,docs,dev]'
+	$(INSTALL) -e '.[planner,temporal,motion,fast,meshes,video,data,server,editor,docs,dev]'
 	$(BIN)/python -m compileall -qq -j 0 .venv/lib || true
 	@touch $@

@@ -12,9 +12,11 @@ from typing import TypeVar
 
 import pytest
 
+from skillc.cells.database import DatabaseError
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.journal.schema import FORMAT, JournalError
+from skillc.cells.journal.schema import SCHEMA
+from skillc.cells.operation import OperationRequest
 from skillc.cells.world import restore_world
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
@@ -43,7 +45,7 @@ def reading(path: Path) -> Iterator[JournalReader]:
 def test_only_what_is_committed_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "journal.sqlite"
     with closing(CellJournal(path, NullStore())) as journal:
-        journal.add_operation("op", Note(time=0.0, message="the request"))
+        journal.add_operation("op", OperationRequest(task="tidy"))
         for number in (1, 2, 3):
             journal.record(note(number))
         journal.commit()
@@ -52,7 +54,7 @@ def test_only_what_is_committed_is_kept(tmp_path: Path) -> None:
             assert reader.envelopes("op", after=1, limit=1) == (note(2),)
             assert reader.last_sequence("op") == 3 and reader.last_sequence("other") == 0
     with reading(path) as reader:
-        assert [each.id for each in reader.operations()] == ["op"]
+        assert [(each.id, each.request.task) for each in reader.unfinished()] == [("op", "tidy")]
         assert reader.envelopes("op") == (note(1), note(2), note(3))
 
 
@@ -102,14 +104,14 @@ def test_a_world_that_is_older_than_the_journal_is_refused(tmp_path: Path) -> No
         journal.commit()
     with closing(sqlite3.connect(tmp_path / "journal.sqlite")) as connection, connection:
         connection.execute("UPDATE transactions SET sequence = sequence + 5")
-    with pytest.raises(JournalError, match="restore both from the same backup"), opened(tmp_path, DiskStore):
+    with pytest.raises(DatabaseError, match="restore both from the same backup"), opened(tmp_path, DiskStore):
         pass
 
 
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("PRAGMA user_version = 99", f"format 99 of a newer skillc; this one reads up to {FORMAT}"),
+        ("PRAGMA user_version = 99", f"format 99 of a newer skillc; this one reads up to {SCHEMA.format}"),
         ("CREATE TABLE recipes (name TEXT)", "is a database of something else"),
     ],
 )
@@ -117,14 +119,14 @@ def test_what_is_no_journal_is_refused(tmp_path: Path, content: str, message: st
     path = tmp_path / "journal.sqlite"
     with closing(sqlite3.connect(path)) as connection, connection:
         connection.execute(content)
-    with pytest.raises(JournalError, match=message):
+    with pytest.raises(DatabaseError, match=message):
         CellJournal(path, NullStore())
 
 
 def test_a_damaged_file_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "journal.sqlite"
     path.write_bytes(b"SQLite format 3\0" + bytes(range(256)) * 40)
-    with pytest.raises(JournalError, match=r"journal.sqlite is damaged .*; restore a backup"):
+    with pytest.raises(DatabaseError, match=r"journal.sqlite is damaged .*; restore a backup"):
         CellJournal(path, NullStore())
 
 

@@ -132,6 +132,7 @@ class CellHost:
                 submitted.reported = operation
                 changed.append(operation)
             if submitted.run.ended:
+                self._journal.end_operation(operation)
                 del self._operations[operation.id]
         return tuple(changed)
 
@@ -189,7 +190,7 @@ class _Submitted:
 def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
     """Start a cell where it ended: its world is that of its journal, and operations that had no end are interrupted.
 
-    ServiceError, DiagnosticsError, StoreError, JournalError, SheetError or FrameError if that is not possible.
+    ServiceError, DiagnosticsError, StoreError, DatabaseError, SheetError or FrameError if that is not possible.
     """
     library, scene = compile_valid(find_library(Path(settings.library))), find_scene(Path(settings.scene))
     folder = Path(settings.folder)
@@ -200,7 +201,7 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
         with closing(CellJournal(folder / "journal.sqlite", store)) as journal:
             with closing(JournalReader(folder / "journal.sqlite")) as reader:
                 world = restore_world(store, state, sequence, journal, reader)
-                end_interrupted(reader, journal)
+                end_interrupted(settings.name, reader, journal)
             host = CellHost(settings, library, world, journal, scene)
             try:
                 yield host

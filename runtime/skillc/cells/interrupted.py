@@ -6,26 +6,47 @@ import time
 
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader, RecordedOperation
+from skillc.cells.operation import Operation
 from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.events import TaskEnded
+from skillc_runtime.recording.events import TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
 
 REASON = "the process of the cell ended while it ran"
 
 
-def end_interrupted(reader: JournalReader, journal: CellJournal) -> None:
-    """Write the end of every operation that has none: it was interrupted. NotDurable if that cannot be written."""
-    for operation in reader.operations():
-        _end(operation, reader, journal)
+def end_interrupted(cell: str, reader: JournalReader, journal: CellJournal) -> None:
+    """Write the end of every operation that has none: it was interrupted, unless its last event says otherwise.
+
+    NotDurable if that cannot be written.
+    """
+    for operation in reader.unfinished():
+        last = reader.last_sequence(operation.id)
+        final = reader.envelopes(operation.id, last - 1)[-1]
+        if not isinstance(final.event, TaskEnded):
+            final = _interrupt(final)
+            journal.record(final)
+        journal.end_operation(_describe(cell, operation, reader, final))
     journal.commit()
 
 
-def _end(operation: RecordedOperation, reader: JournalReader, journal: CellJournal) -> None:
-    last = reader.last_sequence(operation.id)
-    envelopes = reader.envelopes(operation.id, last - 1)
-    if not envelopes or isinstance(envelopes[-1].event, TaskEnded):
-        return
-    before = envelopes[-1]
+def _interrupt(last: Envelope) -> Envelope:
+    """Return the event that ends an operation after its last one."""
     failure = Failure(kind="interrupted", message=REASON)
-    ended = TaskEnded(time=before.cell_time_s, task=operation.id, status="interrupted", failure=failure)
-    journal.record(Envelope(run=operation.id, sequence=last + 1, wall_time_ns=time.time_ns(), event=ended))
+    ended = TaskEnded(time=last.cell_time_s, task=last.run, status="interrupted", failure=failure)
+    return Envelope(run=last.run, sequence=last.sequence + 1, wall_time_ns=time.time_ns(), event=ended)
+
+
+def _describe(cell: str, operation: RecordedOperation, reader: JournalReader, final: Envelope) -> Operation:
+    started, ended = reader.envelopes(operation.id, limit=1)[0].event, final.event
+    assert isinstance(started, TaskStarted) and isinstance(ended, TaskEnded), "the first and the last event"
+    return Operation(
+        id=operation.id,
+        cell=cell,
+        request=operation.request,
+        state=ended.status,
+        reason=ended.failure.message if ended.failure else "",
+        events=final.sequence,
+        verified=ended.verified,
+        failure=ended.failure,
+        library_hash=started.hash,
+    )

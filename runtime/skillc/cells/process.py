@@ -12,9 +12,9 @@ import sys
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 
+from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
 from skillc.cells.host import CellSettings, open_cell
-from skillc.cells.journal.schema import JournalError
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
 from skillc.cells.messages import NotStarted
 from skillc.cells.service import CellService
@@ -56,7 +56,7 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
         outbox.close(CLOSE_S)
     except DiagnosticsError as error:
         return _refuse(requests, "\n".join(map(str, error.diagnostics)))
-    except (ServiceError, JournalError, StoreError, SheetError, FrameError) as error:
+    except (ServiceError, DatabaseError, StoreError, SheetError, FrameError) as error:
         return _refuse(requests, str(error))
     return 0
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from skillc.cells.database import DatabaseError
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalledWrite, JournalReader
-from skillc.cells.journal.schema import JournalError
 from skillc_runtime.world.state.evidence import MAX_WRITES, EvidenceLedger
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, TransactionLog
@@ -18,7 +18,7 @@ def restore_world(
 ) -> WorldModel:
     """Return the world that a store and a journal keep, with the evidence for its facts.
 
-    The store is in `state` after the write `sequence`; it gets the writes that it missed. JournalError if store and
+    The store is in `state` after the write `sequence`; it gets the writes that it missed. DatabaseError if store and
     journal do not belong together, StoreError if the store cannot be written.
     """
     writes = reader.writes(after=min(sequence, reader.last_write) - MAX_WRITES)
@@ -35,13 +35,13 @@ def _catch_up(
     """Give a store, which is in `state` after the write `sequence`, the writes after it; return the same."""
     for transaction in (each.transaction for each in missing):
         if transaction.sequence != sequence + 1:
-            raise JournalError(
+            raise DatabaseError(
                 f"{store} ends with the write {sequence}, but the journal of its cell continues with "
                 f"{transaction.sequence}; restore both from the same backup"
             )
         after = state.with_changes(transaction.changes)
         if not store.append(ChangeEvent(transaction.changes, transaction.origin, state, after, None), sequence):
-            raise JournalError(f"{store} was written to by others; only its cell may write to it")
+            raise DatabaseError(f"{store} was written to by others; only its cell may write to it")
         state, sequence = after, transaction.sequence
     return state, sequence
 

@@ -9,7 +9,9 @@ from pathlib import Path
 
 import msgspec
 
-from skillc.cells.journal.schema import describe_error, open_for_writing
+from skillc.cells.database import describe_error, open_for_writing
+from skillc.cells.journal.schema import SCHEMA
+from skillc.cells.operation import Operation, OperationRequest
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import encode_changes
@@ -17,6 +19,7 @@ from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction, TransactionLog
 
 _INSERT_OPERATION = "INSERT INTO operations (id, submitted_ns, request) VALUES (?, ?, ?)"
+_END_OPERATION = "UPDATE operations SET ended = ? WHERE id = ?"
 _INSERT_EVENT = "INSERT INTO events (operation, sequence, envelope) VALUES (?, ?, ?)"
 _INSERT_TRANSACTION = "INSERT INTO transactions (sequence, origin, evidence, changes, undo) VALUES (?, ?, ?, ?, ?)"
 
@@ -26,11 +29,12 @@ class _Pending:
     """What has happened since the last commit."""
 
     operations: list[tuple[str, int, bytes]] = field(default_factory=list)
+    ended: list[tuple[bytes, str]] = field(default_factory=list)
     events: list[tuple[str, int, bytes]] = field(default_factory=list)
     writes: list[tuple[int, ChangeEvent]] = field(default_factory=list)
 
     def __bool__(self) -> bool:
-        return bool(self.operations or self.events or self.writes)
+        return bool(self.operations or self.ended or self.events or self.writes)
 
 
 class CellJournal:
@@ -41,9 +45,9 @@ class CellJournal:
     """
 
     def __init__(self, path: Path, store: TransactionLog) -> None:
-        """Open or create a journal; JournalError if that is not possible."""
+        """Open or create a journal; DatabaseError if that is not possible."""
         self.path, self._store = path, store
-        self._connection = open_for_writing(path)
+        self._connection = open_for_writing(path, SCHEMA)
         self._encoder = msgspec.json.Encoder()
         self._pending = _Pending()
 
@@ -63,9 +67,13 @@ class CellJournal:
         except sqlite3.Error as error:
             raise NotDurable(str(describe_error(self.path, error))) from error
 
-    def add_operation(self, operation: str, request: msgspec.Struct) -> None:
+    def add_operation(self, operation: str, request: OperationRequest) -> None:
         """Record that an operation was submitted."""
         self._pending.operations.append((operation, time.time_ns(), self._encoder.encode(request)))
+
+    def end_operation(self, operation: Operation) -> None:
+        """Record how an operation has ended, after its last event."""
+        self._pending.ended.append((self._encoder.encode(operation), operation.id))
 
     def record(self, envelope: Envelope) -> None:
         """Record an event; a recorder for the publisher of a run."""
@@ -113,6 +121,7 @@ class CellJournal:
             self._connection.executemany(_INSERT_OPERATION, pending.operations)
             self._connection.executemany(_INSERT_EVENT, pending.events)
             self._connection.executemany(_INSERT_TRANSACTION, rows)
+            self._connection.executemany(_END_OPERATION, pending.ended)
             self._connection.execute("COMMIT")
         except BaseException:
             if self._connection.in_transaction:

@@ -10,7 +10,9 @@ from pathlib import Path
 
 import msgspec
 
-from skillc.cells.journal.schema import JournalError, describe_error, open_for_reading
+from skillc.cells.database import DatabaseError, describe_error, open_for_reading
+from skillc.cells.journal.schema import SCHEMA
+from skillc.cells.operation import Operation, OperationRequest
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import decode_changes
 from skillc_runtime.world.state.changes import Change
@@ -23,11 +25,12 @@ MAX_EVENTS = 1000
 
 @dataclass(frozen=True, slots=True)
 class RecordedOperation:
-    """An operation that was submitted, at a wall time in ns since 1970, with its request as JSON."""
+    """An operation that was submitted, at a wall time in ns since 1970; `ended` is how it ended, None before."""
 
     id: str
     submitted_ns: int
-    request: bytes
+    request: OperationRequest
+    ended: Operation | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,23 +43,30 @@ class JournalledWrite:
 
 
 class JournalReader:
-    """A connection that reads a journal; every method raises JournalError if that is not possible."""
+    """A connection that reads a journal; every method raises DatabaseError if that is not possible."""
 
     def __init__(self, path: Path) -> None:
-        """Open a journal; JournalError if there is none, or none of this format."""
+        """Open a journal; DatabaseError if there is none, or none of this format."""
         self._path = path
-        self._connection = open_for_reading(path)
+        self._connection = open_for_reading(path, SCHEMA)
         self._decoder = msgspec.json.Decoder(Envelope)
 
     def close(self) -> None:
         """Close the file."""
         self._connection.close()
 
-    def operations(self) -> tuple[RecordedOperation, ...]:
-        """Return all operations, in the order of their submission."""
-        query = "SELECT id, submitted_ns, request FROM operations ORDER BY submitted_ns, id"
-        with self._reading() as connection:
-            return tuple(RecordedOperation(*row) for row in connection.execute(query))
+    def unfinished(self) -> tuple[RecordedOperation, ...]:
+        """Return the operations without an end, in the order of their submission."""
+        return self._select("WHERE ended IS NULL ORDER BY submitted_ns, id")
+
+    def find(self, operation: str) -> RecordedOperation | None:
+        """Return the operation of this id; None if there is none."""
+        found = self._select("WHERE id = ?", operation)
+        return found[0] if found else None
+
+    def latest(self, before_ns: int, limit: int) -> tuple[RecordedOperation, ...]:
+        """Return the last operations that were submitted before a wall time in ns since 1970, the last one first."""
+        return self._select("WHERE submitted_ns < ? ORDER BY submitted_ns DESC, id LIMIT ?", before_ns, limit)
 
     def envelopes(self, operation: str, after: int = 0, limit: int = MAX_EVENTS) -> tuple[Envelope, ...]:
         """Return the events of an operation after number `after`, at most `limit` of them."""
@@ -86,6 +96,11 @@ class JournalReader:
             rows = connection.execute(query, (after,)).fetchall()
             return tuple(_make_write(*row) for row in rows)
 
+    def _select(self, which: str, *values: object) -> tuple[RecordedOperation, ...]:
+        with self._reading() as connection:
+            rows = connection.execute(f"SELECT id, submitted_ns, request, ended FROM operations {which}", values)
+            return tuple(_make_operation(*row) for row in rows.fetchall())
+
     @contextmanager
     def _reading(self) -> Iterator[sqlite3.Connection]:
         try:
@@ -93,7 +108,12 @@ class JournalReader:
         except sqlite3.Error as error:
             raise describe_error(self._path, error) from error
         except (msgspec.DecodeError, msgspec.ValidationError, ValueError) as error:
-            raise JournalError(f"{self._path} has a row that cannot be read: {error}") from error
+            raise DatabaseError(f"{self._path} has a row that cannot be read: {error}") from error
+
+
+def _make_operation(name: str, submitted_ns: int, request: bytes, ended: bytes | None) -> RecordedOperation:
+    end = None if ended is None else msgspec.json.decode(ended, type=Operation)
+    return RecordedOperation(name, submitted_ns, msgspec.json.decode(request, type=OperationRequest), end)
 
 
 def _make_write(sequence: int, origin: str, changes: str, evidence: Evidence | None, undo: str) -> JournalledWrite:

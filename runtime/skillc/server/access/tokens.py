@@ -1,0 +1,85 @@
+"""Tokens of clients: kept as hashes, shown once."""
+
+from __future__ import annotations
+
+import hmac
+import sqlite3
+import time
+from dataclasses import dataclass
+from hashlib import sha256
+from secrets import token_urlsafe
+
+import msgspec
+
+from skillc.server.access.roles import Role
+
+PREFIX = "skillc_"
+"""What a token begins with, so that programs that search for leaked secrets find it."""
+TOKEN_BYTES = 32
+
+TABLE = """
+CREATE TABLE tokens (
+    name       TEXT PRIMARY KEY,
+    role       TEXT NOT NULL,
+    hash       BLOB NOT NULL UNIQUE,           -- SHA-256 of the token, which has 256 random bits
+    created_ns INTEGER NOT NULL
+) WITHOUT ROWID
+"""
+
+
+class Client(msgspec.Struct, frozen=True):
+    """Who makes a request: the name of its token, and what it may do."""
+
+    name: str
+    role: Role
+
+
+class TokenInfo(msgspec.Struct, frozen=True):
+    """A token as it is listed, without its secret; `created_ns` is in ns since 1970-01-01 UTC."""
+
+    name: str
+    role: Role
+    created_ns: int
+
+
+class TokenExists(Exception):
+    """There is already a token of this name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tokens:
+    """The tokens in the state of a server."""
+
+    database: sqlite3.Connection
+
+    def add(self, name: str, role: Role) -> str:
+        """Make a token and return it: it cannot be read again. TokenExists if the name is taken."""
+        token = PREFIX + token_urlsafe(TOKEN_BYTES)
+        row = (name, role, _hash(token), time.time_ns())
+        try:
+            self.database.execute("INSERT INTO tokens (name, role, hash, created_ns) VALUES (?, ?, ?, ?)", row)
+        except sqlite3.IntegrityError as error:
+            raise TokenExists(f"there is already a token `{name}`; revoke it first, or choose another name") from error
+        return token
+
+    def list(self) -> tuple[TokenInfo, ...]:
+        """Return all tokens, sorted by name."""
+        rows = self.database.execute("SELECT name, role, created_ns FROM tokens ORDER BY name")
+        return tuple(TokenInfo(*row) for row in rows)
+
+    def revoke(self, name: str) -> bool:
+        """Remove a token; return whether there was one of this name."""
+        return self.database.execute("DELETE FROM tokens WHERE name = ?", (name,)).rowcount > 0
+
+    def find(self, token: str) -> Client | None:
+        """Return whose token it is; None if there is none such.
+
+        The hash of the token is looked up, so the time that it takes tells nothing about other tokens.
+        """
+        hashed = _hash(token)
+        row = self.database.execute("SELECT name, role, hash FROM tokens WHERE hash = ?", (hashed,)).fetchone()
+        return Client(row[0], row[1]) if row is not None and hmac.compare_digest(row[2], hashed) else None
+
+
+def _hash(token: str) -> bytes:
+    return sha256(token.encode()).digest()
