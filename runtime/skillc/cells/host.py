@@ -28,6 +28,7 @@ from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.publisher import Publisher
@@ -124,16 +125,21 @@ class CellHost:
             self.loop.stop(reason, submitted.run)
 
     def take_changed(self) -> tuple[Operation, ...]:
-        """Return the operations that have changed since this was called last; those that have ended are forgotten."""
+        """Return the operations that have changed since this was called last.
+
+        Those that have ended are forgotten; how they ended is in the journal.
+        """
         changed = []
         for submitted in tuple(self._operations.values()):
             operation = submitted.describe(self.settings.name)
             if operation != submitted.reported:
                 submitted.reported = operation
                 changed.append(operation)
-            if submitted.run.ended:
-                self._journal.end_operation(operation)
-                del self._operations[operation.id]
+        if ended := [each for each in changed if each.state in ENDS]:
+            for each in ended:
+                self._journal.end_operation(each)
+                del self._operations[each.id]
+            self.loop.obey()
         return tuple(changed)
 
     def tick(self) -> bool:

@@ -66,10 +66,12 @@ class StopRequest(msgspec.Struct, frozen=True):
 
 
 class Refused(msgspec.Struct, frozen=True, kw_only=True):
-    """Why nothing was done: the request is `invalid`, names something `unknown`, the state does not `allow` it, or the
-    cell is too `busy`; `allowed` are the commands that the state allows."""
+    """Why nothing was done: the request is `invalid`, the `state` does not allow it, the cell is too `busy`, or `off`.
 
-    kind: Literal["invalid", "unknown", "state", "busy"]
+    `allowed` are the commands that the state allows.
+    """
+
+    kind: Literal["invalid", "state", "busy", "off"]
     reason: str
     allowed: tuple[str, ...] = ()
 

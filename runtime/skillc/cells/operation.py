@@ -13,17 +13,16 @@ from skillc_runtime.recording.states import State
 class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
     """What is to be done: a `task` of the cell's library, a `goal` as a condition or as PDDL, or a `call` of a skill.
 
-    Operations wait in the order of their `priority`, the greatest first, then of their submission. `approve`: each plan
-    waits for approval. `ask_after_failure`: a failed step waits for a decision instead of another plan. The operation
-    fails if it has not ended `deadline_s` of the cell's time after its submission. It pauses before its first call
-    with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
+    Operations wait for devices in the order of their submission. `approve`: each plan waits for approval.
+    `ask_after_failure`: a failed step waits for a decision instead of another plan. The operation fails if it has not
+    ended `deadline_s` of the cell's time after its submission. It pauses before its first call with `step`, and at each
+    SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
     """
 
     task: str | None = None
     goal: str | None = None
     call: str | None = None
     owner: str = ""
-    priority: int = 0
     approve: bool = False
     ask_after_failure: bool = False
     deadline_s: float | None = None
@@ -31,7 +30,7 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     breakpoints: tuple[str, ...] = ()
 
 
-class Operation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class Operation(msgspec.Struct, frozen=True, kw_only=True):
     """An operation as it is now: `reason` says why it is in its state, or for what it waits.
 
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
@@ -51,11 +50,12 @@ class Operation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     library_hash: str = ""
 
 
-CellState: TypeAlias = Literal["operational", "fault"]
-"""`operational`: it takes operations. `fault`: it does not, until its cause is removed and that is acknowledged."""
+CellState: TypeAlias = Literal["off", "operational", "fault"]
+"""`off`: its process does not run. `operational`: it takes operations. `fault`: it does not, until the cause is removed
+and that is acknowledged."""
 
 
-class CellStatus(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
     """A cell as it is now; `reason` is why it is in its state.
 
     `library_hash` identifies the library that its next operation runs. `pace` is None for as fast as it computes.

@@ -2,5 +2,81 @@
 
 from __future__ import annotations
 
-FORMAT = 1
+import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from skillc.cells.database import Schema, open_for_writing
+from skillc.server.access.tokens import TABLE as TOKENS
+from skillc.server.access.tokens import Tokens
+from skillc.server.audit import TABLE as AUDIT
+from skillc.server.idempotency import TABLE as REQUESTS
+from skillc.services.errors import ServiceError
+from skillc_runtime.store.store_lock import StoreLock
+
+SCHEMA = Schema(1, ";\n".join((TOKENS, AUDIT, REQUESTS)))
 LOCK, DATABASE, ADMIN_TOKEN, CELLS = "lock", "server.sqlite", "admin.token", "cells"
+ADMIN = "admin"
+"""The name of the token that the command line uses by itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServerState:
+    """What a server keeps in its folder; `database` is in autocommit mode, and durable."""
+
+    folder: Path
+    database: sqlite3.Connection
+
+    @property
+    def tokens(self) -> Tokens:
+        """The tokens of clients."""
+        return Tokens(self.database)
+
+    def cell_folder(self, name: str) -> Path:
+        """Return the folder of a cell, which may not exist yet."""
+        return self.folder / CELLS / name
+
+
+@contextmanager
+def open_state(folder: Path) -> Iterator[ServerState]:
+    """Open or create a state folder, which no other server uses meanwhile.
+
+    At the first start it gets a token for the command line, in a file that only its owner can read. ServiceError if
+    another server uses it; DatabaseError or OSError if it cannot be used.
+    """
+    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+    (folder / LOCK).touch(mode=0o600)
+    lock = StoreLock(folder / LOCK)
+    try:
+        if not lock.try_exclusive():
+            raise ServiceError(f"{folder} is in use by {lock.describe_others()}; two servers cannot share it")
+        with closing(open_for_writing(folder / DATABASE, SCHEMA)) as database:
+            state = ServerState(folder, database)
+            _ensure_admin_token(state)
+            yield state
+    finally:
+        lock.release()
+
+
+def read_admin_token(folder: Path) -> str | None:
+    """Return the token of the command line; None if there is none, or it is not for the user of this process."""
+    try:
+        return (folder / ADMIN_TOKEN).read_text(encoding="ascii").strip()
+    except OSError:
+        return None
+
+
+def _ensure_admin_token(state: ServerState) -> None:
+    """Make the token of the command line unless its file has the one that is known."""
+    token = read_admin_token(state.folder)
+    if token is not None and state.tokens.find(token) is not None:
+        return
+    state.tokens.revoke(ADMIN)
+    half = state.folder / f"{ADMIN_TOKEN}.half"
+    half.unlink(missing_ok=True)
+    with os.fdopen(os.open(half, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="ascii") as file:
+        file.write(state.tokens.add(ADMIN, "admin") + "\n")
+    half.replace(state.folder / ADMIN_TOKEN)

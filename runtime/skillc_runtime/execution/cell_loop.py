@@ -141,7 +141,7 @@ class CellLoop:
     def interrupt(self, reason: str) -> None:
         """Halt all runs because nobody operates the cell any more; they end as interrupted."""
         for run in self.runs:
-            run.interrupt(reason)
+            run.end_as("interrupted", reason)
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for a plan; to be called after a tick in which nothing happened."""
@@ -173,7 +173,7 @@ class CellLoop:
             self.fault = str(error)
         if self.fault is not None:
             for run in self.runs:
-                run.fail(self.fault)
+                run.end_as("failed", self.fault)
 
     def _advance(self) -> None:
         """Let time pass; an error of the cell fails all runs."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 from dataclasses import replace
+from typing import Literal
 
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
@@ -126,13 +127,9 @@ class TaskRun:
         if self._attempt is not None:
             self._attempt.tree.abort(error)
 
-    def fail(self, reason: str) -> None:
-        """Halt everything because of an error outside of the run, which fails when its devices are at rest."""
-        self._stop("failed", Failure(kind="error", message=reason))
-
-    def interrupt(self, reason: str) -> None:
-        """Halt everything because nobody operates the cell; it ends as interrupted when its devices are at rest."""
-        self._stop("interrupted", Failure(kind="interrupted", message=reason))
+    def end_as(self, state: Literal["failed", "interrupted"], reason: str) -> None:
+        """Halt everything because of something outside of the run; it ends in `state` when its devices are at rest."""
+        self._stop(state, Failure(kind="error" if state == "failed" else "interrupted", message=reason))
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for the preparation; to be used if nothing else goes on."""
@@ -264,7 +261,7 @@ class TaskRun:
         if limit is not None and self._now - self._submitted_at >= limit:
             self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
         elif broken is not None and self._attempt is None:
-            self.fail(broken)
+            self.end_as("failed", broken)
 
     def _stop(self, state: EndState, failure: Failure) -> None:
         """Halt everything; the run ends when its devices are at rest."""

@@ -1,0 +1,57 @@
+"""The audit log: who requested what, when, from where, and with which result. Rows are only added."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+
+import msgspec
+
+TABLE = """
+CREATE TABLE audit (
+    number  INTEGER PRIMARY KEY AUTOINCREMENT,
+    wall_ns INTEGER NOT NULL,
+    who     TEXT NOT NULL,                     -- the name of a token; empty for requests without a valid one
+    origin  TEXT NOT NULL,                     -- the address of the client
+    action  TEXT NOT NULL,                     -- the method and path of the request
+    status  INTEGER NOT NULL,                  -- the status of the answer
+    detail  TEXT NOT NULL                      -- why it was refused; empty otherwise
+)
+"""
+MAX_TEXT = 500
+"""The number of characters that are kept of a text."""
+
+
+class AuditEntry(msgspec.Struct, frozen=True):
+    """A request that changed something, or that was refused; `wall_ns` is in ns since 1970-01-01 UTC."""
+
+    number: int
+    wall_ns: int
+    who: str
+    origin: str
+    action: str
+    status: int
+    detail: str
+
+
+class AuditLog:
+    """The audit log in the database of a server."""
+
+    def __init__(self, database: sqlite3.Connection) -> None:
+        self._database = database
+
+    def add(self, who: str, origin: str, action: str, status: int, detail: str) -> None:
+        """Add an entry; characters that are no text in one line are replaced."""
+        texts = [_clean(each) for each in (who, origin, action)]
+        row = (time.time_ns(), *texts, status, _clean(detail))
+        query = "INSERT INTO audit (wall_ns, who, origin, action, status, detail) VALUES (?, ?, ?, ?, ?, ?)"
+        self._database.execute(query, row)
+
+    def entries(self, after: int, limit: int) -> tuple[AuditEntry, ...]:
+        """Return entries after number `after`, in order."""
+        query = "SELECT number, wall_ns, who, origin, action, status, detail FROM audit WHERE number > ? LIMIT ?"
+        return tuple(AuditEntry(*row) for row in self._database.execute(query, (after, limit)))
+
+
+def _clean(text: str) -> str:
+    return "".join(letter if letter.isprintable() else "\ufffd" for letter in text[:MAX_TEXT])

@@ -1,0 +1,65 @@
+"""What the endpoints of a server share: its state, its cells, and who listens to events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from contextlib import closing
+from dataclasses import dataclass, field
+from http import HTTPStatus
+from pathlib import Path
+
+from skillc.cells.journal.reading import JournalReader
+from skillc.cells.operation import Operation
+from skillc.server.audit import AuditLog
+from skillc.server.hub import EventHub
+from skillc.server.idempotency import RequestKeys
+from skillc.server.problems import RequestRefused
+from skillc.server.state import ServerState
+from skillc.server.supervisor import CellSupervisor
+
+JOURNAL = "journal.sqlite"
+
+
+@dataclass(frozen=True, slots=True)
+class ServerContext:
+    """A running server."""
+
+    state: ServerState
+    cells: dict[str, CellSupervisor]
+    hub: EventHub
+    audit: AuditLog = field(init=False)
+    keys: RequestKeys = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "audit", AuditLog(self.state.database))
+        object.__setattr__(self, "keys", RequestKeys(self.state.database))
+
+    def find_cell(self, name: str) -> CellSupervisor:
+        """Return a cell; RequestRefused (404) if there is none of this name."""
+        if name not in self.cells:
+            raise RequestRefused(HTTPStatus.NOT_FOUND, f"there is no cell `{name}`; there is {_join(self.cells)}")
+        return self.cells[name]
+
+    def find_operation(self, name: str) -> tuple[CellSupervisor, Operation]:
+        """Return an operation as it is, with its cell; RequestRefused (404) if there is none of this id."""
+        for cell in self.cells.values():
+            if (operation := cell.operations.get(name) or _find_ended(cell, name)) is not None:
+                return cell, operation
+        raise RequestRefused(HTTPStatus.NOT_FOUND, f"there is no operation `{name}`")
+
+
+def open_journal(cell: CellSupervisor) -> JournalReader:
+    """Open the journal of a cell; DatabaseError if it cannot be read, because the cell has never been ready."""
+    return JournalReader(Path(cell.settings.folder) / JOURNAL)
+
+
+def _find_ended(cell: CellSupervisor, name: str) -> Operation | None:
+    if not (Path(cell.settings.folder) / JOURNAL).exists():
+        return None
+    with closing(open_journal(cell)) as reader:
+        found = reader.find(name)
+    return found.ended if found else None
+
+
+def _join(names: Iterable[str]) -> str:
+    return ", ".join(f"`{each}`" for each in sorted(names)) or "none"

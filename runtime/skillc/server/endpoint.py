@@ -1,0 +1,60 @@
+"""Endpoints as data: the routes of the server, the OpenAPI document and the tests are made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Any, Literal
+
+import msgspec
+
+from skillc.server.access.roles import Role
+from skillc.server.access.tokens import Client
+
+if TYPE_CHECKING:
+    from skillc.server.context import ServerContext
+
+Method = Literal["GET", "POST", "PUT", "DELETE"]
+
+
+class Empty(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """No parameters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A request whose sender may make it; `body` and `query` are of the types of its endpoint.
+
+    `key` is the Idempotency-Key, `content` the body as it was sent.
+    """
+
+    server: ServerContext
+    client: Client
+    path: Mapping[str, str]
+    query: Any
+    body: Any
+    content: bytes
+    key: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """A method of a path below /api/v1, for clients with a role.
+
+    `handle` returns a value of the type `answer`, or raises RequestRefused with one of `refusals`. Only endpoints that
+    are `unlimited` are answered whatever the rate of requests is.
+    """
+
+    method: Method
+    path: str
+    role: Role
+    summary: str
+    handle: Callable[[Call], Awaitable[object]]
+    answer: Any = None
+    body: Any = None
+    query: type[msgspec.Struct] = Empty
+    status: HTTPStatus = HTTPStatus.OK
+    refusals: tuple[HTTPStatus, ...] = ()
+    takes_key: bool = False
+    unlimited: bool = False

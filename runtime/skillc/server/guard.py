@@ -1,0 +1,43 @@
+"""Refuses requests that another page or another name of this machine sends, before anything reads them."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from urllib.parse import urlsplit
+
+import msgspec
+from starlette.datastructures import Headers
+from starlette.responses import Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from skillc.server.problems import MEDIA_TYPE, RequestRefused
+
+
+class Guard:
+    """Lets requests pass whose `Host` is one of `hosts`, and whose `Origin`, if there is one, is a page of that host.
+
+    So a page that a browser has from elsewhere can send nothing here, also not by a name that leads to this machine
+    (DNS rebinding).
+    """
+
+    def __init__(self, app: ASGIApp, hosts: frozenset[str]) -> None:
+        self._app, self._hosts = app, hosts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a request (ASGI)."""
+        if scope["type"] == "lifespan" or (refused := self._find_refusal(Headers(scope=scope))) is None:
+            await self._app(scope, receive, send)
+        elif scope["type"] == "websocket":
+            await send({"type": "websocket.close", "code": 1008, "reason": refused.problem.title})
+        else:
+            content = msgspec.json.encode(refused.problem)
+            await Response(content, refused.status, media_type=MEDIA_TYPE)(scope, receive, send)
+
+    def _find_refusal(self, headers: Headers) -> RequestRefused | None:
+        hosts = headers.getlist("host")
+        if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
+            return RequestRefused(HTTPStatus.MISDIRECTED_REQUEST, "this server has another name; see --host")
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc.lower() != hosts[0].lower():
+            return RequestRefused(HTTPStatus.FORBIDDEN, "requests of pages from elsewhere are refused")
+        return None

@@ -1,0 +1,62 @@
+"""Passes what happens to those who listen; for who does not read, only the newest of each operation and cell waits."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TypeAlias
+
+from skillc.cells.messages import Happened, Status
+
+MAX_WAITING = 256
+"""How many news may wait for one listener. They say how far an operation is: events are read from the journal."""
+
+News: TypeAlias = Happened | Status
+
+
+class Listener:
+    """A queue of news, the newest of each operation and cell."""
+
+    def __init__(self) -> None:
+        self._latest: dict[str, News] = {}
+        self._news = asyncio.Event()
+
+    def put(self, news: News) -> None:
+        """Add news in place of older ones about the same."""
+        key = f"operation {news.operation.id}" if isinstance(news, Happened) else f"cell {news.status.name}"
+        self._latest.pop(key, None)
+        self._latest[key] = news
+        while len(self._latest) > MAX_WAITING:
+            del self._latest[next(iter(self._latest))]
+        self._news.set()
+
+    async def take(self) -> list[News]:
+        """Wait for news, and return all that there are."""
+        await self._news.wait()
+        self._news.clear()
+        taken = list(self._latest.values())
+        self._latest.clear()
+        return taken
+
+
+class EventHub:
+    """Those who listen."""
+
+    def __init__(self) -> None:
+        self._listeners = set[Listener]()
+
+    def publish(self, news: News) -> None:
+        """Pass news to all."""
+        for each in self._listeners:
+            each.put(news)
+
+    @contextmanager
+    def listening(self) -> Iterator[Listener]:
+        """Listen in a `with` statement."""
+        listener = Listener()
+        self._listeners.add(listener)
+        try:
+            yield listener
+        finally:
+            self._listeners.discard(listener)

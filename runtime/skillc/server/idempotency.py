@@ -1,0 +1,47 @@
+"""The same request twice is one operation: keys of requests, with the operation that each has started."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+from hashlib import sha256
+
+TABLE = """
+CREATE TABLE requests (
+    who       TEXT NOT NULL,                   -- the name of a token
+    key       TEXT NOT NULL,                   -- Idempotency-Key
+    hash      BLOB NOT NULL,                   -- SHA-256 of cell and body
+    operation TEXT NOT NULL,
+    wall_ns   INTEGER NOT NULL,
+    PRIMARY KEY (who, key)
+) WITHOUT ROWID
+"""
+
+
+class KeyReused(Exception):
+    """A key was used for another request before."""
+
+
+class RequestKeys:
+    """The keys in the database of a server."""
+
+    def __init__(self, database: sqlite3.Connection) -> None:
+        self._database = database
+
+    def claim(self, who: str, key: str, content: bytes, operation: str) -> str:
+        """Return the operation for a request: `operation` if its key is new, else that of the first request with it.
+
+        KeyReused if the first request was another one.
+        """
+        hashed = sha256(content).digest()
+        row = (who, key, hashed, operation, time.time_ns())
+        self._database.execute("INSERT OR IGNORE INTO requests VALUES (?, ?, ?, ?, ?)", row)
+        query = "SELECT hash, operation FROM requests WHERE who = ? AND key = ?"
+        found, first = self._database.execute(query, (who, key)).fetchone()
+        if found != hashed:
+            raise KeyReused(f"the key `{key}` was used for another request before; use a new one")
+        return str(first)
+
+    def release(self, who: str, key: str) -> None:
+        """Forget a key whose request was refused, so that it can be repeated."""
+        self._database.execute("DELETE FROM requests WHERE who = ? AND key = ?", (who, key))

@@ -1,0 +1,93 @@
+"""The OpenAPI 3.1 document of the server, made of the endpoints and the types of their values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from http import HTTPStatus
+from typing import Any
+
+import msgspec
+
+from skillc.server.endpoint import Endpoint
+from skillc.server.problems import MEDIA_TYPE, Problem
+
+VERSION = "1"
+ALWAYS = (
+    HTTPStatus.UNAUTHORIZED,
+    HTTPStatus.FORBIDDEN,
+    HTTPStatus.UNPROCESSABLE_ENTITY,
+    HTTPStatus.TOO_MANY_REQUESTS,
+    HTTPStatus.SERVICE_UNAVAILABLE,
+)
+WITH_BODY = (
+    HTTPStatus.BAD_REQUEST,
+    HTTPStatus.REQUEST_TIMEOUT,
+    HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
+    HTTPStatus.UNSUPPORTED_MEDIA_TYPE,
+)
+REF = "#/components/schemas/{name}"
+_JSON = "application/json"
+
+
+def make_openapi(endpoints: Iterable[Endpoint], prefix: str) -> dict[str, Any]:
+    """Return the document of endpoints below a prefix."""
+    endpoints = tuple(endpoints)
+    types = [each for endpoint in endpoints for each in (endpoint.answer, endpoint.body) if each is not None]
+    schemas, components = msgspec.json.schema_components([*types, Problem], ref_template=REF)
+    schema_of = {id(kind): schema for kind, schema in zip([*types, Problem], schemas, strict=True)}
+    paths: dict[str, dict[str, Any]] = {}
+    for each in endpoints:
+        paths.setdefault(prefix + each.path, {})[each.method.lower()] = _describe(each, schema_of)
+    return {
+        "openapi": "3.1.0",
+        "info": {"title": "skillc", "version": VERSION, "description": "Cells that run skills, and their operations."},
+        "security": [{"token": []}],
+        "paths": paths,
+        "components": {
+            "schemas": components,
+            "securitySchemes": {"token": {"type": "http", "scheme": "bearer"}},
+        },
+    }
+
+
+def _describe(endpoint: Endpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
+    described: dict[str, Any] = {
+        "operationId": endpoint.handle.__name__,
+        "summary": endpoint.summary,
+        "description": f"Needs the role `{endpoint.role}`.",
+        "parameters": [*_path_parameters(endpoint), *_query_parameters(endpoint), *_header_parameters(endpoint)],
+        "responses": _responses(endpoint, schema_of),
+    }
+    if endpoint.body is not None:
+        described["requestBody"] = {"required": True, "content": {_JSON: {"schema": schema_of[id(endpoint.body)]}}}
+    return described
+
+
+def _responses(endpoint: Endpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
+    success: dict[str, Any] = {"description": endpoint.status.phrase}
+    if endpoint.answer is not None:
+        success["content"] = {_JSON: {"schema": schema_of[id(endpoint.answer)]}}
+    refused = {*ALWAYS, *endpoint.refusals, *(WITH_BODY if endpoint.body is not None else ())}
+    if endpoint.takes_key:
+        refused.add(HTTPStatus.BAD_REQUEST)
+    problem = {MEDIA_TYPE: {"schema": schema_of[id(Problem)]}}
+    problems = {str(each.value): {"description": each.phrase, "content": problem} for each in sorted(refused)}
+    return {str(endpoint.status.value): success, **problems}
+
+
+def _path_parameters(endpoint: Endpoint) -> list[dict[str, Any]]:
+    names = [part[1:-1] for part in endpoint.path.split("/") if part.startswith("{")]
+    return [{"name": name, "in": "path", "required": True, "schema": {"type": "string"}} for name in names]
+
+
+def _query_parameters(endpoint: Endpoint) -> list[dict[str, Any]]:
+    _, components = msgspec.json.schema_components([endpoint.query], ref_template=REF)
+    properties = components[endpoint.query.__name__].get("properties", {})
+    return [{"name": name, "in": "query", "required": False, "schema": each} for name, each in properties.items()]
+
+
+def _header_parameters(endpoint: Endpoint) -> list[dict[str, Any]]:
+    if not endpoint.takes_key:
+        return []
+    schema = {"type": "string", "minLength": 1, "maxLength": 200, "pattern": "^[ -~]+$"}
+    return [{"name": "Idempotency-Key", "in": "header", "required": False, "schema": schema}]

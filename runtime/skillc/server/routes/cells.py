@@ -1,0 +1,93 @@
+"""Cells: how they are, their pace, the end of a fault, and a stop of everything."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from typing import Annotated
+
+import msgspec
+
+from skillc.cells.messages import Acknowledge, Message, SetPace
+from skillc.cells.operation import CellStatus
+from skillc.server.endpoint import Call, Endpoint
+from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.values import Reason
+
+MAX_PACE = 1000.0
+
+
+class PaceSetting(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How fast the cell's time may pass: `factor` times real time; null for as fast as it computes."""
+
+    factor: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PACE)] | None
+
+
+class StopAll(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Why everything is stopped."""
+
+    reason: Reason = "stopped"
+
+
+async def list_cells(call: Call) -> tuple[CellStatus, ...]:
+    return tuple(cell.status for cell in call.server.cells.values())
+
+
+async def show_cell(call: Call) -> CellStatus:
+    return call.server.find_cell(call.path["cell"]).status
+
+
+async def set_pace(call: Call) -> CellStatus:
+    return await _request(call, SetPace(factor=call.body.factor))
+
+
+async def acknowledge_fault(call: Call) -> CellStatus:
+    return await _request(call, Acknowledge())
+
+
+async def stop_cell(call: Call) -> CellStatus:
+    cell = call.server.find_cell(call.path["cell"])
+    cell.stop(f"{call.client.name}: {call.body.reason}")
+    return cell.status
+
+
+async def _request(call: Call, message: Message) -> CellStatus:
+    cell = call.server.find_cell(call.path["cell"])
+    raise_refused(await cell.request(message))
+    return cell.status
+
+
+NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
+ENDPOINTS = (
+    Endpoint("GET", "/cells", "view", "List the cells", list_cells, tuple[CellStatus, ...]),
+    Endpoint("GET", "/cells/{cell}", "view", "Show a cell", show_cell, CellStatus, refusals=(NOT_FOUND,)),
+    Endpoint(
+        "PUT",
+        "/cells/{cell}/pace",
+        "operate",
+        "Set the pace of a cell",
+        set_pace,
+        CellStatus,
+        body=PaceSetting,
+        refusals=(NOT_FOUND, *UNAVAILABLE),
+    ),
+    Endpoint(
+        "POST",
+        "/cells/{cell}/acknowledge",
+        "operate",
+        "Let a cell take operations again after a fault whose cause is removed",
+        acknowledge_fault,
+        CellStatus,
+        refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
+    ),
+    Endpoint(
+        "POST",
+        "/cells/{cell}/stop",
+        "view",
+        "Stop all operations of a cell",
+        stop_cell,
+        CellStatus,
+        body=StopAll,
+        refusals=(NOT_FOUND,),
+        unlimited=True,
+    ),
+)

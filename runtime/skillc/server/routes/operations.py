@@ -1,0 +1,194 @@
+"""Operations: submitting them, giving them commands, and what has happened in them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from contextlib import closing
+from http import HTTPStatus
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+from msgspec import structs
+
+from skillc.cells.messages import Give, Submit
+from skillc.cells.operation import Operation, OperationRequest
+from skillc.server.context import open_journal
+from skillc.server.endpoint import Call, Endpoint
+from skillc.server.idempotency import KeyReused
+from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.problems import RequestRefused
+from skillc.server.supervisor import CellSupervisor
+from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording import commands
+from skillc_runtime.recording.envelope import Envelope, make_run_id
+
+Limit = Annotated[int, msgspec.Meta(ge=1, le=1000)]
+Command = (
+    commands.Approve
+    | commands.Pause
+    | commands.Resume
+    | commands.StepInto
+    | commands.StepOver
+    | commands.StepOut
+    | commands.Retry
+    | commands.Skip
+    | commands.Replan
+)
+"""The commands that need the role `operate`; who gives one is its client, whatever it says."""
+
+
+class Page(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Which part of a history: what was submitted before a wall time, in ns since 1970, and how much at most."""
+
+    before_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] | None = None
+    limit: Limit = 100
+
+
+class EventPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Which events: those after a number, and how many at most."""
+
+    after: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
+    limit: Limit = 1000
+
+
+class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Why an operation is stopped."""
+
+    reason: Annotated[str, msgspec.Meta(max_length=500)] = "stopped"
+
+
+async def list_operations(call: Call) -> tuple[Operation, ...]:
+    cell = call.server.find_cell(call.path["cell"])
+    return tuple(_read_history(cell, call.query))
+
+
+async def submit_operation(call: Call) -> Operation:
+    cell = call.server.find_cell(call.path["cell"])
+    request: OperationRequest = structs.replace(call.body, owner=call.client.name)
+    operation = make_run_id(request.task or "operation")
+    content = b"\0".join((cell.settings.name.encode(), call.content))
+    if call.key is not None and (first := _claim(call, content, operation)) != operation:
+        return call.server.find_operation(first)[1]
+    refused = await cell.request(Submit(operation=operation, request=request))
+    if refused is not None and call.key is not None and refused.kind != "off":
+        call.server.keys.release(call.client.name, call.key)
+    raise_refused(refused)
+    return call.server.find_operation(operation)[1]
+
+
+async def show_operation(call: Call) -> Operation:
+    return call.server.find_operation(call.path["operation"])[1]
+
+
+async def give_command(call: Call) -> Operation:
+    cell, operation = _find_running(call)
+    raise_refused(await cell.request(Give(operation=operation.id, command=_sign(call.body, call.client.name))))
+    return call.server.find_operation(operation.id)[1]
+
+
+async def stop_operation(call: Call) -> Operation:
+    cell, operation = call.server.find_operation(call.path["operation"])
+    if operation.state not in ENDS:
+        cell.stop(f"{call.client.name}: {call.body.reason}", operation.id)
+    return operation
+
+
+async def list_events(call: Call) -> tuple[Envelope, ...]:
+    cell, operation = call.server.find_operation(call.path["operation"])
+    with closing(open_journal(cell)) as reader:
+        return reader.envelopes(operation.id, call.query.after, call.query.limit)
+
+
+def _claim(call: Call, content: bytes, operation: str) -> str:
+    assert call.key is not None
+    try:
+        return call.server.keys.claim(call.client.name, call.key, content, operation)
+    except KeyReused as error:
+        raise RequestRefused(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+
+
+def _read_history(cell: CellSupervisor, page: Page) -> Iterable[Operation]:
+    """Return operations, the last one first; those that go on are as they are now."""
+    if not (Path(cell.settings.folder) / "journal.sqlite").exists():
+        return
+    with closing(open_journal(cell)) as reader:
+        before_ns = time.time_ns() + 1 if page.before_ns is None else page.before_ns
+        for each in reader.latest(before_ns, page.limit):
+            found = each.ended or cell.operations.get(each.id)
+            if found is not None:
+                yield found
+
+
+def _find_running(call: Call) -> tuple[CellSupervisor, Operation]:
+    cell, operation = call.server.find_operation(call.path["operation"])
+    if operation.state in ENDS:
+        raise RequestRefused(HTTPStatus.CONFLICT, f"the operation has {operation.state}; it takes no commands", ())
+    return cell, operation
+
+
+def _sign(command: commands.Command, who: str) -> commands.Command:
+    """Return a command with who has given it."""
+    return structs.replace(command, who=who) if isinstance(command, commands.Skip) else command
+
+
+NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
+ENDPOINTS = (
+    Endpoint(
+        "GET",
+        "/cells/{cell}/operations",
+        "view",
+        "List the operations of a cell, the last one first",
+        list_operations,
+        tuple[Operation, ...],
+        query=Page,
+        refusals=(NOT_FOUND,),
+    ),
+    Endpoint(
+        "POST",
+        "/cells/{cell}/operations",
+        "operate",
+        "Submit an operation",
+        submit_operation,
+        Operation,
+        body=OperationRequest,
+        status=HTTPStatus.CREATED,
+        refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
+        takes_key=True,
+    ),
+    Endpoint(
+        "GET", "/operations/{operation}", "view", "Show an operation", show_operation, Operation, refusals=(NOT_FOUND,)
+    ),
+    Endpoint(
+        "POST",
+        "/operations/{operation}/commands",
+        "operate",
+        "Give a command to an operation",
+        give_command,
+        Operation,
+        body=Command,
+        refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
+    ),
+    Endpoint(
+        "POST",
+        "/operations/{operation}/stop",
+        "view",
+        "Stop an operation; nothing happens if it has ended",
+        stop_operation,
+        Operation,
+        body=StopReason,
+        refusals=(NOT_FOUND,),
+        unlimited=True,
+    ),
+    Endpoint(
+        "GET",
+        "/operations/{operation}/events",
+        "view",
+        "Read the events of an operation",
+        list_events,
+        tuple[Envelope, ...],
+        query=EventPage,
+        refusals=(NOT_FOUND,),
+    ),
+)

@@ -1,0 +1,72 @@
+"""Tokens: adding, listing and revoking them."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+
+import msgspec
+
+from skillc.server.access.roles import Role
+from skillc.server.access.tokens import TokenExists, TokenInfo
+from skillc.server.endpoint import Call, Endpoint
+from skillc.server.problems import RequestRefused
+from skillc.server.values import Name
+
+
+class NewToken(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A token to be made."""
+
+    name: Name
+    role: Role
+
+
+class MadeToken(msgspec.Struct, frozen=True):
+    """A token that was made; `token` is shown this once."""
+
+    name: str
+    role: Role
+    token: str
+
+
+async def list_tokens(call: Call) -> tuple[TokenInfo, ...]:
+    return call.server.state.tokens.list()
+
+
+async def add_token(call: Call) -> MadeToken:
+    try:
+        token = call.server.state.tokens.add(call.body.name, call.body.role)
+    except TokenExists as error:
+        raise RequestRefused(HTTPStatus.CONFLICT, str(error)) from error
+    return MadeToken(call.body.name, call.body.role, token)
+
+
+async def revoke_token(call: Call) -> None:
+    if call.path["token"] == call.client.name:
+        raise RequestRefused(HTTPStatus.CONFLICT, "a token cannot revoke itself; use another one")
+    if not call.server.state.tokens.revoke(call.path["token"]):
+        raise RequestRefused(HTTPStatus.NOT_FOUND, f"there is no token `{call.path['token']}`")
+
+
+ENDPOINTS = (
+    Endpoint("GET", "/tokens", "admin", "List the tokens", list_tokens, tuple[TokenInfo, ...]),
+    Endpoint(
+        "POST",
+        "/tokens",
+        "admin",
+        "Make a token",
+        add_token,
+        MadeToken,
+        body=NewToken,
+        status=HTTPStatus.CREATED,
+        refusals=(HTTPStatus.CONFLICT,),
+    ),
+    Endpoint(
+        "DELETE",
+        "/tokens/{token}",
+        "admin",
+        "Revoke a token",
+        revoke_token,
+        status=HTTPStatus.NO_CONTENT,
+        refusals=(HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT),
+    ),
+)

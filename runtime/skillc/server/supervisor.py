@@ -1,0 +1,149 @@
+"""Keeps the process of a cell going: starts it, ends it if it falls silent, and starts it again after it has died."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import assert_never
+
+from msgspec import structs
+
+from skillc.cells.host import CellSettings
+from skillc.cells.messages import Alive, Answer, Happened, Message, NotStarted, Refused, Report, Status
+from skillc.cells.operation import CellStatus, Operation
+from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
+from skillc_runtime.execution.task_state import ENDS
+
+SILENCE_S = 30.0
+"""How long the loop of a cell may stand still before its process is ended, in s of wall time."""
+FIRST_DELAY_S, MAX_DELAY_S = 0.5, 60.0
+"""How long to wait before a cell is started again: the delay doubles with each start that fails at once."""
+SETTLED_S = 60.0
+"""A cell that has run for so long in s is started again without delay."""
+END_S = 20.0
+"""How long a cell may take to come to rest and end, in s."""
+LOG = "log"
+
+
+class CellSupervisor:
+    """One cell of a server. `status` is how it is, `operations` are those that go on; `publish` hears what happens."""
+
+    def __init__(self, settings: CellSettings, publish: Callable[[Happened | Status], None]) -> None:
+        self.settings = settings
+        self.status = _off(settings, "it has not been started")
+        self.operations: dict[str, Operation] = {}
+        self._publish = publish
+        self._cell: RemoteCell | None = None
+        self._rounds, self._heard_at = 0, time.monotonic()
+        self._problem = ""
+
+    @property
+    def ready(self) -> bool:
+        """Whether the cell takes requests."""
+        return self._cell is not None and self.status.state != "off"
+
+    async def keep_going(self) -> None:
+        """Start the cell, and start it again whenever it has died, until this is cancelled; then end it."""
+        delay_s = FIRST_DELAY_S
+        try:
+            while True:
+                began = time.monotonic()
+                await self._live()
+                delay_s = FIRST_DELAY_S if time.monotonic() - began > SETTLED_S else min(2.0 * delay_s, MAX_DELAY_S)
+                await asyncio.sleep(delay_s)
+        finally:
+            await self._end()
+
+    async def request(self, message: Message) -> Refused | None:
+        """Give a message to the cell, and return why it was refused; None if it is done and durable."""
+        if self._cell is None or not self.ready:
+            return Refused(kind="off", reason=f"{self.settings.name} is off: {self.status.reason}")
+        try:
+            return (await self._cell.request(message)).refused
+        except CellGone as error:
+            return Refused(kind="off", reason=f"{error}; whether it has done what was requested, its journal says")
+
+    def stop(self, reason: str, operation: str | None = None) -> None:
+        """Stop an operation in the next tick, or all; a cell that is off has nothing to stop."""
+        if self._cell is not None:
+            self._cell.stop(reason, operation)
+
+    async def _live(self) -> None:
+        """Start the process of the cell, and return when it has ended."""
+        folder = Path(self.settings.folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        self._problem, self._heard_at = "", time.monotonic()
+        self._set_status(_off(self.settings, "it starts"))
+        try:
+            with (folder / LOG).open("a", encoding="utf-8") as log:
+                self._cell = await start_cell(self.settings, log, self._hear)
+        except OSError as error:
+            self._set_status(_off(self.settings, f"its process cannot be started: {error.strerror or error}"))
+            return
+        cell = self._cell
+        while not cell.gone.done():
+            await asyncio.wait((cell.gone,), timeout=1.0)
+            if time.monotonic() - self._heard_at > SILENCE_S and not cell.gone.done():
+                self._problem = f"its loop stood still for {SILENCE_S:g} s, so its process was ended"
+                cell.kill()
+        self._bury(cell.gone.result())
+
+    def _bury(self, code: int) -> None:
+        """The process has ended: nothing of it goes on."""
+        self._cell = None
+        reason = self._problem or f"its process ended with {f'signal {-code}' if code < 0 else f'code {code}'}"
+        for operation in tuple(self.operations.values()):
+            ended = structs.replace(operation, state="interrupted", reason=reason, allowed=())
+            self._publish(Happened(operation=ended))
+        self.operations.clear()
+        self._set_status(_off(self.settings, reason))
+
+    async def _end(self) -> None:
+        """Let the cell come to rest and end; end its process if it does not."""
+        if self._cell is None:
+            return
+        cell = self._cell
+        cell.abandon()
+        await asyncio.wait((cell.gone,), timeout=END_S)
+        cell.kill()
+        self._bury(await cell.gone)
+
+    def _hear(self, report: Report) -> None:
+        """Take a report of the cell."""
+        match report:
+            case Happened(operation=operation):
+                if operation.state in ENDS:
+                    self.operations.pop(operation.id, None)
+                else:
+                    self.operations[operation.id] = operation
+                self._publish(report)
+            case Status(status=status):
+                self._set_status(status)
+            case Alive(rounds=rounds):
+                if rounds != self._rounds:
+                    self._rounds, self._heard_at = rounds, time.monotonic()
+            case NotStarted(reason=reason):
+                self._problem = reason
+            case Answer():
+                raise AssertionError("answers go to who waits for them")
+            case _:
+                assert_never(report)
+
+    def _set_status(self, status: CellStatus) -> None:
+        if status != self.status:
+            self.status = status
+            self._publish(Status(status=status))
+
+
+def _off(settings: CellSettings, reason: str) -> CellStatus:
+    return CellStatus(
+        name=settings.name,
+        scene=settings.scene,
+        library=settings.library,
+        library_hash="",
+        backend=settings.backend,
+        state="off",
+        reason=reason,
+    )

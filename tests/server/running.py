@@ -1,0 +1,89 @@
+"""A server of a yard in a process of its own, and a client of it."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+from cells.yard import write_yard
+
+READY_S = 60.0
+
+
+class RunningServer:
+    """A server; `client` has the token of the command line."""
+
+    def __init__(self, folder: Path, process: subprocess.Popen[bytes], port: int) -> None:
+        self.folder, self.process, self.port = folder, process, port
+        self.url = f"http://127.0.0.1:{port}/api/v1"
+        self.token = (folder / "served" / "admin.token").read_text().strip()
+        self.client = self.client_of(self.token)
+
+    def client_of(self, token: str) -> httpx.Client:
+        """Return a client with a token."""
+        return httpx.Client(base_url=self.url, headers={"Authorization": f"Bearer {token}"}, timeout=30.0)
+
+    def submit(self, **request: Any) -> dict[str, Any]:
+        """Submit an operation, and return it."""
+        answer = self.client.post("/cells/yard/operations", json=request)
+        assert answer.status_code == 201, answer.text
+        return dict(answer.json())
+
+    def wait_for(self, operation: str, *states: str) -> dict[str, Any]:
+        """Wait until an operation is in one of the states, and return it."""
+        return wait_until(lambda: self.client.get(f"/operations/{operation}").json(), lambda it: it["state"] in states)
+
+    def wait_ready(self) -> dict[str, Any]:
+        """Wait until the cell takes operations."""
+        return wait_until(lambda: self.client.get("/cells/yard").json(), lambda it: it["state"] == "operational")
+
+
+def wait_until(look: Any, condition: Any) -> Any:
+    """Look again and again until a condition holds; return what was seen last."""
+    end = time.monotonic() + READY_S
+    while not condition(found := look()):
+        assert time.monotonic() < end, found
+        time.sleep(0.02)
+    return found
+
+
+@contextmanager
+def serving(folder: Path, takes_ms: int = 100) -> Iterator[RunningServer]:
+    """Serve a yard in a folder, in which it may have been served before."""
+    write_yard(folder, takes_ms)
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    process = start_server(folder, port)
+    try:
+        wait_until(lambda: is_listening(port) or process.poll() is not None, bool)
+        assert process.poll() is None, "the server has ended"
+        server = RunningServer(folder, process, port)
+        server.wait_ready()
+        yield server
+    finally:
+        process.send_signal(signal.SIGTERM)
+        process.wait(30.0)
+
+
+def start_server(folder: Path, port: int) -> subprocess.Popen[bytes]:
+    """Start the process of a server."""
+    options = ("--cell", "yard.ttl", "--state", "served", "--bind", f"127.0.0.1:{port}", "--backend", "kinematic")
+    command = (sys.executable, "-m", "skillc", "serve", str(folder), *options)
+    paths = os.pathsep.join(filter(None, sys.path))
+    return subprocess.Popen(command, cwd=folder, env={**os.environ, "PYTHONPATH": paths}, stderr=subprocess.PIPE)
+
+
+def is_listening(port: int) -> bool:
+    """Whether something listens to a port of this machine."""
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0

@@ -1,0 +1,139 @@
+"""A server keeps cells going: operations are submitted, commanded, stopped and remembered, whatever dies."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed
+
+from server.running import RunningServer, serving, start_server, wait_until
+from skillc.server.access.roles import ROLES, includes
+from skillc.server.endpoints import ENDPOINTS
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    with serving(tmp_path_factory.mktemp("server")) as running:
+        yield running
+
+
+def test_an_operation_is_paused_resumed_and_stopped(server: RunningServer) -> None:
+    server.client.put("/cells/yard/pace", json={"factor": 1.0})
+    operation = server.submit(task="carry_all")["id"]
+    server.wait_for(operation, "running")
+    assert server.client.post(f"/operations/{operation}/commands", json={"type": "pause"}).status_code == 200
+    server.wait_for(operation, "paused")
+    refused = server.client.post(f"/operations/{operation}/commands", json={"type": "pause"})
+    assert refused.status_code == 409 and "resume" in refused.json()["allowed"]
+    assert server.client.post(f"/operations/{operation}/commands", json={"type": "resume"}).status_code == 200
+    assert server.client.post(f"/operations/{operation}/stop", json={"reason": "enough"}).status_code == 200
+    assert server.wait_for(operation, "stopped")["reason"] == "admin: enough"
+    assert server.client.post(f"/operations/{operation}/commands", json={"type": "pause"}).status_code == 409
+    assert server.client.get("/cells/yard/operations").json()[0]["id"] == operation
+
+
+def test_the_same_request_twice_is_one_operation(server: RunningServer) -> None:
+    request, key = {"task": "carry_all", "approve": True}, {"Idempotency-Key": "once"}
+    first, second = (server.client.post("/cells/yard/operations", json=request, headers=key) for _ in range(2))
+    assert first.json()["id"] == second.json()["id"]
+    other = server.client.post("/cells/yard/operations", json={"task": "carry_all"}, headers=key)
+    assert other.status_code == 422 and "used for another request before" in other.json()["detail"]
+    server.client.post("/cells/yard/stop", json={})
+    server.wait_for(first.json()["id"], "stopped")
+
+
+@pytest.mark.parametrize("endpoint", ENDPOINTS, ids=lambda each: f"{each.method} {each.path}")
+def test_each_endpoint_needs_its_role(server: RunningServer, endpoint: object) -> None:
+    for role in ROLES:
+        name = f"{role}-{ENDPOINTS.index(endpoint)}"
+        token = server.client.post("/tokens", json={"name": name, "role": role}).json()["token"]
+        path = endpoint.path.format(cell="nowhere", operation="none", token="none")
+        with server.client_of(token) as client:
+            answer = client.request(endpoint.method, path, json={})
+        assert (answer.status_code == 403) == (not includes(role, endpoint.role)), (role, answer.text)
+        assert server.client.delete(f"/tokens/{name}").status_code == 204
+    with server.client_of(token) as client:
+        assert client.request(endpoint.method, path, json={}).status_code == 401
+
+
+def test_pages_from_elsewhere_and_other_names_are_refused(server: RunningServer) -> None:
+    assert server.client.get("/cells", headers={"Origin": "http://example.org"}).status_code == 403
+    assert server.client.get("/cells", headers={"Host": "example.org"}).status_code == 421
+    form = {"Content-Type": "application/x-www-form-urlencoded"}
+    assert server.client.post("/cells/yard/stop", content="reason=x", headers=form).status_code == 415
+    deep = b"[" * 100_000
+    headers = {"Content-Type": "application/json"}
+    assert server.client.post("/cells/yard/operations", content=deep, headers=headers).status_code in (400, 422)
+    assert server.client.post("/cells/yard/operations", content=b" " * 2**21, headers=headers).status_code == 413
+
+
+def test_the_events_of_an_operation_arrive_without_a_gap(server: RunningServer) -> None:
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    operation = server.submit(task="carry_all")["id"]
+
+    async def read(after: int) -> list[int]:
+        found = list[int]()
+        async with connect(f"{server.url.replace('http', 'ws')}/events") as socket:
+            await socket.send(json.dumps({"token": server.token, "operation": operation, "after": after}))
+            try:
+                while True:
+                    found += [each["sequence"] for each in json.loads(await socket.recv())]
+            except ConnectionClosed as closed:
+                assert closed.rcvd is not None and closed.rcvd.code == 1000, closed
+        return found
+
+    numbers = asyncio.run(read(0))
+    ended = server.wait_for(operation, "succeeded")
+    assert numbers == list(range(1, ended["events"] + 1)) and asyncio.run(read(5)) == numbers[5:]
+    recorded = server.client.get(f"/operations/{operation}/events", params={"after": 3, "limit": 2}).json()
+    assert [each["sequence"] for each in recorded] == [4, 5]
+
+
+@pytest.mark.sim
+def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(tmp_path: Path) -> None:
+    with serving(tmp_path) as server:
+        server.client.put("/cells/yard/pace", json={"factor": 1.0})
+        operation = server.submit(task="carry_all")["id"]
+        server.wait_for(operation, "running")
+        os.kill(find_cell(server.process.pid), signal.SIGKILL)
+        wait_until(lambda: server.client.get("/cells/yard").json(), lambda it: "signal 9" in it["reason"])
+        refused = server.client.post("/cells/yard/operations", json={"task": "carry_all"})
+        assert refused.status_code == 503 and "yard is off" in refused.json()["detail"]
+        server.wait_ready()
+        assert server.client.get(f"/operations/{operation}").json()["state"] == "interrupted"
+        again = server.submit(task="carry_all")["id"]
+        server.wait_for(again, "succeeded")
+
+
+@pytest.mark.sim
+def test_a_killed_server_leaves_a_cell_at_rest_and_a_history(tmp_path: Path) -> None:
+    with serving(tmp_path) as server:
+        server.client.put("/cells/yard/pace", json={"factor": 1.0})
+        operation = server.submit(task="carry_all")["id"]
+        server.wait_for(operation, "running")
+        cell = find_cell(server.process.pid)
+        server.process.kill()
+        server.process.wait(30.0)
+        wait_until(lambda: Path(f"/proc/{cell}").exists(), lambda there: not there)
+    with serving(tmp_path) as again:
+        found = again.client.get(f"/operations/{operation}").json()
+        assert (found["state"], found["reason"]) == ("interrupted", "the server of the cell is gone")
+
+
+def test_two_servers_cannot_share_a_state_folder(server: RunningServer) -> None:
+    other = start_server(server.folder, server.port + 1)
+    _, said = other.communicate(timeout=60.0)
+    assert other.returncode == 1 and b"is in use by process" in said
+
+
+def find_cell(server: int) -> int:
+    """Return the process of the cell of a server."""
+    children = Path(f"/proc/{server}/task/{server}/children").read_text().split()
+    return next(int(each) for each in children if b"skillc.cells.process" in Path(f"/proc/{each}/cmdline").read_bytes())
