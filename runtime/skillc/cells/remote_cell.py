@@ -80,7 +80,7 @@ class RemoteCell:
                             self._unanswered[number].set_result(answer)
                     case report:
                         self._report(report)
-        code = await self._process.wait()
+        code = await self._process.wait()  # wait ends: with the process, whose supervisor kills it if it falls silent
         self.abandon()
         for waiting in self._unanswered.values():
             if not waiting.done():

@@ -38,7 +38,7 @@ class Hello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 async def stream_events(server: ServerContext, socket: WebSocket) -> None:
     """Send what happens until the client is gone; the events of one operation until it has ended."""
-    await socket.accept()
+    await socket.accept()  # wait ends: at once, since the request is there
     try:
         hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=Hello)
         if server.state.tokens.find(hello.token) is None:

@@ -33,7 +33,7 @@ class Listener:
 
     async def take(self) -> list[News]:
         """Wait for news, and return all that there are."""
-        await self._news.wait()
+        await self._news.wait()  # wait ends: with the client that listens, which cancels it
         self._news.clear()
         taken = list(self._latest.values())
         self._latest.clear()
