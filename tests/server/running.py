@@ -15,7 +15,7 @@ from typing import Any
 
 import httpx
 
-from cells.yard import write_yard
+from running_cells.yard import write_yard
 
 READY_S = 60.0
 

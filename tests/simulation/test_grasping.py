@@ -4,7 +4,6 @@ import re
 
 import numpy as np
 import pytest
-
 from cells import (
     ARM,
     ERASER,
@@ -21,6 +20,7 @@ from cells import (
     reach_for_eraser,
     run,
 )
+
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.motion.pose import Array, Pose

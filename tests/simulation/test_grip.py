@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-
 from cells import ARM, ERASER, GRIPPER, HANDS, at_the_eraser, eraser_height, grasp, lift, reach_for_eraser
+
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import SkillFailure

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from cells.yard import write_yard
+from running_cells.yard import write_yard
 from skillc.cells.host import CellSettings
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.messages import End, Give, Happened, NotStarted, Report, SetPace, Status, Submit

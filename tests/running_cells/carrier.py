@@ -1,4 +1,4 @@
-"""A process that carries all crates of a yard at about real pace: `python -m cells.carrier FOLDER OPERATION [LIMIT]`.
+"""A process that carries all crates of a yard at about real pace: `python -m running_cells.carrier FOLDER OPERATION [LIMIT]`.
 
 LIMIT is the size in bytes beyond which no file may grow. Prints a line when it has started and one when it ends.
 """
@@ -11,7 +11,7 @@ import sys
 import time
 from pathlib import Path
 
-from cells.yard import find_settings
+from running_cells.yard import find_settings
 from skillc.cells.host import open_cell
 from skillc.cells.operation import OperationRequest
 from skillc.services.reporting import SilentReporter

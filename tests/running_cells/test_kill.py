@@ -11,7 +11,7 @@ from contextlib import closing
 from pathlib import Path
 from random import Random
 
-from cells.yard import CRATES, find_settings, write_yard
+from running_cells.yard import CRATES, find_settings, write_yard
 from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.services.reporting import SilentReporter
@@ -26,7 +26,7 @@ KILLS = int(os.environ.get("SKILLC_CELL_KILLS", "4"))
 
 def start_carrier(folder: Path, operation: str, *limit: str) -> subprocess.Popen[str]:
     """Start the process of a cell; return it once the operation was submitted."""
-    command = (sys.executable, "-m", "cells.carrier", str(folder), operation, *limit)
+    command = (sys.executable, "-m", "running_cells.carrier", str(folder), operation, *limit)
     paths = os.pathsep.join([str(Path(__file__).parents[1]), *filter(None, sys.path)])
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": paths})
     assert process.stdout is not None
