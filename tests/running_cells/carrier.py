@@ -1,5 +1,6 @@
-"""A process that carries all crates of a yard at about real pace: `python -m running_cells.carrier FOLDER OPERATION [LIMIT]`.
+"""A process that carries all crates of a yard, at about real pace.
 
+Usage: `python -m running_cells.carrier FOLDER OPERATION [LIMIT]`.
 LIMIT is the size in bytes beyond which no file may grow. Prints a line when it has started and one when it ends.
 """
 
