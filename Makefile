@@ -15,7 +15,7 @@ KINDS :=
 # For `make soak`: the number of random cells; SEED is that of the first.
 CELLS := 300
 
-.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors accept lock clean
+.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors docs accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -58,6 +58,9 @@ bench: .venv/.dev ## run the benchmarks; each prints ratios
 
 editors:         ## build the extension for VS Code, editors/vscode/dist/skillc.vsix (needs Node 20)
 	cd editors/vscode && npm ci --ignore-scripts && npm test && npm run package
+
+docs: .venv/.dev  ## build the site of the documentation, out/site/index.html; nothing is loaded from elsewhere
+	PYTHONPATH=docs $(BIN)/python -m skillc_site out/site
 
 accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build, docs/diagnostics.md and docs/matrix.md
 	$(BIN)/python tests/accept.py
