@@ -88,5 +88,5 @@ def test_the_figures_have_words_units_and_equal_scales_and_the_same_bytes_every_
     assert (above.get_ylabel(), beside.get_ylabel()) == ("x in the world, mm", "z in the world, mm")
     words = {text.get_text() for text in above.texts}
     assert {"Part A", "Part B", "Box A", "Box B"} <= words and not any(":" in each for each in words)
-    assert [panel.get_title(loc="left") for panel in draw_grips(drawing).axes] == ["1  Part A", "2  Part B"]
+    assert [panel.get_title() for panel in draw_grips(drawing).axes] == ["1  Part A", "2  Part B"]
     assert render_figure(lambda: draw_path(drawing)) == render_figure(lambda: draw_path(drawing))

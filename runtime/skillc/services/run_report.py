@@ -13,14 +13,13 @@ from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
-from skillc_runtime.evaluation.report.hand_trace import HandTrace
-from skillc_runtime.evaluation.report.handling_drawing import make_handling_drawings
-from skillc_runtime.evaluation.report.handlings import find_handlings
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.run_record import RunRecord
+from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
+from skillc_runtime.evaluation.report.work_kinds import list_figures, measure_work
 from skillc_runtime.evaluation.report.write import write_figure, write_report, write_result
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.film.film import Film, FilmFiles, Moment
@@ -44,28 +43,31 @@ class RunResult:
 
 @dataclass(frozen=True, slots=True)
 class RunSamples:
-    """What is sampled during a run for its report: the pictures of the film, and what hands do."""
+    """What is sampled during a run: the pictures of the film (None without a report), and what devices do."""
 
-    film: Film
-    hands: HandTrace
+    film: Film | None
+    trace: RunTrace
 
     def sample(self) -> None:
         """Sample what is due; called in every tick."""
-        self.film.sample()
-        self.hands.sample()
+        if self.film is not None:
+            self.film.sample()
+        self.trace.sample()
 
 
-def make_samples(simulation: Simulation, looks: str) -> RunSamples:
+def make_samples(simulation: Simulation, looks: str, filmed: bool) -> RunSamples:
     """Return what to sample, the film with the meshes of that name. ServiceError if there are none."""
+    if not filmed:
+        return RunSamples(None, RunTrace(simulation))
     film = Film(simulation, None if looks == PRIMITIVE_LOOKS else _model_with_meshes(simulation, looks))
-    return RunSamples(film, HandTrace(simulation))
+    return RunSamples(film, RunTrace(simulation))
 
 
 def report_run(
     execution: Execution[Simulation],
     choices: ChoiceListener,
     library: SkillLibrary,
-    samples: RunSamples | None,
+    samples: RunSamples,
     folder: Path | None,
     reporter: Reporter,
 ) -> RunResult:
@@ -73,18 +75,17 @@ def report_run(
     simulation = execution.backend
     trees = [attempt.tree for attempt in execution.attempts]
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
-    wipings = find_wipings(trees, choices, state)
-    result = summarise_run(execution, choices, library, wipings, simulation)
-    if folder is None or samples is None:
+    record = RunRecord(trees, choices, state, truth, samples.trace)
+    result = summarise_run(execution, choices, library, record.wipings, simulation, measure_work(record))
+    if folder is None or samples.film is None:
         return RunResult(result)
-    drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in wipings)
+    drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in record.wipings)
     try:
         with writing_to(folder):
             write_result(folder, result)
-            filmed = _write_film(samples.film, folder, find_moments(wipings, trees, choices, state, truth), reporter)
-            handlings = find_handlings(trees, choices, state)
-            handled = make_handling_drawings(handlings, samples.hands, state, truth)
-            write_report(folder, result, trees, drawings, filmed, handled)
+            moments = find_moments(record.wipings, trees, choices, state, truth)
+            filmed = _write_film(samples.film, folder, moments, reporter)
+            write_report(folder, result, trees, list_figures(record), filmed)
     except ServiceError as error:
         reporter.say(f"error: {error}")
         return RunResult(result, drawings, written=False)

@@ -82,7 +82,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
         try:
             monitor.say("planning, and building the simulation")
             cell = make_backend(options.backend, task.world, options.seed)
-            samples = None if options.out is None else make_samples(cell, options.looks)
+            samples = make_samples(cell, options.looks, filmed=options.out is not None)
         except (SheetError, FrameError, StoreError) as error:
             return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)
         except KeyboardInterrupt as interrupt:
@@ -98,7 +98,7 @@ class _Run:
     task: LoadedTask
     options: RunOptions
     cell: Simulation
-    samples: RunSamples | None
+    samples: RunSamples
     gate: Gate
     monitor: RunMonitor
     reporter: Reporter
@@ -125,7 +125,7 @@ class _Run:
             return _start_planning(self.task, assignment, failures, self.options, self.cell.clock.now)
 
         poller = StorePoller(self.cell.cell.world, self.reporter)
-        hooks = (poller.poll,) if self.samples is None else (poller.poll, self.samples.sample)
+        hooks = (poller.poll, self.samples.sample)
         preparation = prepare_after(planning, plan_again)
         origin = CellOrigin(self.task.scene, self.options.seed, self.options.backend)
         return CellLoop(self.cell, self.task.library, preparation, origin, hooks)

@@ -96,11 +96,13 @@ def join_recordings(intervals: Sequence[Recording]) -> Recording:
 class Guidance:
     """How a person guided a tool: the intended place (3,) of its centre point, m in the world, and forces (n,) in N.
 
-    There is a force for each simulation step in which they guided it.
+    There is a force, and its time in s, for each simulation step in which they guided it; `arm` holds the tool.
     """
 
     place: Array
     forces: Array
+    times: Array
+    arm: str
 
 
 @dataclass(frozen=True, slots=True)

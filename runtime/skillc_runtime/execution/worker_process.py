@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pickle
-import selectors
+import select
+import signal
 import socket
 import struct
 import sys
@@ -16,7 +17,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, cast
 
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.platforms.processes import (
+from skillc_runtime.execution.process_start import (
     DEFAULT_START,
     ProcessTerminated,
     StartMethod,
@@ -60,8 +61,6 @@ WorkerResult: TypeAlias = Returned | Raised | Died
 class WorkerProcess:
     """A process that calls a function, which must not use devices, stores or locks of this process.
 
-    On Windows it is a thread of this process, and one that is killed goes on until its function returns.
-
     `ask` sends a request, `poll` returns its result and never blocks; `kill` ends the process and the programs that it
     started in sandboxes. A process that has died stays so.
     """
@@ -74,10 +73,7 @@ class WorkerProcess:
         self._dead: str | None = None
         try:
             self._socket.setblocking(False)
-            end = (
-                remote.dup().detach() if start == "thread" else remote.fileno()
-            )  # a thread shares what is closed below
-            self._process = start_process(partial(_serve, function, end), start, (end,))
+            self._process = start_process(partial(_serve, function, remote.fileno()), start, (remote.fileno(),))
         except BaseException:
             self._socket.close()
             raise
@@ -124,8 +120,8 @@ class WorkerProcess:
         """End the process, within CLEANUP_S if it can; a request that has no result then has the result Died."""
         if self._dead is not None:
             return
-        for end in (self._process.terminate, self._process.kill):
-            end()
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            self._process.send_signal(number)
             if join_process(self._process, CLEANUP_S):
                 break
         self._result = self._result or self._receive()
@@ -145,15 +141,15 @@ class WorkerProcess:
 
 def wait_for_any(workers: Sequence[WorkerProcess], seconds: float) -> None:
     """Wait for up to `seconds` until one of the workers has a result or has died."""
-    with selectors.DefaultSelector() as selector:
-        for each in workers:
-            selector.register(each.fileno(), selectors.EVENT_READ)
-        selector.select(min(seconds, MAX_WAIT_S))
+    poller = select.poll()
+    for each in workers:
+        poller.register(each.fileno(), select.POLLIN)
+    poller.poll(1000.0 * min(seconds, MAX_WAIT_S))
 
 
 def _serve(function: Callable[[Any], object], remote: int) -> None:
     """Answer requests until the other end is closed."""
-    with socket.socket(fileno=remote) as connection, suppress(BrokenPipeError, ConnectionResetError):
+    with socket.socket(fileno=remote) as connection:
         received = bytearray()
         while part := connection.recv(_CHUNK):  # wait ends: with the parent, or when it closes the connection
             received += part

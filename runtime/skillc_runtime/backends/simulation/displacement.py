@@ -7,6 +7,7 @@ from math import degrees
 
 import numpy as np
 
+from skillc_runtime.backends.simulation.signed import format_signed
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.world.state.data_sheet import number_of
@@ -40,7 +41,8 @@ class Displacement:
     def description(self) -> str:
         """The displacement as text."""
         x, y = (1e3 * each for each in self.offset_m)
-        return f"lies {x:+.0f} and {y:+.0f} mm beside its believed place, turned {degrees(self.turn_rad):+.1f} deg"
+        beside = f"lies {format_signed(x, 0)} and {format_signed(y, 0)} mm beside its believed place"
+        return f"{beside}, turned {format_signed(degrees(self.turn_rad), 1)} deg"
 
 
 def read_displacement_ranges(state: WorldState) -> tuple[DisplacementRange, ...]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
+from skillc_runtime.backends.simulation.signed import format_signed, format_tilt
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Pose, exp
 
@@ -36,11 +37,12 @@ class FixtureVariation:
     def description(self) -> str:
         """The differences as text."""
         x, y, z = (1e3 * each for each in self.place_m)
-        tilt = "" if self.tilt_rad == (0.0, 0.0) else f", tilted {_degrees(self.tilt_rad)} deg"
+        tilt = format_tilt(*np.degrees(self.tilt_rad).tolist())
         friction = "" if self.friction is None else f", friction {self.friction:.2f}"
-        spring = f", springs {100 * self.stiffness_share:+.0f} %" if self.stiffness_share else ""
-        switch = f", switching {1e3 * self.switch_m:+.1f} mm later" if self.switch_m else ""
-        return f"{np.hypot(x, y):.1f} mm beside and {z:+.1f} mm along its axis{tilt}{friction}{spring}{switch}"
+        spring = f", springs {format_signed(100 * self.stiffness_share, 0)} %" if self.stiffness_share else ""
+        switch = f", switching {format_signed(1e3 * self.switch_m, 1)} mm later" if self.switch_m else ""
+        place = f"{np.hypot(x, y):.1f} mm beside and {format_signed(z, 1)} mm along its axis"
+        return f"{place}{tilt}{friction}{spring}{switch}"
 
 
 def draw_fixture(fixture: FixtureSpec, seed: int) -> FixtureVariation:
@@ -68,7 +70,3 @@ def exact_fixture(fixture: FixtureSpec) -> FixtureVariation:
 
 def _between(low: float, high: float, share: float) -> float:
     return low + (high - low) * share
-
-
-def _degrees(tilt_rad: tuple[float, float]) -> str:
-    return " and ".join(f"{each:+.1f}" for each in np.degrees(tilt_rad))

@@ -27,7 +27,7 @@ THERE_M, THERE_S = 0.002, 1.0
 class SimulatedPerson:
     """Acts on the hand of one arm in every step; `place` (3,) in m is the goal of the tool in the world.
 
-    forces: N, one for each step in which they guide the tool.
+    forces, times: N and s, one for each step in which they guide the tool.
     """
 
     def __init__(self, facts: PersonSpec, true: PersonVariation, hand: str, driver: ArmDriver, data: Any) -> None:
@@ -39,6 +39,7 @@ class SimulatedPerson:
         self._yields_since: float | None = None
         self._there_since: float | None = None
         self.forces: list[float] = []
+        self.times: list[float] = []
         self.let_go = False
 
     def step(self, now: float) -> None:
@@ -58,6 +59,7 @@ class SimulatedPerson:
         self._force[:3] = pull - HOLD_N_S_M * self._driver.measured.velocity[:3]
         self._force[3:] = np.cross(tool - self._centre, self._force[:3])
         self.forces.append(float(np.linalg.norm(self._force[:3])))
+        self.times.append(now)
         near = float(np.linalg.norm(away)) < THERE_M
         self._there_since = None if not near else now if self._there_since is None else self._there_since
         self.let_go = self._there_since is not None and now - self._there_since >= THERE_S

@@ -105,4 +105,8 @@ class SimulatedTruth:
 
     def guidances(self) -> tuple[Guidance, ...]:
         """Return how people guided tools by hand; people who guided none are left out."""
-        return tuple(Guidance(each.place, np.array(each.forces)) for each in self.people if each.forces)
+        return tuple(
+            Guidance(each.place, np.array(each.forces), np.array(each.times), each.arm)
+            for each in self.people
+            if each.forces
+        )

@@ -11,6 +11,7 @@ from skillc_runtime.backends.simulation.displacement import Displacement, draw_d
 from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation, draw_fixture, exact_fixture
 from skillc_runtime.backends.simulation.people import PersonVariation, draw_person
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
+from skillc_runtime.backends.simulation.signed import format_signed, format_tilt
 from skillc_runtime.backends.simulation.start_postures import draw_start
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array, Pose, exp
@@ -53,8 +54,8 @@ class SurfaceVariation:
     def description(self) -> str:
         """The differences as text."""
         x, y = np.degrees(self.tilt_rad)
-        offset = f"{self.offset_m * 1e3:+.1f} mm along its normal"
-        return f"{offset}, tilted {x:+.1f} and {y:+.1f} deg, friction {self.friction:.2f}"
+        offset = f"{format_signed(self.offset_m * 1e3, 1)} mm along its normal"
+        return f"{offset}{format_tilt(x, y)}, friction {self.friction:.2f}"
 
 
 @dataclass(frozen=True, slots=True)

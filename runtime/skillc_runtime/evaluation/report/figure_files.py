@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from skillc_runtime.evaluation.report import figure_style
+
 DOTS_PER_INCH = 120
 
-STYLE: dict[Any, Any] = {"font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "svg.hashsalt": "skillc"}
+THEMED = ("INK", "DIM", "PAPER", "GRID", "SHADE", "TRUTH", "SENSOR", "ESTIMATE")
+"""The colours that a page may replace, by their names in `figure_style`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,24 +25,23 @@ class FigureFiles:
     png: bytes
     svg: bytes
 
+    def embed_svg(self, alternative: str) -> str:
+        """Return the SVG as an element of a page, whose colours follow the variables `--ink`, `--paper` and others.
 
-@dataclass(frozen=True, slots=True)
-class NamedFigure:
-    """A figure of a report: what it shows, such as `path`, and the display name of the hand; empty if it shows all."""
-
-    kind: str
-    of: str
-    files: FigureFiles
-
-    @property
-    def data(self) -> str:
-        """The SVG file in base64."""
-        return b64encode(self.files.svg).decode()
+        `alternative` describes the figure to those who cannot see it.
+        """
+        text = self.svg.decode()
+        text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
+        for name in THEMED:
+            text = text.replace(getattr(figure_style, name), f"var(--{name.lower()})")
+        text = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", text, count=1)
+        text = re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", text, count=1)
+        return text.replace("<svg", f'<svg role="img" aria-label="{_escape(alternative)}"', 1)
 
 
 def render_figure(draw: Callable[[], Figure]) -> FigureFiles:
     """Return the files of the figure that a function draws."""
-    with mpl.rc_context(STYLE):
+    with mpl.rc_context(figure_style.STYLE):
         figure = draw()
         png = _save(figure, "png", {"Software": ""})
         figure.set_layout_engine("none")
@@ -51,3 +52,7 @@ def _save(figure: Figure, form: str, metadata: dict[str, str | None]) -> bytes:
     buffer = BytesIO()
     figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=metadata)
     return buffer.getvalue()
+
+
+def _escape(text: str) -> str:
+    return text.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")

@@ -31,7 +31,7 @@ def find_moments(
     truth: GroundTruth,
 ) -> tuple[Moment, ...]:
     """Return the moments of all wipings whose arm is known, and the highlights of all calls in the trees."""
-    wiped = (each for wiping in wipings if wiping.arm for each in _find_wiping_moments(wiping, state, truth))
+    wiped = (each for wiping in wipings if wiping.arm for each in _find_wiping_moments(wiping, truth))
     calls = ((node, choices[node.id]) for tree in trees for node in tree.nodes() if node.id in choices)
     return (*wiped, *(each for node, choice in calls for each in _find_highlights(node, choice, state)))
 
@@ -49,8 +49,8 @@ def _find_highlights(node: NodeOutcome, choice: ImplementationChosen, state: Wor
             yield Moment(f"{display_name(highlight.what.iri)} {highlight.word}", time, arm)
 
 
-def _find_wiping_moments(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Iterator[Moment]:
-    name, recording = state.vocabulary.short(wiping.surface), truth.recording(wiping.tool)
+def _find_wiping_moments(wiping: Wiping, truth: GroundTruth) -> Iterator[Moment]:
+    name, recording = display_name(wiping.surface), truth.recording(wiping.tool)
     yield Moment(f"{name} grasp", float(recording.time[0]) + GRASPED_S, wiping.arm)
     yield Moment(f"{name} contact", _find_contact_s(recording.between(wiping.began, wiping.end)), wiping.arm)
     yield Moment(f"{name} corner", _find_corner_s(_undisturbed(recording, wiping)), wiping.arm)

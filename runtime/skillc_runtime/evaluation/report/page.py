@@ -6,24 +6,32 @@ from collections.abc import Sequence
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from skillc_runtime.evaluation.report.figure_files import NamedFigure
+from skillc_runtime.evaluation.report.folding import FINE, fold_tree, shorten
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import (
+    PLACEMENT_COLUMNS,
     format_choice_reason,
     list_failure_details,
     list_table_rows,
     split_placement,
 )
+from skillc_runtime.evaluation.report.work_figure import DrawnFigure
 from skillc_runtime.film.film import SPEED_UP, FilmFiles
 from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
 
+SYMBOLS = {
+    "success": "✓", "succeeded": "✓", "failure": "✗", "failed": "✗", "refused": "✗", "halted": "■", "stopped": "■",
+    "interrupted": "■", "running": "…", "idle": "·", "skipped": "·", "assumed": "?",
+}  # fmt: skip
+"""The symbol of each status: it is not told by colour alone."""
+
 
 def render_page(
     result: TaskResult,
     trees: Sequence[NodeOutcome],
-    figures: Sequence[NamedFigure] = (),
+    figures: Sequence[DrawnFigure] = (),
     filmed: FilmFiles | None = None,
 ) -> str:
     """Return the page; `trees` are those of all attempts; the files of `filmed` are in the same folder."""
@@ -37,18 +45,22 @@ def render_page(
     return environment.get_template("page.html.j2").render(
         result=result,
         status=format_status(result.status, result.verified),
-        unverified=unverified_facts(result.facts),
+        kind="assumed" if result.verified is False else result.status,
+        unverified=shorten([format_unverified(each) for each in unverified_facts(result.facts)]),
         details=list_failure_details(result),
         rows=list_table_rows(result) if result.sim_time_s else [],
+        steps=shorten(result.plan, [step.status not in FINE for step in result.plan]),
+        placements=shorten(result.placements),
         format_choice_reason=format_choice_reason,
         format_value=format_value,
-        format_unverified=format_unverified,
-        trees=trees,
+        trees=[fold_tree(tree) for tree in trees],
         split_placement=split_placement,
+        placement_names=PLACEMENT_COLUMNS,
         figures=figures,
         filmed=filmed,
         speed_up=SPEED_UP,
         reason=_reason,
+        symbols=SYMBOLS,
     )
 
 

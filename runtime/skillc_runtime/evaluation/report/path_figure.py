@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,23 +11,27 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 
+from skillc_runtime.evaluation.report.figure_style import DIM, GRID, INK, PAPER, SHADE, TRUTH, WIDTH_IN, thin_rows
 from skillc_runtime.evaluation.report.handling_drawing import DrawnBody, HandlingDrawing, Role
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.outlines import convex_hull
 
-EMPTY, LOADED, INK = "#7b858f", "#d55e00", "#1c2128"
-"""Colours of the path of an empty hand and of one with a thing, and of text."""
+EMPTY, LOADED = DIM, TRUTH
+"""Colours of the path of an empty hand and of one with a thing."""
 
-WIDTH_IN, LEAST_IN, FRAME_IN = 11.0, 2.0, 1.9
-"""Width of the figure, least height of a view, height of titles, axes and legend."""
+LEAST_IN, MOST_IN, FRAME_IN = 1.6, 6.0, 1.7
+"""Least and greatest height of a view, height of titles, axes and legend."""
+
+MOST_NUMBERS = 20
+"""With more picks, the places of grasps and releases have no numbers."""
 
 MARGIN_MM = 50.0
 """How much is shown around what was handled."""
 
-DASHED = {"fill": False, "edgecolor": INK, "linewidth": 1.1, "linestyle": (0, (3, 2)), "zorder": 3}
+DASHED: dict[str, Any] = {"fill": False, "edgecolor": INK, "linewidth": 1.1, "linestyle": (0, (3, 2)), "zorder": 3}
 STYLES: dict[Role, dict[str, Any]] = {
-    "scenery": {"facecolor": "#f4f0ea", "edgecolor": "#cfc6b8", "linewidth": 0.8, "zorder": 0},
-    "place": {"edgecolor": "#57606a", "linewidth": 1.2, "alpha": 0.75, "zorder": 1},
+    "scenery": {"facecolor": SHADE, "edgecolor": GRID, "linewidth": 0.8, "zorder": 0},
+    "place": {"edgecolor": DIM, "linewidth": 1.2, "alpha": 0.75, "zorder": 1},
     "start": {"edgecolor": INK, "linewidth": 0.8, "alpha": 0.35, "zorder": 2},
     "end": {"edgecolor": INK, "linewidth": 1.1, "zorder": 2.5},
     "believed start": DASHED,
@@ -42,11 +47,19 @@ LEGEND: tuple[tuple[Role, str], ...] = (
 )
 
 
-def draw_path(drawing: HandlingDrawing) -> Figure:
-    """Return the figure of one hand; the longer horizontal side of what is shown lies across in both views."""
-    shown = _extent(drawing)
-    across, up = (0, 1) if np.ptp(shown[:, 0]) > np.ptp(shown[:, 1]) else (1, 0)
-    heights = [max(LEAST_IN, 0.85 * WIDTH_IN * np.ptp(shown[:, axis]) / np.ptp(shown[:, across])) for axis in (up, 2)]
+def choose_axes(drawings: Sequence[HandlingDrawing]) -> int:
+    """Return which axis of the world lies across in the figures of all hands: 0 for x, 1 for y, the longer one."""
+    if not drawings:
+        return 0
+    shown = np.vstack([_extent(each) for each in drawings])
+    return 0 if np.ptp(shown[:, 0]) > np.ptp(shown[:, 1]) else 1
+
+
+def draw_path(drawing: HandlingDrawing, across: int | None = None) -> Figure:
+    """Return the figure of one hand; `across` is the axis of the world that lies across in both views."""
+    across = choose_axes([drawing]) if across is None else across
+    shown, up = _extent(drawing), 1 - across
+    heights = [_find_height(shown, axis, across) for axis in (up, 2)]
     figure = Figure(figsize=(WIDTH_IN, sum(heights) + FRAME_IN), layout="constrained")
     above, beside = figure.subplots(2, 1, height_ratios=heights)
     _draw_view(above, drawing, (across, up), shown)
@@ -54,10 +67,16 @@ def draw_path(drawing: HandlingDrawing) -> Figure:
     if across == 1:
         above.invert_xaxis()
         beside.invert_xaxis()
-    above.set_title(f"Path of {drawing.hand} from above, true by the simulator", loc="left")
-    beside.set_title("From the side", loc="left")
+    above.set_title("From above")
+    beside.set_title("From the side")
     _add_legend(figure, above, drawing)
     return figure
+
+
+def _find_height(shown: Array, axis: int, across: int) -> float:
+    """Return the height of a view in inches, to scale if that is neither too low nor too high."""
+    scaled = 0.85 * WIDTH_IN * float(np.ptp(shown[:, axis])) / float(np.ptp(shown[:, across]))
+    return min(max(LEAST_IN, scaled), MOST_IN)
 
 
 def _extent(drawing: HandlingDrawing) -> Array:
@@ -72,19 +91,20 @@ def _draw_view(axes: Axes, drawing: HandlingDrawing, order: tuple[int, int], sho
     """Draw outlines and path onto two axes of the world, which are numbered from 0."""
     for each in sorted(drawing.outlines, key=lambda one: float(one.points[:, 2].max())):
         _draw_outline(axes, each, order)
-    time, places = drawing.path.time, 1e3 * drawing.path.position[:, list(order)]
+    rows = thin_rows(drawing.path.rows)
+    time, places = rows[:, 0], 1e3 * rows[:, 1:4][:, list(order)]
     loaded = np.zeros(len(time), dtype=bool)
     for pick in drawing.picks:
         loaded |= (time >= pick.grasped_s) & (time <= (time[-1] if pick.released_s is None else pick.released_s))
     for colour, drawn, width in ((EMPTY, ~loaded, 0.9), (LOADED, loaded, 1.5)):
         axes.plot(*np.where(drawn[:, None], places, np.nan).T, color=colour, linewidth=width, zorder=4)
+    numbered = len(drawing.picks) <= MOST_NUMBERS
     for number, pick in enumerate(drawing.picks, 1):
-        _mark(axes, time, places, pick.grasped_s, "o", str(number))
+        _mark(axes, time, places, pick.grasped_s, "o", str(number) if numbered else "")
         if pick.released_s is not None:
-            _mark(axes, time, places, pick.released_s, "s", str(number))
+            _mark(axes, time, places, pick.released_s, "s", str(number) if numbered else "")
     axes.set(xlim=shown[:, order[0]], ylim=shown[:, order[1]], aspect="equal")
     axes.set(xlabel=f"{'xyz'[order[0]]} in the world, mm", ylabel=f"{'xyz'[order[1]]} in the world, mm")
-    axes.spines[["top", "right"]].set_visible(False)
 
 
 def _draw_outline(axes: Axes, outline: DrawnBody, order: tuple[int, int]) -> None:
@@ -97,22 +117,22 @@ def _draw_outline(axes: Axes, outline: DrawnBody, order: tuple[int, int]) -> Non
     axes.annotate(
         outline.name, ((low[0] + high[0]) / 2, high[1]), (0, 3), textcoords="offset points",
         ha="center", va="bottom", color=INK, fontsize=8, zorder=6, clip_on=True,
-        path_effects=[withStroke(linewidth=2.5, foreground="white")],
+        path_effects=[withStroke(linewidth=2.5, foreground=PAPER)],
     )  # fmt: skip
 
 
 def _mark(axes: Axes, times: Array, places: Array, time: float, marker: str, number: str) -> None:
     """Mark where the hand was at a time in s, with the number of the pick."""
     at = places[min(int(np.searchsorted(times, time)), len(times) - 1)]
-    axes.plot(*at, marker, color=LOADED, markeredgecolor="white", markersize=11, zorder=5)
-    axes.annotate(number, at, ha="center", va="center", color="white", fontsize=7, fontweight="bold", zorder=6)
+    axes.plot(*at, marker, color=LOADED, markeredgecolor=PAPER, markersize=11 if number else 5, zorder=5)
+    axes.annotate(number, at, ha="center", va="center", color=PAPER, fontsize=7, fontweight="bold", zorder=6)
 
 
 def _add_legend(figure: Figure, axes: Axes, drawing: HandlingDrawing) -> None:
     roles = {"believed start" if each.role == "believed end" else each.role for each in drawing.outlines}
     handles: list[Any] = [
-        *axes.plot([], [], color=EMPTY, linewidth=0.9, label="hand, empty"),
-        *axes.plot([], [], color=LOADED, linewidth=1.5, label="hand, with a part"),
+        *axes.plot([], [], color=EMPTY, linewidth=0.9, label="hand, empty: simulator truth"),
+        *axes.plot([], [], color=LOADED, linewidth=1.5, label="hand, with a part: simulator truth"),
         *axes.plot([], [], "o", color=LOADED, markersize=8, label="grasped"),
         *axes.plot([], [], "s", color=LOADED, markersize=8, label="released"),
     ]
@@ -120,4 +140,4 @@ def _add_legend(figure: Figure, axes: Axes, drawing: HandlingDrawing) -> None:
         if role in roles:
             filled: dict[str, Any] = {"facecolor": EMPTY} if role in COLOURED else {}
             handles.append(Polygon([(0.0, 0.0)], label=label, **STYLES[role], **filled))
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
+    figure.legend(handles=handles, loc="outside lower left", ncols=4)

@@ -7,6 +7,7 @@ from typing import Literal
 import msgspec
 
 from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.states import EndState
@@ -113,8 +114,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
     is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
-    was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved,
-    `touches` one for each contact of a link, a hand or a base.
+    was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved, `works` one for each
+    other piece of work, `touches` one for each contact of a link, a hand or a base.
     """
 
     task: str
@@ -136,6 +137,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     wiping: WipingResult | None = None
     wipings: tuple[WipingResult, ...] = ()
     placements: tuple[PlacementResult, ...] = ()
+    works: tuple[WorkResult, ...] = ()
     touches: tuple[TouchResult, ...] = ()
     replanned: tuple[str, ...] = ()
     failure: str | None = None

@@ -14,6 +14,7 @@ from skillc_runtime.evaluation.report.handlings import find_handlings, find_targ
 from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import ChoiceResult, FailedCall, StepResult, TaskResult, TouchResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
+from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.planning.plan import describe_quality
@@ -44,8 +45,9 @@ def summarise_run(
     library: SkillLibrary,
     wipings: Sequence[Wiping],
     simulation: Simulation,
+    works: tuple[WorkResult, ...] = (),
 ) -> TaskResult:
-    """Return the result of a task for reports, tables and JSON; `wipings` are those that were found in it."""
+    """Return the result of a task for reports, tables and JSON; `wipings` and `works` were found in it."""
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
     handlings = find_handlings((each.tree for each in execution.attempts), choices, state)
     judged = tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
@@ -61,6 +63,7 @@ def summarise_run(
         wiping=judged[0] if judged else None,
         wipings=judged,
         placements=measure_placements(simulation.cell.world, truth, find_targets(handlings)),
+        works=works,
         touches=tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=describe_failure(execution.failure) if execution.failure else None,

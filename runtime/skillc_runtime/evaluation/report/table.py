@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from skillc_runtime.evaluation.report.result import ChoiceResult, PlacementResult, StepResult, TaskResult, WipingResult
+from skillc_runtime.evaluation.report.work_rows import list_work_rows, shorten_rows
 from skillc_runtime.recording.failure_text import list_details
 from skillc_runtime.recording.known_facts import format_evidence
 from skillc_runtime.world.state.labelled_text import format_fact
@@ -27,13 +28,14 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
     planned = [] if result.plan_optimal is None else [("plan", _describe_plan(result))]
     return [
         *planned,
-        *((format_fact(fact.fact), format_evidence(fact)) for fact in result.facts),
+        *shorten_rows([(format_fact(fact.fact), format_evidence(fact)) for fact in result.facts]),
         ("robot", f"{result.robot}, controller {result.controller}"),
         ("reality", f"{result.variation} (seed {result.seed})" if result.variation else "as the facts say"),
-        *(("unwanted contact", str(touch)) for touch in result.touches),
-        *(("planned again", why) for why in result.replanned),
+        *shorten_rows([("unwanted contact", str(touch)) for touch in result.touches]),
+        *shorten_rows([("planned again", why) for why in result.replanned]),
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
-        *((each.thing, format_placement(each)) for each in result.placements),
+        *list_work_rows(result.works),
+        *shorten_rows([(each.thing, format_placement(each)) for each in result.placements]),
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
         ("speed", f"{result.real_time_factor:.1f} x real time"),
     ]
@@ -54,6 +56,13 @@ def format_placement(placed: PlacementResult) -> str:
     really = f"really {placed.error_m * 1e3:.0f} mm and {placed.turned_deg:.0f} deg from there"
     missed = "" if placed.missed_m is None else f", {placed.missed_m * 1e3:.0f} mm from where it should be"
     return f"{', '.join(parts)}; {really}{missed}"
+
+
+PLACEMENT_COLUMNS = (
+    "should be at x, y", "believed at x, y, z", "how that is known", "really at x, y, z: simulator truth",
+    "off the believed place", "off where it should be",
+)  # fmt: skip
+"""The names of what `split_placement` returns."""
 
 
 def split_placement(placed: PlacementResult) -> tuple[str, ...]:

@@ -13,10 +13,14 @@ from skillc_runtime.evaluation.metrics.lane_dwell import DWELL_SHARE, find_lane_
 from skillc_runtime.evaluation.metrics.wiping import measure_coverage
 from skillc_runtime.evaluation.report.wiping import Wiping, wiping_setup
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.labelled import display_name
 from skillc_runtime.world.state.world_state import WorldState
 
 DECIMATION = 5
-"""One of this many simulation steps is rows_drawn."""
+"""One of this many simulation steps is drawn."""
+
+LEAST_ROWS = 16
+"""Fewer rows show no oscillation."""
 
 STANDING_M_S = 1e-3
 """A slower path has no direction."""
@@ -24,7 +28,7 @@ STANDING_M_S = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class WipingDrawing:
-    """One wiping; times in s from its first reference, positions in mm from the middle of the surface.
+    """One wiping; times in s from its first reference, positions in mm from the middle of the surface, names as words.
 
     extent (2,): size of the surface; `covered`: share of it that was wiped. dose (rows along y, columns along x):
     contact time of the cells in s. lanes (n, 2): the commanded path without overlays; tool (n, 2): the measured path.
@@ -50,6 +54,21 @@ class WipingDrawing:
     pauses: tuple[Interval, ...] = ()
 
     @property
+    def step_s(self) -> float:
+        """The time between two rows, s."""
+        return float(np.nanmedian(np.diff(self.time))) if len(self.time) > 1 else 1.0
+
+    @property
+    def overlay_period_s(self) -> float | None:
+        """The period of the strongest oscillation of the tool's speed along the lanes, s; None without an overlay."""
+        known = np.isfinite(self.tool_speed) & np.isfinite(self.lane_speed)
+        if not self.overlaid or known.sum() < LEAST_ROWS:
+            return None
+        swing = (self.tool_speed - self.lane_speed)[known]
+        spectrum = np.abs(np.fft.rfft((swing - swing.mean()) * np.hanning(len(swing))))
+        return len(swing) * self.step_s / max(1, int(spectrum[1:].argmax()) + 1)
+
+    @property
     def dwell_speed(self) -> float:
         """The speed below which a tool dwells, mm/s."""
         return DWELL_SHARE * float(np.nanmax(self.lane_speed, initial=0.0))
@@ -67,10 +86,9 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
     def on_surface(points: Array) -> Array:
         return np.asarray(1e3 * (points @ frame.rotation.T + frame.position)[:, :2])
 
-    short = state.vocabulary.short
     return WipingDrawing(
-        surface=short(wiping.surface),
-        robot=short(wiping.arm),
+        surface=display_name(wiping.surface),
+        robot=display_name(wiping.arm),
         extent=1e3 * setup.extent,
         covered=covered.wiped_share,
         dose=covered.dose,

@@ -1,23 +1,32 @@
-"""The figure of wiping, a column for each surface: path and contact time on it, speed along the lanes, force."""
+"""The figure of wiping, a row for each surface: path and contact time on it, speed along the lanes, force."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
+from skillc_runtime.evaluation.report.figure_style import (
+    DIM,
+    DOSE,
+    PAPER,
+    SHADE,
+    WIDTH_IN,
+    add_legend,
+    average_over,
+    find_force_range,
+    mark_outliers,
+    plot_curve,
+    plot_path,
+)
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 
-LANES, TOOL, TARGET, WIPING, PAUSED = "#000000", "#d55e00", "#0072b2", "#e8e8e8", "#808080"
-"""Colours that people with colour blindness can distinguish; they also differ in lightness."""
-
-UNWIPED, DOSE, DOSE_ALPHA = "#ffffff", "cividis_r", 0.7
-COLUMN_IN, HEIGHT_IN = 6.2, 8.6
-
-COMPACT: Mapping[str, float] = {"handlelength": 1.5, "columnspacing": 1.2}
+ROW_IN, LEGEND_IN = 4.4, 0.6
+"""Heights of what is drawn of one surface, and of the legend."""
 
 BEFORE_CONTACT_S = 1.0
 """How much of the approach is shown."""
@@ -25,79 +34,81 @@ BEFORE_CONTACT_S = 1.0
 MARGIN_MM = 10.0
 """How much is shown around a surface."""
 
+UNWIPED: dict[str, Any] = {"facecolor": PAPER, "edgecolor": DIM, "hatch": "////", "linewidth": 0.0, "zorder": 0}
+
+LANES: dict[str, Any] = {"linestyle": "-", "linewidth": 0.9}
+"""A commanded path is dense where it turns: dots would not be seen."""
+
 
 def draw_figure(drawings: Sequence[WipingDrawing]) -> Figure:
     """Return the figure as a matplotlib object; ValueError if there are no drawings."""
     if not drawings:
         raise ValueError("there is no wiping to draw")
     longest = max(float(drawing.dose.max(initial=0.0)) for drawing in drawings)
-    figure = Figure(figsize=(COLUMN_IN * len(drawings), HEIGHT_IN), layout="constrained")
-    columns = figure.subplots(3, len(drawings), squeeze=False, height_ratios=(2.6, 1, 1)).T
-    for drawing, (surface, speed, force) in zip(drawings, columns, strict=True):
+    figure = Figure(figsize=(WIDTH_IN, ROW_IN * len(drawings) + LEGEND_IN), layout="constrained")
+    grid = figure.add_gridspec(2 * len(drawings), 2, width_ratios=(1.15, 1))
+    for number, drawing in enumerate(drawings):
+        upper, lower = 2 * number, 2 * number + 1
+        cells = (grid[upper : lower + 1, 0], grid[upper, 1], grid[lower, 1])
+        surface, speed, force = (figure.add_subplot(each) for each in cells)
         _draw_surface(surface, drawing, longest)
         _draw_speed(speed, drawing)
         _draw_force(force, drawing)
+    add_legend(figure)
     return figure
 
 
 def _draw_surface(axes: Axes, drawing: WipingDrawing, longest: float) -> None:
-    """Shade the contact time of each cell and draw both paths over it, with the longer side horizontal."""
-    upright = drawing.extent[1] > drawing.extent[0]
-    order, names = ((1, 0), "yx") if upright else ((0, 1), "xy")
-    x, y = drawing.extent[list(order)] / 2
+    """Shade the contact time of each cell and draw both paths over it; x of every surface lies across."""
+    x, y = drawing.extent / 2
     shades = axes.imshow(
-        np.ma.masked_equal(drawing.dose.T if upright else drawing.dose, 0.0),
-        extent=(-x, x, -y, y),
-        origin="lower",
-        cmap=mpl.colormaps[DOSE].with_extremes(bad=UNWIPED),
-        alpha=DOSE_ALPHA,
-        vmin=0.0,
-        vmax=longest,
-    )
-    for path, colour, width, label in (
-        (drawing.tool, TOOL, 0.8, "tool"),
-        (drawing.lanes, LANES, 1.2, "commanded lanes"),
-    ):
-        axes.plot(*path.T[list(order)], color=colour, linewidth=width, label=label)
-    axes.plot([], [], color=UNWIPED, marker="s", markeredgecolor=LANES, linestyle="", label="not wiped")
-    axes.set(xlabel=f"{names[0]} on the surface, mm", ylabel=f"{names[1]} on the surface, mm", aspect="equal")
+        np.ma.masked_equal(drawing.dose, 0.0), extent=(-x, x, -y, y), origin="lower", cmap=DOSE,
+        vmin=0.0, vmax=longest or 1.0, interpolation="nearest", zorder=1,
+    )  # fmt: skip
+    if (drawing.dose == 0.0).any():
+        axes.add_patch(Rectangle((-x, -y), 2 * x, 2 * y, label="not wiped", **UNWIPED))
+    plot_path(axes, drawing.tool, "truth", "tool")
+    plot_path(axes, drawing.lanes, "commanded", "lanes, without overlay", **LANES)
+    axes.set(xlabel="x on the surface, mm", ylabel="y on the surface, mm", aspect="equal")
     axes.set(xlim=(-x - MARGIN_MM, x + MARGIN_MM), ylim=(-y - MARGIN_MM, y + MARGIN_MM))
-    _set_title(axes, f"{drawing.surface}, {drawing.robot}\n{drawing.covered:.1%} wiped")
-    scale = axes.inset_axes((1.03, 0.0, 0.04, 1.0))
-    axes.figure.colorbar(shades, cax=scale, label="contact time of each 5 mm cell, s")
+    axes.grid(visible=False)
+    axes.set_title(f"{drawing.surface} by {drawing.robot}: {drawing.covered:.1%} wiped")
+    axes.figure.colorbar(shades, ax=axes, label="contact time of a 5 mm cell, s", shrink=0.8, pad=0.02)
 
 
 def _draw_speed(axes: Axes, drawing: WipingDrawing) -> None:
-    """Draw the speed of the tool along the lanes, and that of the commanded path without its overlay."""
-    tool = "tool with overlay" if drawing.overlaid else "tool"
-    axes.plot(drawing.time, drawing.tool_speed, color=TOOL, linewidth=0.7, label=tool)
-    axes.plot(drawing.time, drawing.lane_speed, color=LANES, linewidth=1.2, label="lanes")
-    axes.axhline(drawing.dwell_speed, color=TARGET, linewidth=1.0, linestyle=":", label="dwell below")
+    """Draw the speed of the tool along the lanes, averaged over a period of the overlay if there is one."""
     _mark_pauses(axes, drawing)
+    period_s = drawing.overlay_period_s
+    if period_s is None:
+        plot_curve(axes, drawing.time, drawing.tool_speed, "truth", "tool")
+        axes.set_title("Speed along the lanes")
+    else:
+        plot_curve(axes, drawing.time, drawing.tool_speed, "truth", "tool with its overlay", linewidth=0.5, alpha=0.5)
+        mean = average_over(drawing.tool_speed, period_s / drawing.step_s)
+        plot_curve(axes, drawing.time, mean, "truth", "mean over a period of the overlay", linewidth=1.8)
+        axes.set_title(f"Speed along the lanes, overlay of {period_s:.2f} s")
+    plot_curve(axes, drawing.time, drawing.lane_speed, "commanded", "lanes, without overlay", **LANES)
+    dwell = "half the lane speed"
+    axes.axhline(drawing.dwell_speed, color=DIM, linewidth=0.9, linestyle=(0, (5, 3)), label=dwell)
     axes.set(xlabel="time from the first lane, s", ylabel="speed, mm/s")
-    _set_title(axes, "Speed along lanes")
 
 
 def _draw_force(axes: Axes, drawing: WipingDrawing) -> None:
-    """Draw the normal force, from shortly before contact."""
+    """Draw the normal force, from shortly before contact; the band of the force on the lanes fills the height."""
+    end = drawing.time[-1]
     contacts = drawing.contact_time[drawing.force > 0]
     first = float(contacts[0] if contacts.size else drawing.contact_time[0]) - BEFORE_CONTACT_S
-    axes.axvspan(drawing.time[0], drawing.time[-1], color=WIPING, linewidth=0, label="wiping")
+    axes.axvspan(drawing.time[0], end, color=SHADE, linewidth=0, zorder=0, label="on the lanes")
     _mark_pauses(axes, drawing)
-    axes.plot(drawing.contact_time, drawing.force, color=TOOL, linewidth=0.6, label="measured")
-    axes.axhline(drawing.force_n, color=TARGET, linewidth=1.2, linestyle=":", label=f"commanded, {drawing.force_n:g} N")
-    axes.set(xlabel="time from the first lane, s", ylabel="normal force, N", xlim=(first, drawing.time[-1]))
-    axes.set_ylim(bottom=0)
-    _set_title(axes, "Force on the surface")
+    plot_curve(axes, drawing.contact_time, drawing.force, "truth", "normal force", linewidth=0.7)
+    plot_curve(axes, np.array([first, end]), np.full(2, drawing.force_n), "commanded", "force")
+    low, high = find_force_range(drawing.force[drawing.contact_time >= 0.0], drawing.force_n)
+    axes.set(xlabel="time from the first lane, s", ylabel="normal force, N", xlim=(first, end), ylim=(low, high))
+    axes.set_title(f"Force on the surface, {drawing.force_n:g} N commanded")
+    mark_outliers(axes, drawing.contact_time, drawing.force)
 
 
 def _mark_pauses(axes: Axes, drawing: WipingDrawing) -> None:
-    for number, (start, end) in enumerate(drawing.pauses):
-        label = "_paused" if number else "paused"
-        axes.axvspan(start, end, facecolor="none", edgecolor=PAUSED, hatch="////", linewidth=0.5, label=label)
-
-
-def _set_title(axes: Axes, title: str) -> None:
-    """Place the title and the legend above the axes."""
-    axes.set_title(title, loc="left")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, frameon=False, borderaxespad=0.2, **COMPACT)
+    for start, end in drawing.pauses:
+        axes.axvspan(start, end, facecolor="none", edgecolor=DIM, hatch="////", linewidth=0.5, label="paused")

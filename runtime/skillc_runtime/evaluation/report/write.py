@@ -1,4 +1,4 @@
-"""Writes a task's report, result and figure into a folder."""
+"""Writes a task's report, result and figures into a folder."""
 
 from __future__ import annotations
 
@@ -8,19 +8,15 @@ from pathlib import Path
 import msgspec
 
 from skillc_runtime.evaluation.report import page
-from skillc_runtime.evaluation.report.figure_files import FigureFiles, NamedFigure, render_figure
-from skillc_runtime.evaluation.report.grip_figure import draw_grips
-from skillc_runtime.evaluation.report.handling_drawing import HandlingDrawing
-from skillc_runtime.evaluation.report.path_figure import draw_path
+from skillc_runtime.evaluation.report.figure_files import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 from skillc_runtime.evaluation.report.wiping_figure import draw_figure
+from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure, number_files
 from skillc_runtime.film.film import FilmFiles
 from skillc_runtime.recording.node_outcome import NodeOutcome
 
-RESULT, REPORT = "result.json", "report.html"
-WIPING, PATH, GRIPS = "wiping", "path", "grips"
-"""The names of the figures' files without suffix; a number follows if several hands held something."""
+RESULT, REPORT, WIPING = "result.json", "report.html", "wiping"
 
 
 def write_result(directory: Path, result: TaskResult) -> None:
@@ -32,18 +28,17 @@ def write_report(
     directory: Path,
     result: TaskResult,
     trees: Sequence[NodeOutcome],
-    drawings: Sequence[WipingDrawing] = (),
+    figures: Sequence[WorkFigure] = (),
     filmed: FilmFiles | None = None,
-    handlings: Sequence[HandlingDrawing] = (),
 ) -> None:
-    """Write report.html and the figures; OSError if the folder cannot be written to.
+    """Write report.html and the figures, as PNG and SVG; OSError if the folder cannot be written to.
 
     `trees` are those of all attempts.
     """
-    wiping = write_figure(directory, drawings)
-    figures: tuple[NamedFigure, ...] = () if wiping is None else (NamedFigure(WIPING, "", wiping),)
-    figures += tuple(each for drawing in _number(handlings) for each in _write_handling(directory, *drawing))
-    _write_atomically(directory / REPORT, page.render_page(result, trees, figures, filmed).encode())
+    drawn = tuple(DrawnFigure(each, render_figure(each.draw)) for each in number_files(figures))
+    for each in drawn:
+        _write_files(directory, each.of.file, each.files)
+    _write_atomically(directory / REPORT, page.render_page(result, trees, drawn, filmed).encode())
 
 
 def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFiles | None:
@@ -56,19 +51,6 @@ def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFi
     figure = render_figure(lambda: draw_figure(drawings))
     _write_files(directory, WIPING, figure)
     return figure
-
-
-def _number(handlings: Sequence[HandlingDrawing]) -> list[tuple[HandlingDrawing, str]]:
-    """Return drawings with what is added to the names of their files: nothing if there is only one."""
-    return [(each, f"-{number}" if len(handlings) > 1 else "") for number, each in enumerate(handlings, 1)]
-
-
-def _write_handling(directory: Path, drawing: HandlingDrawing, number: str) -> tuple[NamedFigure, ...]:
-    """Write the figures of what one hand did."""
-    path, grips = render_figure(lambda: draw_path(drawing)), render_figure(lambda: draw_grips(drawing))
-    _write_files(directory, PATH + number, path)
-    _write_files(directory, GRIPS + number, grips)
-    return NamedFigure(PATH, drawing.hand, path), NamedFigure(GRIPS, drawing.hand, grips)
 
 
 def _write_files(directory: Path, name: str, figure: FigureFiles) -> None:

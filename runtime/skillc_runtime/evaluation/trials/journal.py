@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -11,7 +12,6 @@ from typing import BinaryIO, TypeVar
 import msgspec
 
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.platforms.file_locks import try_lock
 
 FILE = "trials.jsonl"
 FORMAT = 5
@@ -69,8 +69,12 @@ class TrialJournal:
         self._file.close()
 
     def _lock(self) -> None:
-        if not try_lock(self._file.fileno()):
-            raise JournalError(f"another process is adding trials to {self.path.parent}; take another folder")
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise JournalError(
+                f"another process is adding trials to {self.path.parent}; take another folder"
+            ) from error
 
     def _resume(self, heading: Heading) -> dict[int, Trial]:
         """Read the file; an incomplete last line is removed."""

@@ -1,0 +1,53 @@
+"""The figure of a mobile base: its path on the floor, and what stands around it."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from skillc_runtime.evaluation.report.figure_style import (
+    DIM,
+    INK,
+    PAPER,
+    SHADE,
+    WIDTH_IN,
+    add_legend,
+    fit_limits,
+    plot_path,
+    thin_rows,
+)
+from skillc_runtime.evaluation.report.run_record import RunRecord
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.space.bodies import read_bodies
+from skillc_runtime.world.space.outlines import convex_hull, outline_points
+from skillc_runtime.world.state.labelled import display_name
+
+HEIGHT_IN, AROUND_M, RATIO = 5.0, 0.6, 2.2
+"""Height of the figure, how much is shown around the path, and how many times as wide as high that is."""
+
+MOST_BODIES = 60
+"""With more bodies around, only their outlines are drawn, without names."""
+
+
+def draw_drive(path: Array, record: RunRecord) -> Figure:
+    """Return the figure of a base with samples (n, 4): time in s, position in m in the world."""
+    figure = Figure(figsize=(WIDTH_IN, HEIGHT_IN), layout="constrained")
+    axes = figure.subplots()
+    places = thin_rows(path[:, 1:3])
+    bodies = [each for each in read_bodies(record.state) if not each.movable]
+    for body in bodies:
+        hull = convex_hull(outline_points(record.state, body.individual, body.pose)[:, :2])
+        axes.add_patch(Polygon(hull, closed=True, facecolor=SHADE, edgecolor=DIM, linewidth=0.8, zorder=1))
+        if len(bodies) <= MOST_BODIES:
+            axes.annotate(
+                display_name(body.individual), hull.mean(axis=0), ha="center", va="center", fontsize=8, color=INK,
+                zorder=2, clip_on=True,
+            )  # fmt: skip
+    plot_path(axes, places, "sensor", "path of the base", linestyle="-", linewidth=1.6)
+    axes.plot(*places[0], "o", color=INK, markeredgecolor=PAPER, markersize=8, zorder=6, label="began")
+    axes.plot(*places[-1], "s", color=INK, markeredgecolor=PAPER, markersize=8, zorder=6, label="ended")
+    fit_limits(axes, places, AROUND_M, RATIO)
+    axes.set(xlabel="x in the world, m", ylabel="y in the world, m")
+    axes.set_title("Path of the base from above")
+    add_legend(figure)
+    return figure

@@ -1,0 +1,95 @@
+"""The figure of a push: force over time, and over the travel of the tool."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from skillc_runtime.evaluation.report.figure_style import DIM, SHADE, WIDTH_IN, add_legend, plot_curve
+from skillc_runtime.evaluation.report.pushes import Push, find_force_source, find_true_force
+from skillc_runtime.evaluation.report.run_record import RunRecord
+from skillc_runtime.evaluation.report.work_result import ForceSource
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.terms import BUTTON
+
+HEIGHT_IN = 3.9
+BEFORE_S = 0.5
+"""How much of the approach is shown."""
+
+ROOM = 1.08
+"""The force axis ends above the greatest force by this factor."""
+
+
+@dataclass(frozen=True, slots=True)
+class PushDrawing:
+    """A push to draw: times in s from its start, forces in N, travel in mm; truth (m, 2) as `find_true_force` has it.
+
+    `switched_s` is when the button that was pressed switched, None if none did.
+    """
+
+    push: Push
+    source: ForceSource
+    truth: Array | None
+    switched_s: float | None
+
+
+def make_push_drawing(push: Push, record: RunRecord) -> PushDrawing:
+    """Return what is drawn of a push."""
+    return PushDrawing(
+        push, find_force_source(push.arm, record), find_true_force(push, record), _find_switching(push, record)
+    )
+
+
+def draw_push(drawing: PushDrawing) -> Figure:
+    """Return the figure of a push."""
+    figure = Figure(figsize=(WIDTH_IN, HEIGHT_IN), layout="constrained")
+    by_time, by_travel = figure.subplots(1, 2, sharey=True)
+    push, time, travel = drawing.push, drawing.push.samples.time, drawing.push.travel_mm
+    draw_force(by_time, drawing)
+    by_time.set_title("Force over time")
+    moved = travel >= 0.0 if push.contact_s is not None else np.ones(len(travel), dtype=bool)
+    if drawing.truth is not None:
+        at = np.interp(drawing.truth[:, 0], time, travel)
+        plot_curve(by_travel, at, drawing.truth[:, 1], "truth", "force")
+    plot_curve(by_travel, travel[moved], push.force[moved], drawing.source, "force")
+    plot_curve(by_travel, _ends(travel[moved]), np.full(2, push.force_n), "commanded", "force")
+    by_travel.set(xlabel=f"travel of the tool after {'contact' if push.contact_s else 'its start'}, mm: sensor")
+    by_travel.set_title("Force over travel")
+    by_travel.tick_params(labelleft=True)
+    add_legend(figure)
+    return figure
+
+
+def draw_force(axes: Axes, drawing: PushDrawing) -> None:
+    """Draw the force of a push over time, all that is known of it."""
+    push, time = drawing.push, drawing.push.samples.time - drawing.push.start_s
+    if push.contact_s is not None:
+        axes.axvspan(push.contact_s - push.start_s, time[-1], color=SHADE, linewidth=0, zorder=0, label="in contact")
+    if drawing.truth is not None:
+        plot_curve(axes, drawing.truth[:, 0] - push.start_s, drawing.truth[:, 1], "truth", "force")
+    plot_curve(axes, time, push.force, drawing.source, "force")
+    plot_curve(axes, _ends(time), np.full(2, push.force_n), "commanded", "force")
+    if drawing.switched_s is not None:
+        when = drawing.switched_s - push.start_s
+        axes.axvline(when, color=DIM, linewidth=1.0, linestyle=(0, (6, 3)), label="switched: simulator truth")
+    every = [push.force] if drawing.truth is None else [push.force, drawing.truth[:, 1]]
+    least, greatest = (float(find([find(each) for each in every])) for find in (min, max))
+    first = time[0] if push.contact_s is None else max(time[0], push.contact_s - push.start_s - BEFORE_S)
+    axes.set(xlabel="time from the start of the push, s", ylabel="force, N", xlim=(first, time[-1]))
+    axes.set_ylim(min(least, 0.0) - 0.05 * push.force_n, ROOM * max(greatest, push.force_n))
+
+
+def _ends(values: Array) -> Array:
+    return np.array([values.min(initial=0.0), values.max(initial=0.0)])
+
+
+def _find_switching(push: Push, record: RunRecord) -> float | None:
+    for button in (each for each in push.on if record.state.is_a(each, BUTTON)):
+        rows = record.truth.pressing(button)
+        switched = rows[(rows[:, 2] > 0) & (rows[:, 0] >= push.start_s) & (rows[:, 0] <= push.end_s), 0]
+        if switched.size:
+            return float(switched[0])
+    return None

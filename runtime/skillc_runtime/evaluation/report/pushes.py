@@ -1,0 +1,167 @@
+"""Finds in a run when arms pressed their tools on something, and measures it: any skill in which something pushes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.evaluation.report.arm_trace import ArmPath
+from skillc_runtime.evaluation.report.run_record import RunRecord
+from skillc_runtime.evaluation.report.work_result import ForceSource, PushResult
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.world.state.labelled import LabelledIri, LabelledVector, Quantity
+from skillc_runtime.world.state.terms import ARM_DEVICE, BUTTON, END_EFFECTOR, FIXTURE, LOCATION, ROBOT, SURFACE
+from skillc_runtime.world.state.world_state import WorldState
+
+ARM, ALONG, FORCE = "arm", "along", "force"
+"""The parameters of primitives that press: which arm, opposite to which direction, with how many N."""
+
+TOUCHED_N = 1.0
+"""A tool touches something while it is pressed with more than this."""
+
+LEAST_SAMPLES = 3
+
+DEVICES = (ARM_DEVICE, END_EFFECTOR, ROBOT)
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A scope in which an arm pressed its tool opposite to `along`, a unit vector (3,) in the world, with `force_n`.
+
+    `within` is the call of the skill around it, `on` are the individuals it names besides devices, by IRI; `body` is
+    what was done in the scope. `samples` are from shortly before the push to its end.
+    """
+
+    within: ImplementationChosen
+    on: tuple[str, ...]
+    arm: str
+    along: Array
+    force_n: float
+    start_s: float
+    end_s: float
+    body: tuple[NodeOutcome, ...]
+    samples: ArmPath
+
+    @property
+    def force(self) -> Array:
+        """The force (n,) in N against the push, as the arm knows it."""
+        return np.asarray(self.samples.force @ self.along)
+
+    @property
+    def contact_s(self) -> float | None:
+        """When the tool touched something, in s; None if it did not."""
+        touching = np.flatnonzero(self.force > TOUCHED_N)
+        return float(self.samples.time[touching[0]]) if touching.size else None
+
+    @property
+    def travel_mm(self) -> Array:
+        """How far (n,) the tool is in the direction of the push from where it touched, or from its start, in mm."""
+        down = -1e3 * (self.samples.position @ self.along)
+        zero = self.start_s if self.contact_s is None else self.contact_s
+        return np.asarray(down - down[min(int(np.searchsorted(self.samples.time, zero)), len(down) - 1)])
+
+
+def find_pushes(record: RunRecord) -> tuple[Push, ...]:
+    """Return all pushes of a run in order of time, also those that failed or were halted."""
+    found = [push for tree in record.trees for push in _find_below(tree, (), record)]
+    return tuple(sorted(found, key=lambda push: (push.start_s, push.arm)))
+
+
+def measure_push(push: Push, record: RunRecord) -> PushResult:
+    """Return the numbers of a push."""
+    short, truth, contact = record.state.vocabulary.short, find_true_force(push, record), push.contact_s
+    known = push.force[push.samples.time >= contact] if contact is not None else np.zeros(0)
+    pressed = truth[truth[:, 1] > TOUCHED_N, 1] if truth is not None else np.zeros(0)
+    return PushResult(
+        skill=push.within.skill,
+        arm=short(push.arm),
+        on=tuple(map(short, push.on)),
+        start_s=push.start_s,
+        end_s=push.end_s,
+        contact_s=contact,
+        force_command_n=push.force_n,
+        force_mean_n=float(known.mean()) if known.size else None,
+        force_greatest_n=float(known.max()) if known.size else None,
+        force_source=find_force_source(push.arm, record),
+        true_mean_n=float(pressed.mean()) if pressed.size else None,
+        true_greatest_n=float(pressed.max()) if pressed.size else None,
+        travel_mm=float(push.travel_mm.max()) if contact is not None else None,
+    )
+
+
+def find_force_source(arm: str, record: RunRecord) -> ForceSource:
+    """Return whether an arm has a force-torque sensor, or estimates forces."""
+    return "sensor" if record.has_force_sensor(arm) else "estimate"
+
+
+def find_true_force(push: Push, record: RunRecord) -> Array | None:
+    """Return times in s and forces in N (n, 2) of the simulator: on a button, else of the held tool; None for neither.
+
+    The end of the last contact of a button is a row with 0 N.
+    """
+    for button in (each for each in push.on if record.state.is_a(each, BUTTON)):
+        rows = record.truth.pressing(button)
+        inside = rows[(rows[:, 0] >= push.start_s) & (rows[:, 0] <= push.end_s), :2]
+        return inside if len(inside) else None
+    for tool in record.held_by(push.arm, push.start_s, push.end_s):
+        held = _recording(tool, record).between(push.start_s, push.end_s)
+        if len(held.time):
+            return np.column_stack([held.time, held.force])
+    return None
+
+
+def _recording(tool: str, record: RunRecord) -> Recording:
+    try:
+        return record.truth.recording(tool)
+    except KeyError:
+        return Recording(np.empty((0, 25)))
+
+
+def _find_below(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[Push]:
+    """Yield the pushes below a node, which is within these calls, the outermost first."""
+    choice = record.choices.get(node.id)
+    inside = calls if choice is None or choice.activity else (*calls, choice)
+    if node.kind == "with" and node.children:
+        yield from _read_scope(node, inside, record)
+    for child in node.children:
+        yield from _find_below(child, inside, record)
+
+
+def _read_scope(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[Push]:
+    """Yield the pushes that last as long as a scope: one for each run of it."""
+    opening, *body = node.children
+    pressing = (record.choices.get(each.id) for each in opening.nodes())
+    choice = next((each for each in pressing if each is not None and each.activity == "press"), None)
+    if choice is None or not calls:
+        return
+    arm, along, force = (choice.bindings.get(name) for name in (ARM, ALONG, FORCE))
+    if not (isinstance(arm, LabelledIri) and isinstance(along, LabelledVector) and isinstance(force, Quantity)):
+        return
+    for start, end in record.runs_of(node):
+        samples = record.arm_path(arm.iri).between(start - 0.5, end)
+        if len(samples.time) >= LEAST_SAMPLES:
+            yield Push(
+                calls[-1], _find_objects(calls, record), arm.iri, np.array(along.components), force.value,
+                start, end, tuple(body), samples,
+            )  # fmt: skip
+
+
+def _find_objects(calls: tuple[ImplementationChosen, ...], record: RunRecord) -> tuple[str, ...]:
+    """Return the individuals besides devices and places that the innermost call with any of them names."""
+    for call in reversed(calls):
+        found = [each for each in call.individuals if _is_object(each, record.state)]
+        if found:
+            return tuple(dict.fromkeys(found))
+    return ()
+
+
+def _is_object(individual: str, state: WorldState) -> bool:
+    """Whether something can be pressed on: no device, and no place that is neither a fixture nor a surface."""
+    if individual not in state.individuals or any(state.is_a(individual, kind) for kind in DEVICES):
+        return False
+    return not state.is_a(individual, LOCATION) or any(state.is_a(individual, kind) for kind in (FIXTURE, SURFACE))

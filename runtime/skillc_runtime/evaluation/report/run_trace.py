@@ -1,0 +1,21 @@
+"""All samples that are taken during a run for its report: of arms, hands and bases."""
+
+from __future__ import annotations
+
+from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.evaluation.report.arm_trace import ArmTrace
+from skillc_runtime.evaluation.report.base_trace import BaseTrace
+from skillc_runtime.evaluation.report.hand_trace import HandTrace
+
+
+class RunTrace:
+    """Samples a cell; `sample` is to be called in every tick."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.arms, self.hands, self.bases = ArmTrace(simulation), HandTrace(simulation), BaseTrace(simulation)
+
+    def sample(self) -> None:
+        """Sample what is due."""
+        self.arms.sample()
+        self.hands.sample()
+        self.bases.sample()

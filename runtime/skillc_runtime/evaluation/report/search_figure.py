@@ -1,0 +1,110 @@
+"""The figure of a search: the path of the tool across the push, the force, and how deep it sank."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from skillc_runtime.evaluation.report.figure_style import (
+    DIM,
+    INK,
+    PAPER,
+    WIDTH_IN,
+    add_legend,
+    plot_curve,
+    plot_path,
+)
+from skillc_runtime.evaluation.report.push_figure import PushDrawing, draw_force, make_push_drawing
+from skillc_runtime.evaluation.report.run_record import RunRecord
+from skillc_runtime.evaluation.report.searches import Search
+from skillc_runtime.motion.pose import Array
+
+HEIGHT_IN = 5.0
+LEAST_MM = 1.0
+"""At least this much is shown around where a search began."""
+
+
+@dataclass(frozen=True, slots=True)
+class SearchDrawing:
+    """A search to draw: the force of its push, and the true place (2,) of the hole in its plane, None if not known."""
+
+    search: Search
+    force: PushDrawing
+    hole_mm: Array | None
+
+
+def make_search_drawing(search: Search, record: RunRecord) -> SearchDrawing:
+    """Return what is drawn of a search."""
+    return SearchDrawing(search, make_push_drawing(search.push, record), _find_hole(search, record))
+
+
+def draw_search(drawing: SearchDrawing) -> Figure:
+    """Return the figure of a search."""
+    figure = Figure(figsize=(WIDTH_IN, HEIGHT_IN), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=(1.1, 1))
+    _draw_path(figure.add_subplot(grid[:, 0]), drawing)
+    force = figure.add_subplot(grid[0, 1])
+    draw_force(force, drawing.force)
+    force.set_title("Force over time")
+    force.set_xlabel("")
+    _draw_depth(figure.add_subplot(grid[1, 1], sharex=force), drawing)
+    add_legend(figure)
+    return figure
+
+
+def _draw_path(axes: Axes, drawing: SearchDrawing) -> None:
+    """Draw the path across the push, to scale."""
+    search = drawing.search
+    path, reference = (search.in_plane(each) for each in (search.samples.position, search.samples.reference))
+    plot_path(axes, reference, "commanded", "path", linewidth=0.9)
+    plot_path(axes, path, "sensor", "path of the tool", linestyle="-")
+    axes.plot(*path[0], "o", color=INK, markeredgecolor=PAPER, markersize=7, zorder=6, label="began")
+    if search.found:
+        axes.plot(*path[-1], "s", color=INK, markeredgecolor=PAPER, markersize=7, zorder=6, label="gave way")
+    if drawing.hole_mm is not None:
+        axes.plot(
+            *drawing.hole_mm, "x", color=INK, markersize=9, markeredgewidth=2, zorder=7, label="hole: simulator truth"
+        )
+    holes = [] if drawing.hole_mm is None else [drawing.hole_mm[None]]
+    reach = max(LEAST_MM, 1.1 * float(np.abs(np.vstack([path, reference, *holes])).max()))
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", adjustable="box")
+    axes.set(xlabel=f"{search.names[0]}, mm from where it began", ylabel=f"{search.names[1]}, mm")
+    axes.set_title("Path of the search, across the push")
+
+
+def _draw_depth(axes: Axes, drawing: SearchDrawing) -> None:
+    """Draw how far the tool has sunk since the search began."""
+    search, push = drawing.search, drawing.search.push
+    time = push.samples.time
+    depth = push.travel_mm - push.travel_mm[min(int(np.searchsorted(time, search.start_s)), len(time) - 1)]
+    plot_curve(axes, time - push.start_s, depth, "sensor", "depth", linestyle="-")
+    shown = depth[time - push.start_s >= axes.get_xlim()[0]]
+    room = 0.08 * max(float(np.ptp(shown)), 1.0)
+    axes.set_ylim(shown.min() - room, shown.max() + room)
+    when, words = search.end_s - push.start_s, "gave way" if search.found else "search ended"
+    axes.axvline(when, color=DIM, linewidth=1.0, linestyle=(0, (6, 3)))
+    axes.annotate(
+        words,
+        (when, 1.0),
+        (-4, -10),
+        xycoords=("data", "axes fraction"),
+        textcoords="offset points",
+        ha="right",
+        fontsize=8,
+    )
+    axes.set(xlabel="time from the start of the push, s", ylabel="depth, mm")
+    axes.set_title("Depth below where it searched")
+
+
+def _find_hole(search: Search, record: RunRecord) -> Array | None:
+    """Return where the fixture that the search is about really is, (2,) mm in the plane."""
+    for each in search.push.on:
+        try:
+            place = record.truth.fixture_pose(each).position
+        except KeyError:
+            continue
+        return np.asarray(search.in_plane(place[None])[0])
+    return None

@@ -1,0 +1,49 @@
+"""A figure of a piece of work, as it goes into a report: what it shows, and how it is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from matplotlib.figure import Figure
+
+from skillc_runtime.evaluation.report.figure_files import FigureFiles
+
+
+@dataclass(frozen=True, slots=True)
+class WorkFigure:
+    """A figure to be drawn.
+
+    file: the name of its files without suffix; title: its heading; explanation: what is to be known to read it;
+    alternative: what it shows, for those who cannot see it.
+    """
+
+    file: str
+    title: str
+    explanation: str
+    alternative: str
+    draw: Callable[[], Figure]
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnFigure:
+    """A figure with its files."""
+
+    of: WorkFigure
+    files: FigureFiles
+
+    @property
+    def element(self) -> str:
+        """The figure as an element of a page."""
+        return self.files.embed_svg(self.of.alternative)
+
+
+def number_files(figures: Sequence[WorkFigure]) -> tuple[WorkFigure, ...]:
+    """Return figures whose files have names of their own: a number follows where several had the same."""
+    names = [each.file for each in figures]
+    counts = [names[: index + 1].count(name) for index, name in enumerate(names)]
+    several = [names.count(name) > 1 for name in names]
+    return tuple(
+        replace(each, file=f"{each.file}-{count}") if repeated else each
+        for each, count, repeated in zip(figures, counts, several, strict=True)
+    )
