@@ -3,12 +3,17 @@
 import gc
 import os
 import signal
+import sys
 
 from hypothesis import HealthCheck, settings
 
 # No test depends on how fast the machine is.
 settings.register_profile("skillc", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("skillc")
+
+# Tests of, or with, what only Unix has.
+if sys.platform == "win32":
+    collect_ignore = ["world/test_room.py", "fuzz", "store", "operating", "cells"]
 
 
 def pytest_configure() -> None:

@@ -223,7 +223,7 @@ def test_answers_in_json_are_typed(scene: Path) -> None:
 
 def test_the_query_that_help_recommends_includes_subclasses(scene: Path) -> None:
     written = " ".join(run("world", "--help").stdout.split())
-    pattern = written.partition("`")[2].partition("`")[0]
+    pattern = written.partition("ask for `")[2].partition("`")[0]
     assert run("world", scene, "--query", f"SELECT ?x {{ {pattern} }}").stdout.split() == ["x", "lab:Iiwa-1"]
 
 

@@ -67,7 +67,7 @@ ASSIGNMENTS: list[tuple[Assignment, FailedSteps]] = [
 ]
 
 
-@pytest.mark.parametrize("start", ["fork", pytest.param("spawn", marks=pytest.mark.sim)])
+@pytest.mark.parametrize("start", ["fork", "thread", pytest.param("spawn", marks=pytest.mark.sim)])
 @pytest.mark.parametrize(("assignment", "failures"), ASSIGNMENTS)
 def test_the_answer_is_that_of_planning_in_this_process(assignment, failures, start) -> None:
     planners = replace(find_planners(), for_makespan=None)  # Aries may answer otherwise the second time

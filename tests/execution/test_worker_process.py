@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc_runtime.execution.process_start import StartMethod
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
+from skillc_runtime.platforms.processes import StartMethod
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import VOCABULARY, iri
@@ -52,6 +52,7 @@ def start(request: pytest.FixtureRequest) -> StartMethod:
     return request.param
 
 
+@pytest.mark.parametrize("start", ["fork", "spawn", "thread"])
 def test_results_of_any_size_arrive_whole(start: StartMethod) -> None:
     worker = WorkerProcess(zeros, start)
     assert worker.poll() is None
@@ -66,6 +67,21 @@ def test_an_exception_fails_one_request_and_a_death_all_that_follow(start: Start
     assert isinstance(raised, Raised) and raised.why.startswith("ZeroDivisionError: ")
     assert answer(worker, 2) == Returned(0.5)
     assert [answer(worker, 1) for _ in range(2)] == [Died("its process ended with code 7")] * 2
+
+
+def test_a_thread_reports_exceptions_too_and_one_that_is_killed_is_left_behind() -> None:
+    worker = WorkerProcess(divide, "thread")
+    raised = answer(worker, 0)
+    assert isinstance(raised, Raised) and raised.why.startswith("ZeroDivisionError: ")
+    assert answer(worker, 2) == Returned(0.5)
+    worker.kill()
+    waiting = threading.Event()
+    blocked = WorkerProcess(lambda _: waiting.wait(60.0), "thread")
+    assert blocked.poll() is None
+    blocked.ask(None)
+    blocked.kill()
+    assert blocked.poll() == Died("it was killed")
+    waiting.set()
 
 
 def test_signals_of_the_terminal_are_left_to_the_parent(start: StartMethod) -> None:

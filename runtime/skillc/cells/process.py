@@ -21,6 +21,7 @@ from skillc.cells.service import CellService
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
+from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.transactions import StoreError
@@ -50,7 +51,7 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
             outbox = Outbox(requests)
             listen_for_stops(stops, lambda request: host.stop(request.operation, request.reason))
             service = CellService(host, Inbox(requests, outbox), outbox)
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            for number in ENDING:
                 signal.signal(number, lambda received, _: service.end(f"by {signal.Signals(received).name}"))
             service.run()
         outbox.close(CLOSE_S)

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-NUMBERS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+from skillc_runtime.platforms.signals import ENDING
+
 SHELL_OFFSET = 128
 """Shells give a process that was ended by a signal this exit code plus the signal's number."""
 
@@ -74,7 +75,7 @@ def _handling(handle: Callable[[int, FrameType | None], None]) -> Iterator[None]
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = {number: signal.getsignal(number) for number in NUMBERS}
+    before = {number: signal.getsignal(number) for number in ENDING}
     try:
         for number, former in before.items():
             if former is not signal.SIG_IGN:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from skillc.cli.console import Terminal, page_of, print_result
-from skillc.cli.keyboard import is_operable
 from skillc.cli.result_output import format_ending, format_result
 from skillc.cli.run_progress import RunProgress
 from skillc.cli.settings import output_settings
@@ -17,6 +16,7 @@ from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.pace import Pace
+from skillc_runtime.platforms.keyboard import is_operable
 
 
 def check_operable(options: RunOptions) -> None:

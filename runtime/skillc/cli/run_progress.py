@@ -15,11 +15,11 @@ from rich.text import Text
 
 from skillc.cli.console import rich_console, shows_progress
 from skillc.cli.interrupts import Interrupted, noting_signals
-from skillc.cli.keyboard import Keyboard, is_operable
 from skillc.cli.run_display import compose_display
 from skillc.cli.run_keys import FASTER, KEYS, SLOWER, explain_refusal
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.platforms.keyboard import Keys, is_operable, open_keyboard
 from skillc_runtime.recording.commands import Command, Stop
 from skillc_runtime.recording.events import (
     Event,
@@ -53,7 +53,7 @@ class RunProgress:
         self._calls: dict[int, tuple[str, ...]] = {0: ()}
         self._spinner = Spinner("dots")
         self._live: Live | None = None
-        self._keyboard: Keyboard | None = None
+        self._keyboard: Keys | None = None
         self._signal: Callable[[], Interrupted | None] = lambda: None
         self._remark, self._since, self._looked = "", 0.0, 0.0
         self._stopped = False
@@ -101,9 +101,9 @@ class RunProgress:
     @contextmanager
     def operating(self) -> Iterator[None]:
         """Take keys and signals, in a `with` statement; the second signal raises KeyboardInterrupt."""
-        keys = Keyboard(self._suspended, self._continued) if self._live is not None and is_operable() else None
-        with noting_signals() as self._signal, keys or nullcontext():
-            self._keyboard = keys
+        operable = self._live is not None and is_operable()
+        keyboard = open_keyboard(self._suspended, self._continued) if operable else nullcontext()
+        with noting_signals() as self._signal, keyboard as self._keyboard:
             try:
                 yield
             finally:

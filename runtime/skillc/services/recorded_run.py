@@ -14,9 +14,9 @@ from skillc.services.recordings import NAME
 from skillc.services.reporting import Reporter
 from skillc.services.watchdog.ending import RunDescription, write_interrupted_end
 from skillc.services.watchdog.process import TICK_TIMEOUT_S, watching
-from skillc.services.watchdog.program import STATE, SharedState
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.write import REPORT, RESULT
+from skillc_runtime.platforms.watchdog_program import STATE, SharedState
 from skillc_runtime.recording.envelope import make_run_id
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.reader import TraceError

@@ -18,13 +18,13 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
-from skillc_runtime.execution.process_start import DEFAULT_START, StartMethod
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.worker_process import Returned, WorkerProcess, WorkerResult
 from skillc_runtime.planning.arrangement import arrange_plan
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.planning.validation import PlanError, validate
+from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod
 from skillc_runtime.world.state.world_state import WorldState
 
 GRACE_S = 2.0

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pickle
-import select
-import signal
+import selectors
 import socket
 import struct
 import sys
@@ -17,7 +16,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, cast
 
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.process_start import (
+from skillc_runtime.platforms.processes import (
     DEFAULT_START,
     ProcessTerminated,
     StartMethod,
@@ -61,6 +60,8 @@ WorkerResult: TypeAlias = Returned | Raised | Died
 class WorkerProcess:
     """A process that calls a function, which must not use devices, stores or locks of this process.
 
+    On Windows it is a thread of this process, and one that is killed goes on until its function returns.
+
     `ask` sends a request, `poll` returns its result and never blocks; `kill` ends the process and the programs that it
     started in sandboxes. A process that has died stays so.
     """
@@ -73,7 +74,10 @@ class WorkerProcess:
         self._dead: str | None = None
         try:
             self._socket.setblocking(False)
-            self._process = start_process(partial(_serve, function, remote.fileno()), start, (remote.fileno(),))
+            end = (
+                remote.dup().detach() if start == "thread" else remote.fileno()
+            )  # a thread shares what is closed below
+            self._process = start_process(partial(_serve, function, end), start, (end,))
         except BaseException:
             self._socket.close()
             raise
@@ -120,8 +124,8 @@ class WorkerProcess:
         """End the process, within CLEANUP_S if it can; a request that has no result then has the result Died."""
         if self._dead is not None:
             return
-        for number in (signal.SIGTERM, signal.SIGKILL):
-            self._process.send_signal(number)
+        for end in (self._process.terminate, self._process.kill):
+            end()
             if join_process(self._process, CLEANUP_S):
                 break
         self._result = self._result or self._receive()
@@ -141,15 +145,15 @@ class WorkerProcess:
 
 def wait_for_any(workers: Sequence[WorkerProcess], seconds: float) -> None:
     """Wait for up to `seconds` until one of the workers has a result or has died."""
-    poller = select.poll()
-    for each in workers:
-        poller.register(each.fileno(), select.POLLIN)
-    poller.poll(1000.0 * min(seconds, MAX_WAIT_S))
+    with selectors.DefaultSelector() as selector:
+        for each in workers:
+            selector.register(each.fileno(), selectors.EVENT_READ)
+        selector.select(min(seconds, MAX_WAIT_S))
 
 
 def _serve(function: Callable[[Any], object], remote: int) -> None:
     """Answer requests until the other end is closed."""
-    with socket.socket(fileno=remote) as connection:
+    with socket.socket(fileno=remote) as connection, suppress(BrokenPipeError, ConnectionResetError):
         received = bytearray()
         while part := connection.recv(_CHUNK):  # wait ends: with the parent, or when it closes the connection
             received += part

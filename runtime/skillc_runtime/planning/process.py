@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-import signal
-import subprocess
-import sys
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,16 +12,17 @@ from types import TracebackType
 from typing import TypeAlias
 
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning import process_sandbox
+from skillc_runtime.platforms.memory import physical_bytes
+from skillc_runtime.platforms.sandbox import NOT_STARTED, end_sandboxed, start_sandboxed
 
 POLL_S = 0.005
 """The interval at which programs are polled."""
 
-CLEANUP_S = 1.0
-"""How long the sandbox may take to end the program's children before both are killed."""
-
 TAIL_BYTES = 2**16
 """How much of the end of a program's output is read: the whole may not fit into memory."""
+
+MOST_BYTES = 6 * 2**30
+"""The most memory that a program may use, in bytes, however much there is."""
 
 _PREFIX = "skillc-plan-"
 
@@ -49,8 +46,8 @@ def _is_workplace(folder: Path) -> bool:
 
 def machine_limits() -> Limits:
     """Return limits that leave at least half of this machine's memory to other programs."""
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    return Limits(memory_bytes=min(6 * 2**30, memory // 2), file_bytes=2**30)
+    memory = physical_bytes()
+    return Limits(memory_bytes=MOST_BYTES if memory is None else min(MOST_BYTES, memory // 2), file_bytes=2**30)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,18 +97,9 @@ class RunningProcess:
     ) -> None:
         """Start a program in a folder and write its output to the file `output` there; OSError if that fails."""
         self._output, self._was_stopped = folder / output, False
-        sandboxed = (sys.executable, "-I", "-S", process_sandbox.__file__, str(os.getpid()))
-        limited = (str(limits.memory_bytes), str(limits.file_bytes), str(folder) if _is_workplace(folder) else "")
+        most = limits.memory_bytes, limits.file_bytes
         with self._output.open("wb") as stdout, (stdin or Path(os.devnull)).open("rb") as source:
-            self._process = subprocess.Popen(
-                (*sandboxed, *limited, *command),
-                cwd=folder,
-                stdin=source,
-                stdout=stdout,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-                env=None if environment is None else {**os.environ, **environment},
-            )
+            self._process = start_sandboxed(command, folder, most, (source, stdout), environment, _is_workplace(folder))
 
     def __enter__(self) -> RunningProcess:
         return self
@@ -121,15 +109,8 @@ class RunningProcess:
 
     def stop(self) -> None:
         """End the program and all its descendants."""
-        if self._process.poll() is None:
-            self._was_stopped = True
-            self._process.terminate()
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                self._process.wait(CLEANUP_S)
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)
-        with contextlib.suppress(subprocess.TimeoutExpired):  # a process in a call of a broken driver cannot be killed
-            self._process.wait(CLEANUP_S)
+        self._was_stopped = self._was_stopped or not self.has_ended
+        end_sandboxed(self._process)
 
     @property
     def has_ended(self) -> bool:
@@ -143,7 +124,7 @@ class RunningProcess:
         if code is None or self._was_stopped:
             return ProcessTimedOut(output)
         ended = ProcessEnded(code, output)
-        return ProcessNotStarted(ended.last_line) if code == process_sandbox.NOT_STARTED else ended
+        return ProcessNotStarted(ended.last_line) if code == NOT_STARTED else ended
 
 
 def run_program(command: Sequence[str], folder: Path, seconds: float, stdin: Path | None = None) -> ProcessResult:

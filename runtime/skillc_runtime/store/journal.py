@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,6 +12,7 @@ from zlib import crc32
 import msgspec
 
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.platforms.file_locks import read_at, unlock, write_at
 from skillc_runtime.store.file_lock import lock_file
 from skillc_runtime.store.store_lock import PATIENCE_S, describe_holders
 from skillc_runtime.world.state.transactions import StoreError
@@ -48,7 +48,7 @@ class TransactionJournal:
         self._path, self._cancel = path, cancel or CancelToken()
         self.writable = os.access(path if path.exists() else path.parent, os.W_OK)
         flags = os.O_RDWR | os.O_CREAT if self.writable else os.O_RDONLY
-        self._file = os.open(path, flags | os.O_CLOEXEC, 0o666)
+        self._file = os.open(path, flags, 0o666)
         self._start = self._seen = _Position(0, 0)
 
     def start_after(self, sequence: int) -> None:
@@ -82,7 +82,7 @@ class TransactionJournal:
         """Return the entries after number `sequence`; StoreError when the file is damaged."""
         if sequence == self._seen.sequence and os.fstat(self._file).st_size <= self._seen.offset:
             return ()
-        with self.locked(fcntl.LOCK_SH):
+        with self.locked(shared=True):
             return self._after(sequence)
 
     def clear(self) -> None:
@@ -91,17 +91,17 @@ class TransactionJournal:
         os.fsync(self._file)
 
     @contextmanager
-    def locked(self, how: int = fcntl.LOCK_EX) -> Iterator[None]:
-        """Lock the file: exclusively, or with LOCK_SH shared, so that no process writes.
+    def locked(self, shared: bool = False) -> Iterator[None]:
+        """Lock the file: exclusively, or shared, so that no process writes.
 
         StoreError when other processes lock it for PATIENCE_S.
         """
-        if not lock_file(self._file, how, self._cancel.limited(PATIENCE_S)):
+        if not lock_file(self._file, shared, self._cancel.limited(PATIENCE_S)):
             raise StoreError(f"{self._path} is locked by {describe_holders(self._file)}; try again later")
         try:
             yield
         finally:
-            fcntl.flock(self._file, fcntl.LOCK_UN)
+            unlock(self._file)
 
     def _after(self, sequence: int) -> tuple[JournalEntry, ...]:
         position = self._seen if self._seen.sequence <= sequence else self._start
@@ -115,7 +115,7 @@ class TransactionJournal:
     def _write(self, line: bytes, offset: int) -> int:
         done = 0
         while done < len(line):
-            done += os.pwrite(self._file, line[done:], offset + done)
+            done += write_at(self._file, line[done:], offset + done)
         os.fsync(self._file)
         return done
 
@@ -136,7 +136,7 @@ class TransactionJournal:
         size = os.fstat(self._file).st_size
         if size <= offset:
             return
-        *lines, _unfinished = os.pread(self._file, size - offset, offset).split(b"\n")
+        *lines, _unfinished = read_at(self._file, size - offset, offset).split(b"\n")
         for line in lines:
             entry = _entry(line)
             if entry is None or not (entry.sequence == sequence + 1 or entry.sequence <= self._start.sequence):

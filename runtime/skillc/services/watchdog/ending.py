@@ -10,10 +10,10 @@ from pathlib import Path
 import msgspec
 from msgspec import structs
 
-from skillc.services.watchdog.program import STATE, SharedState
 from skillc_runtime.evaluation.report.interrupted import draw_attempts, summarise_recording
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.write import write_report, write_result
+from skillc_runtime.platforms.watchdog_program import STATE, SharedState
 from skillc_runtime.recording.ending import end_recording
 from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.recording.reader import TraceError

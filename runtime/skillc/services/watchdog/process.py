@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
-import signal
 import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import inf
 from pathlib import Path
 
 import msgspec
 
 from skillc.services.errors import ServiceError
-from skillc.services.watchdog import program
+from skillc.services.watchdog import ending
 from skillc.services.watchdog.compilation import watching_compilation
 from skillc.services.watchdog.ending import DESCRIPTION, RunDescription
-from skillc.services.watchdog.program import SharedState
+from skillc_runtime.platforms.watchdog import IS_WATCHED, exiting_at_sigquit, start_watchdog
+from skillc_runtime.platforms.watchdog_program import SharedState
 
 TICK_TIMEOUT_S = 30.0
 """How long a tick may take by default, in s of wall time."""
@@ -35,10 +33,14 @@ def watching(folder: Path, run: RunDescription, state: SharedState) -> Iterator[
     If a tick takes longer than the run's time-out, or if this process dies, the watchdog ends this process with exit
     code 3, writes the end of the run, and removes `folder`, which is for the use of both. Functions may be compiled for
     as long as it takes. A time-out of 0 lets ticks take any time. ServiceError if the watchdog cannot be started.
+    On Windows nobody watches.
     """
+    if not IS_WATCHED:
+        yield
+        return
     process = _start(folder, run)
     try:
-        with _exiting_at_sigquit(), watching_compilation(state.add_busy):
+        with exiting_at_sigquit(), watching_compilation(state.add_busy):
             yield
     finally:
         _dismiss(process)
@@ -48,30 +50,10 @@ def _start(folder: Path, run: RunDescription) -> subprocess.Popen[bytes]:
     paths = os.pathsep.join(str(Path(path).absolute()) for path in sys.path if path)
     try:
         (folder / DESCRIPTION).write_bytes(msgspec.json.encode(run))
-        return subprocess.Popen(
-            (sys.executable, "-I", "-S", program.__file__, str(os.getpid()), str(folder), str(run.timeout_s or inf)),
-            stdin=subprocess.PIPE,
-            stdout=None if run.prints_json else subprocess.DEVNULL,
-            start_new_session=True,
-            env={**os.environ, "PYTHONPATH": paths},
-        )
+        environment = {**os.environ, "PYTHONPATH": paths}
+        return start_watchdog(folder, run.timeout_s, ending.__name__, not run.prints_json, environment)
     except OSError as error:
         raise ServiceError(f"the watchdog process cannot be started: {error.strerror or error}") from error
-
-
-@contextmanager
-def _exiting_at_sigquit() -> Iterator[None]:
-    """Make `_exit` of the C library the handler of SIGQUIT, so that it works while the interpreter is blocked.
-
-    The handler is called with the number of the signal, which is 3, the exit code of a failed task.
-    """
-    c = ctypes.CDLL(None)
-    c.signal.restype, c.signal.argtypes = ctypes.c_void_p, (ctypes.c_int, ctypes.c_void_p)
-    before = c.signal(signal.SIGQUIT, ctypes.cast(c._exit, ctypes.c_void_p))
-    try:
-        yield
-    finally:
-        c.signal(signal.SIGQUIT, before)
 
 
 def _dismiss(process: subprocess.Popen[bytes]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import BinaryIO, TypeVar
 import msgspec
 
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.platforms.file_locks import try_lock
 
 FILE = "trials.jsonl"
 FORMAT = 5
@@ -69,12 +69,8 @@ class TrialJournal:
         self._file.close()
 
     def _lock(self) -> None:
-        try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise JournalError(
-                f"another process is adding trials to {self.path.parent}; take another folder"
-            ) from error
+        if not try_lock(self._file.fileno()):
+            raise JournalError(f"another process is adding trials to {self.path.parent}; take another folder")
 
     def _resume(self, heading: Heading) -> dict[int, Trial]:
         """Read the file; an incomplete last line is removed."""

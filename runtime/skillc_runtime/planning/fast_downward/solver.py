@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import signal
 import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -31,6 +30,7 @@ from skillc_runtime.planning.process import (
     make_workplace,
     wait_for_end,
 )
+from skillc_runtime.platforms.signals import FILE_TOO_LARGE
 
 HEAD_START_S = 0.2
 """How much later LAMA starts than A*, which has solved most tasks by then."""
@@ -206,7 +206,7 @@ def _describe_failure(outcome: ProcessResult) -> str:
         case ProcessNotStarted(why):
             return f"it cannot be started ({why})"
         case ProcessEnded(code, _):
-            if code == -signal.SIGXFSZ:
+            if FILE_TOO_LARGE is not None and code == -FILE_TOO_LARGE:
                 return "it exceeded the limit on file size"
             if code < 0:
                 return f"it was ended by signal {-code}"

@@ -1,9 +1,9 @@
 """A small program that watches the process of a run, and ends it if its ticks stop.
 
-It is started as a file, without the package: `python -I -S program.py PARENT FOLDER TIMEOUT`. PARENT is the id of the
-run's process, FOLDER has the shared memory (STATE) and the description of the run, TIMEOUT is in s. A byte on standard
-input says that the run has ended properly. Otherwise, once the run's process is gone, `-m ENDING FOLDER REASON` of the
-package writes the end of the run; PYTHONPATH says where the package is.
+It is started as a file, without the package: `python -I -S watchdog_program.py PARENT FOLDER TIMEOUT ENDING`. PARENT
+is the id of the run's process, FOLDER has the shared memory (STATE) and the description of the run, TIMEOUT is in s. A
+byte on standard input says that the run has ended properly. Otherwise, once the run's process is gone,
+`-m ENDING FOLDER REASON` writes the end of the run; PYTHONPATH says where that module is.
 """
 
 from __future__ import annotations
@@ -16,13 +16,11 @@ import shutil
 import signal
 import subprocess
 import sys
-import termios
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 STATE = "state"
-ENDING = "skillc.services.watchdog.ending"
 POLL_S = 0.1
 MAX_POLL_S = 1.0
 """The greatest time between two polls that counts: more passes if the machine, or this program, was suspended."""
@@ -93,8 +91,10 @@ class SharedState:
         self._words[_STOP] = 1
 
 
-def main(parent: int, folder: Path, timeout_s: float) -> None:
-    """Watch until the run ends; end it and write its end if it does not do so itself."""
+def main(parent: int, folder: Path, timeout_s: float, ending: str) -> None:
+    """Watch until the run ends; end it and write its end, by a module, if it does not do so itself."""
+    if sys.platform == "win32":
+        raise RuntimeError("Windows has no such signals")
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
         signal.signal(number, signal.SIG_IGN)
     state = SharedState(folder / STATE)
@@ -105,7 +105,7 @@ def main(parent: int, folder: Path, timeout_s: float) -> None:
         _restore_terminal(parent)
         _end(parent)
     if reason is not None:
-        _write_end(folder, reason)
+        _write_end(folder, reason, ending)
 
 
 def _watch(parent: int, state: SharedState, timeout_s: float) -> str | None:
@@ -147,6 +147,10 @@ def _read_status(pid: int) -> list[str]:
 
 def _restore_terminal(pid: int) -> None:
     """Let the terminal show what is typed again if a process has it, which reads single keys."""
+    if sys.platform == "win32":
+        return
+    import termios
+
     status = _read_status(pid)
     if not status or status[2] != status[5]:
         return
@@ -158,6 +162,8 @@ def _restore_terminal(pid: int) -> None:
 
 def _end(parent: int) -> None:
     """End the run's process: by SIGQUIT, whose handler in it is `_exit`, or else by SIGKILL."""
+    if sys.platform == "win32":
+        return
     for number in (signal.SIGQUIT, signal.SIGKILL):
         with contextlib.suppress(ProcessLookupError, PermissionError):
             if os.getppid() == parent:
@@ -173,12 +179,12 @@ def _wait_until(condition: Callable[[], bool], seconds: float) -> bool:
     return condition()
 
 
-def _write_end(folder: Path, reason: str) -> None:
+def _write_end(folder: Path, reason: str, ending: str) -> None:
     with contextlib.suppress(OSError, subprocess.TimeoutExpired):
-        command = (sys.executable, "-P", "-m", ENDING, str(folder), reason)
+        command = (sys.executable, "-P", "-m", ending, str(folder), reason)
         subprocess.run(command, stdin=subprocess.DEVNULL, timeout=ENDING_S, check=False)
     shutil.rmtree(folder, ignore_errors=True)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), Path(sys.argv[2]), float(sys.argv[3]))
+    main(int(sys.argv[1]), Path(sys.argv[2]), float(sys.argv[3]), sys.argv[4])

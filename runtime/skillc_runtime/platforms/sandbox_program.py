@@ -1,6 +1,6 @@
 """A small program that runs a command within limits, and ends all its descendants when it or the parent process ends.
 
-It is started as a file, without the package: `python -I -S process_sandbox.py PARENT MEMORY FILE FOLDER COMMAND ..`.
+It is started as a file, without the package: `python -I -S sandbox_program.py PARENT MEMORY FILE FOLDER COMMAND ..`.
 PARENT is the id of the process to watch, MEMORY and FILE are the limits of address space and file size in bytes,
 FOLDER is removed if the parent is gone; it may be empty. The program ends as the command did, by the same signal or
 with the same code, or with NOT_STARTED and the reason as its last line.
@@ -16,6 +16,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import FrameType
+
+assert sys.platform != "win32", "it has no limits of processes"
 
 NOT_STARTED = 127
 POLL_S = 0.1

@@ -1,4 +1,4 @@
-"""Starts processes that run a function: as a fork, which shares everything with this process, or in a new interpreter.
+"""Starts processes that run a function: a fork, which shares everything with this process, or a new interpreter.
 
 A process that is started here leaves the signals of the terminal to its parent, cleans up when it is terminated, and
 ends when its parent does.
@@ -21,56 +21,16 @@ from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from types import FrameType
-from typing import Literal, NoReturn, Protocol, TextIO, TypeAlias
+from typing import NoReturn, TextIO
 
-StartMethod: TypeAlias = Literal["fork", "spawn"]
-DEFAULT_START: StartMethod = "fork" if sys.platform == "linux" else "spawn"
-"""A fork starts at once; system libraries of macOS do not work in forks."""
+from skillc_runtime.platforms.processes import ProcessTerminated, StartedProcess
+from skillc_runtime.platforms.signals import ENDING
+
+assert sys.platform != "win32", "there are no forks"
 
 PARENT_POLL_S = 0.1
 """The interval at which a process checks whether its parent still runs."""
-_JOIN_POLL_S = 0.001
-_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _SPAWNED = "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); pickle.load(sys.stdin.buffer)()"
-
-
-class ProcessTerminated(BaseException):
-    """Raised in a process that was asked to end, so that it cleans up."""
-
-
-class StartedProcess(Protocol):
-    """A process that was started here."""
-
-    @property
-    def pid(self) -> int:
-        """The id of the process."""
-        ...
-
-    def poll(self) -> int | None:
-        """Return the exit code, negative for a signal; None while the process runs."""
-        ...
-
-    def send_signal(self, sig: int) -> None:
-        """Send a signal if the process still runs."""
-        ...
-
-
-def start_process(function: Callable[[], None], start: StartMethod, files: Sequence[int]) -> StartedProcess:
-    """Run a function in a new process, which inherits the file descriptors `files`.
-
-    With "spawn" the function is pickled. OSError if there can be no more processes.
-    """
-    return _fork(function) if start == "fork" else _spawn(function, files)
-
-
-def join_process(process: StartedProcess, seconds: float) -> bool:
-    """Wait for up to `seconds` for the end of a process; return whether it has ended."""
-    end = time.monotonic() + seconds
-    while process.poll() is None:
-        if time.monotonic() >= end:
-            return False
-        time.sleep(_JOIN_POLL_S)
-    return True
 
 
 class _Forked:
@@ -90,13 +50,20 @@ class _Forked:
                 self._code = os.waitstatus_to_exitcode(status) if pid else None
         return self._code
 
-    def send_signal(self, sig: int) -> None:
+    def terminate(self) -> None:
+        self._send(signal.SIGTERM)
+
+    def kill(self) -> None:
+        self._send(signal.SIGKILL)
+
+    def _send(self, number: signal.Signals) -> None:
         if self.poll() is None:
             with suppress(ProcessLookupError):
-                os.kill(self.pid, sig)
+                os.kill(self.pid, number)
 
 
-def _fork(function: Callable[[], None]) -> _Forked:
+def fork(function: Callable[[], None]) -> StartedProcess:
+    """Run a function in a fork."""
     parent = os.getpid()
     with _signals_blocked(), warnings.catch_warnings():
         # Other threads may hold locks at this moment; the new process takes none of theirs.
@@ -130,7 +97,7 @@ def _open_stream(number: int) -> TextIO:
         return Path(os.devnull).open("w", encoding="utf-8")
 
 
-def _spawn(function: Callable[[], None], files: Sequence[int]) -> subprocess.Popen[bytes]:
+def spawn(function: Callable[[], None], files: Sequence[int]) -> StartedProcess:
     """Run the function in a new interpreter; what it imports is found on the same path as here."""
     with tempfile.TemporaryFile() as request:
         pickle.dump(sys.path, request)
@@ -143,7 +110,7 @@ def _spawn(function: Callable[[], None], files: Sequence[int]) -> subprocess.Pop
 @contextmanager
 def _signals_blocked() -> Iterator[None]:
     """Keep signals from a new process until it handles them in its own way."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
     try:
         yield
     finally:
@@ -169,7 +136,7 @@ def _handle_signals() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _terminate)
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, ENDING)
 
 
 def _terminate(_number: int, _frame: FrameType | None) -> None:

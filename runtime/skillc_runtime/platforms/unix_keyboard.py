@@ -11,16 +11,13 @@ import time
 from collections.abc import Callable
 from types import FrameType
 
+assert sys.platform != "win32", "it has no termios"
+
 _SIGNALS = (signal.SIGTSTP, signal.SIGCONT)
 _READ_BYTES = 64
 _ESCAPE = b"\x1b"
 _LOCAL_MODES = 3
 """The index of the local modes in what `tcgetattr` returns."""
-
-
-def is_operable() -> bool:
-    """Whether a user can type keys and see what they do: the standard input and stderr are terminals."""
-    return sys.stdin.isatty() and sys.stderr.isatty()
 
 
 class Keyboard:
