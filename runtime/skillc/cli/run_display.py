@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc.cli.run_estimate import Estimate
 from skillc.cli.run_keys import format_help
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
@@ -38,6 +39,17 @@ def describe_run(run: TaskRun, now: float, since: float) -> list[str]:
             return [head, *_describe_forces(tree), *_describe_stacks(tree)]
         case _:
             return [f"{run.state}: {run.reason}" if run.reason else run.state]
+
+
+def format_estimate(estimate: Estimate) -> str:
+    """Return which step runs, how long the plan takes in the time of the cell, and how long the rest in wall time."""
+    left = "" if estimate.left_s is None else f", {_format_duration(estimate.left_s)} left"
+    return f"step {estimate.step} of {estimate.steps}, about {estimate.total_s:.0f} s{left}"
+
+
+def _format_duration(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
 
 def _join_stack(tree: TreeRun) -> str:

@@ -8,15 +8,20 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 
-from rich.console import Group
+from rich.console import Group, RenderableType
 from rich.live import Live
+from rich.progress_bar import ProgressBar
 from rich.spinner import Spinner
+from rich.table import Table
 from rich.text import Text
 
-from skillc.cli.console import rich_console, shows_progress
+from skillc.cli.console import is_unicode, page_of, rich_console, shows_progress
 from skillc.cli.interrupts import Interrupted, noting_signals
-from skillc.cli.run_display import compose_display
+from skillc.cli.layout import Style
+from skillc.cli.run_display import compose_display, format_estimate
+from skillc.cli.run_estimate import EndedStep, Estimate, PlanProgress
 from skillc.cli.run_keys import FASTER, KEYS, SLOWER, explain_refusal
+from skillc.cli.settings import output_settings
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.platforms.keyboard import Keys, is_operable, open_keyboard
@@ -49,9 +54,11 @@ class RunProgress:
         """Show nothing and take no keys if `quiet`."""
         self.pace = pace or Pace()
         self._console = rich_console(sys.stderr)
-        self._title, self._quiet = title, quiet
+        self._page = page_of(sys.stderr)
+        self._title, self._quiet = title, quiet or output_settings().quiet
         self._calls: dict[int, tuple[str, ...]] = {0: ()}
-        self._spinner = Spinner("dots")
+        self._plan = PlanProgress()
+        self._spinner = Spinner("dots" if is_unicode(sys.stderr) else "line")
         self._live: Live | None = None
         self._keyboard: Keys | None = None
         self._signal: Callable[[], Interrupted | None] = lambda: None
@@ -72,11 +79,12 @@ class RunProgress:
         """Show a message."""
         if self._live is not None:
             self._show(f"{self._title}: {message}")
-        elif not self._quiet:
-            self._console.print(f"{self._title}: {message}", soft_wrap=True)
+        else:
+            self._print(f"{self._title}: {message}")
 
     def __call__(self, event: Event) -> None:
         """Show an event."""
+        ended = self._plan.observe(event, time.monotonic())
         match event:
             case NodeStarted(node=node, parent=parent, kind=kind, name=name) if self._live is None:
                 around = self._calls.get(parent, ())
@@ -85,14 +93,17 @@ class RunProgress:
                     self._print_stack(event.time, self._calls[node])
             case NodeEnded(node=node):
                 self._calls.pop(node, None)
+                if ended is not None and self._live is not None:
+                    self._print_step(ended)
             case StateChanged(state=state, reason=reason):
                 self._since = event.time
                 if state == "stopping":
-                    self.say(f"stopping: {reason}")
+                    self._print(f"{self._title}: stopping: {reason}")
             case Replanned(reason=reason):
-                self.say(f"planning again: {reason}")
-            case PlanMade(steps=steps, quality=quality):
-                self.say(f"{' -> '.join(step.skill for step in steps)} ({quality})")
+                self._print(f"{self._title}: planning again: {reason}", "warning")
+            case PlanMade(steps=steps, quality=quality, cost=cost):
+                calls = " -> ".join(step.skill for step in steps)
+                self._print(f"{self._title}: {calls} (about {cost:.0f} s, {quality})")
             case TaskEnded(status=status, verified=verified):
                 self.say(format_status(status, verified))
             case _:
@@ -121,7 +132,8 @@ class RunProgress:
         self._looked = wall
         if self._live is not None:
             pace = self.pace if self._keyboard is not None else None
-            self._show(*compose_display(self._title, run, now, self._since, pace, self._remark))
+            first, *more = compose_display(self._title, run, now, self._since, pace, self._remark)
+            self._show(first, *more, estimate=self._plan.estimate(now, wall))
         if self._keyboard is None:
             time.sleep(seconds)
             return ()
@@ -138,17 +150,42 @@ class RunProgress:
                     self._remark = explain_refusal(key, run)
                 yield key.command
 
-    def _show(self, first: str, *more: str) -> None:
+    def _show(self, first: str, *more: str, estimate: Estimate | None = None) -> None:
         assert self._live is not None, "shown on a terminal"
-        self._spinner.update(text=Text(first))
-        self._live.update(Group(self._spinner, *map(Text, more)))
+        self._spinner.update(text=_one_line(first))
+        bar = [] if estimate is None else [_draw_bar(estimate, self._console.width)]
+        self._live.update(Group(self._spinner, *bar, *map(_one_line, more)))
+
+    def _print(self, text: str, style: Style = "") -> None:
+        """Print a line that remains, above the display if there is one."""
+        if not self._quiet:
+            for line in self._page.wrap(text, style, hanging="  "):
+                self._console.print(Text.from_ansi(line), soft_wrap=True)
+
+    def _print_step(self, ended: EndedStep) -> None:
+        failed = ended.status == "failure"
+        why = f": {ended.reason}" if failed and ended.reason else ""
+        words = {"success": "succeeded", "failure": "failed"}.get(ended.status, ended.status)
+        self._print(f"{ended.at_s:6.1f} s  {ended.skill} {words}{why}", "bad" if failed else "")
 
     def _print_stack(self, now: float, calls: tuple[str, ...]) -> None:
-        if not self._quiet and len(calls) <= STEP_DEPTH:
-            self._console.print(f"{self._title}  {now:6.1f} s  {' > '.join(calls)}", soft_wrap=True)
+        if len(calls) <= STEP_DEPTH:
+            self._print(f"{self._title}  {now:6.1f} s  {' > '.join(calls)}")
 
     def _suspended(self) -> None:
         os.write(sys.stderr.fileno(), SHOW_CURSOR + b"\n")
 
     def _continued(self) -> None:
         os.write(sys.stderr.fileno(), HIDE_CURSOR)
+
+
+def _draw_bar(estimate: Estimate, width: int) -> RenderableType:
+    """Return a bar beside what an estimate says, on one line of a terminal."""
+    words = format_estimate(estimate)
+    line = Table.grid(padding=(0, 2))
+    line.add_row("", ProgressBar(1.0, estimate.share, width=max(8, min(40, width - len(words) - 8))), _one_line(words))
+    return line
+
+
+def _one_line(text: str) -> Text:
+    return Text(text, no_wrap=True, overflow="crop")
