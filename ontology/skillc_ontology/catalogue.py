@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from difflib import get_close_matches
 from pathlib import Path
 
 ROOT = Path(__file__).parent
@@ -61,10 +62,12 @@ def scene_names() -> tuple[str, ...]:
 
 
 def scene_path(name: str) -> Path:
-    """Return the path of a shipped scene, with or without `.ttl`; FileNotFoundError lists the shipped scenes."""
+    """Return the path of a shipped scene, with or without `.ttl`; FileNotFoundError names the nearest ones."""
     file = name if name.endswith(".ttl") else f"{name}.ttl"
     if file not in scene_names():
-        raise FileNotFoundError(f"there is no scene {name}; the shipped scenes are {', '.join(scene_names())}")
+        near = get_close_matches(file, scene_names())
+        hint = f"did you mean {' or '.join(near)}?" if near else f"those are {', '.join(scene_names())}"
+        raise FileNotFoundError(f"no shipped scene {name}; {hint}")
     return ROOT / "scenes" / file
 
 

@@ -76,7 +76,7 @@ def test_a_device_that_the_cell_does_not_have_is_named(tmp_path: Path) -> None:
 
 
 def test_check_reports_an_error_if_a_task_uses_it(tmp_path: Path) -> None:
-    result, _ = run(tmp_path, "no-body", "check", "DIR", "--format", "json")
+    result, _ = run(tmp_path, "no-body", "check", "DIR", "--json")
     found = [(each["name"], each["severity"]) for each in json.loads(result.stdout)]
     assert ("no-body", "error") in found
     assert len(found) > 1, "the task cannot start either, and says so of the same part"

@@ -66,7 +66,7 @@ def test_github_names_files_as_from_here(library: Path) -> None:
 
 
 def test_each_of_several_paths_is_checked_and_told_once(library: Path) -> None:
-    assert names(check("fetch.skill", "terms.skill", ".", "--format", "json")) == ["no-implementation", "unknown-type"]
+    assert names(check("fetch.skill", "terms.skill", ".", "--json")) == ["no-implementation", "unknown-type"]
 
 
 def test_the_standard_input_belongs_where_it_is_said(library: Path) -> None:
@@ -118,9 +118,9 @@ def test_folders_that_look_like_files_hidden_ones_and_circles_do_no_harm(library
     (library / ".hidden").mkdir()
     (library / ".hidden" / "a.skill").write_text("broken", encoding="utf-8")
     (library / "circle").symlink_to(library, target_is_directory=True)
-    found = json.loads(check("--format", "json").stdout)
+    found = json.loads(check("--json").stdout)
     assert {each["path"] for each in found} == {"fetch.skill", "folder.skill/inner.skill"}
-    assert names(check("folder.skill", "--format", "json")) == ["unknown-class"]
+    assert names(check("folder.skill", "--json")) == ["unknown-class"]
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root can read everything")

@@ -62,7 +62,7 @@ def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def check(library: Path, *options: str) -> list[dict[str, object]]:
-    result = CliRunner().invoke(skillc, ["check", str(library), "--format", "json", *options])
+    result = CliRunner().invoke(skillc, ["check", str(library), "--json", *options])
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     found: list[dict[str, object]] = json.loads(result.stdout)
     return found
@@ -172,7 +172,7 @@ except SystemExit:
 """
     runs = [
         subprocess.run([sys.executable, "-c", program, form], capture_output=True, text=True, check=True)
-        for form in ("json", "full")
+        for form in ("concise", "full")
     ]
     cold, warm = (set(run.stderr.split()) & set(HEAVY) for run in runs)
     assert {"lark", "pyoxigraph", "skillc_compiler.pipeline"} <= cold

@@ -71,7 +71,7 @@ def test_check_of_a_sound_library_says_so_and_exits_0(library: Path) -> None:
 
 def test_check_reports_every_error_as_json(library: Path) -> None:
     (library / "bad.skill").write_text("use skiros\nskill A { in x: Prodct }\nskill B { in y: 3 }\n", encoding="utf-8")
-    result = run("check", library, "--format", "json")
+    result = run("check", library, "--json")
     found = json.loads(result.stdout)
     assert result.exit_code == 1
     assert {(each["line"], each["severity"]) for each in found if each["path"].endswith("bad.skill")} >= {
@@ -130,7 +130,7 @@ task two {
 """,
         encoding="utf-8",
     )
-    found = json.loads(run("check", library, "--format", "json").stdout)
+    found = json.loads(run("check", library, "--json").stdout)
     errors = [(each["line"], each["help"]) for each in found if each["severity"] == "error"]
     assert [line for line, _ in errors] == [5, 8]
     assert "lab:Table-1" in errors[0][1]

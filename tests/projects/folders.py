@@ -51,7 +51,7 @@ def call(folder: Path, *arguments: str | Path) -> Result:
 
 def checked(folder: Path, *arguments: str | Path) -> list[dict[str, Any]]:
     """Return the diagnostics of `skillc check` in a folder."""
-    result = call(folder, "check", *arguments, "--format", "json", "--no-cache")
+    result = call(folder, "check", *arguments, "--json", "--no-cache")
     found: list[dict[str, Any]] = json.loads(result.stdout)
     assert result.exit_code == any(each["severity"] == "error" for each in found), result.output
     return found

@@ -73,7 +73,7 @@ def told(folder: Path, text: str, *options: str) -> list[tuple[str, str, str, st
     """Check a library; return severity, message, help and the text at its place of what is reported."""
     file = folder / "t.skill"
     file.write_text(text, "utf-8")
-    output = CliRunner().invoke(skillc, ["check", str(folder), "--format", "json", "--no-cache", *options]).stdout
+    output = CliRunner().invoke(skillc, ["check", str(folder), "--json", "--no-cache", *options]).stdout
     lines = text.split("\n")
     found = json.loads(output)
     assert {each["name"] for each in found if each["severity"] == "error"} <= {"unknown-value"}

@@ -105,7 +105,7 @@ impl plain of Fold { run python "NAME" }
 
 def told(folder: Path, skills: str) -> list[str]:
     (folder / "it.skill").write_text(skills)
-    arguments = ["check", str(folder / "it.skill"), "--format", "json", "--no-cache"]
+    arguments = ["check", str(folder / "it.skill"), "--json", "--no-cache"]
     result = CliRunner().invoke(skillc, arguments)
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     return [each["message"] for each in json.loads(result.stdout)]

@@ -110,7 +110,7 @@ def test_a_scene_states_vectors_which_a_run_writes_and_a_store_keeps(fans: Path)
 def test_what_is_no_vector_or_no_direction_is_reported(fans: Path, old: str, new: str, words: str) -> None:
     assert old in SCENE
     (fans / "scene.ttl").write_text(SCENE.replace(old, new))
-    checked = call("check", ".", "--scene", "scene.ttl", "--format", "json")
+    checked = call("check", ".", "--scene", "scene.ttl", "--json")
     (found,) = json.loads(checked.stdout)
     assert checked.exit_code == 1 and (found["name"], found["line"]) == ("wrong-data-type", 4)
     assert words in f"{found['message']} | {found['help']}"

@@ -65,9 +65,9 @@ def errors(result: Result) -> list[tuple[str, str, int]]:
 
 
 def test_terms_of_a_named_folder_and_of_files_beside_the_skills_are_known(library: Path) -> None:
-    without = run("check", library, "--format", "json", "--no-cache")
+    without = run("check", library, "--json", "--no-cache")
     assert ("unknown-class", "lib/load.skill", 4) in errors(without)
-    named = run("check", library, "--ontology", "stock", "--scene", "lib/scene.ttl", "--format", "json", "--no-cache")
+    named = run("check", library, "--ontology", "stock", "--scene", "lib/scene.ttl", "--json", "--no-cache")
     assert errors(named) == [] and named.exit_code == 0
     assert {each["path"] for each in json.loads(named.stdout)} >= {"stock/cora.owl", "stock/cell.owl"}
 
@@ -75,7 +75,7 @@ def test_terms_of_a_named_folder_and_of_files_beside_the_skills_are_known(librar
 def test_what_was_compiled_into_the_library_is_no_vocabulary_of_it(library: Path) -> None:
     assert run("compile", library, "--ontology", "stock", "-o", library / "build").exit_code == 0
     assert (library / "build" / "skills.ttl").is_file()
-    again = run("check", library, "--ontology", "stock", "--format", "json", "--no-cache")
+    again = run("check", library, "--ontology", "stock", "--json", "--no-cache")
     assert errors(again) == []
     assert not [each for each in json.loads(again.stdout) if "build" in each["path"]]
 
@@ -95,7 +95,7 @@ def test_the_environment_names_folders_too_and_the_option_leaves_no_trace(
 def test_a_contradiction_stops_every_command_at_its_line(library: Path) -> None:
     with (library / "plant.ttl").open("a") as file:
         file.write("plant:Cart a owl:Class ; rdfs:subClassOf skiros:PlacingPose, skiros:Product .\n")
-    result = run("check", library, "--ontology", "stock", "--format", "json")
+    result = run("check", library, "--ontology", "stock", "--json")
     assert errors(result) == [("impossible-class", "lib/plant.ttl", 6)] and result.exit_code == 1
     assert run("compile", library, "--ontology", "stock", "-o", "out").exit_code == 1
     assert not Path("out").exists()
@@ -110,7 +110,7 @@ def test_what_is_compiled_names_no_folder_of_this_machine(library: Path, tmp_pat
 def test_a_change_of_an_ontology_is_seen_by_what_remembers(library: Path) -> None:
     assert run("check", library, "--ontology", "stock").exit_code == 0
     Path("stock/cell.owl").write_text("broken", "utf-8")
-    result = run("check", library, "--ontology", "stock", "--format", "json")
+    result = run("check", library, "--ontology", "stock", "--json")
     assert ("broken-turtle", "stock/cell.owl", 1) in errors(result)
 
 

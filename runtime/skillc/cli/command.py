@@ -94,7 +94,8 @@ def write_options(command: click.Command, ctx: click.Context, formatter: click.H
         record = parameter.get_help_record(ctx)
         if record is not None and isinstance(parameter, click.Option):
             group = parameter.group if isinstance(parameter, GroupedOption) else OPTIONS
-            sections.setdefault(OUTPUT if parameter.name in ("as_json", "help") else group, []).append(record)
+            common = "--json" in parameter.opts or "--help" in parameter.opts
+            sections.setdefault(OUTPUT if common else group, []).append(record)
     for name in sorted(sections, key=lambda name: (name == OUTPUT, name != OPTIONS)):
         with formatter.section(name if name == OPTIONS else f"{name} options"):
             formatter.write_dl(sections[name])

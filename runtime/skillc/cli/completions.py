@@ -23,3 +23,30 @@ def complete_diagnostic(_context: click.Context, _parameter: click.Parameter, be
     from skillc_compiler.manual import page_names
 
     return [CompletionItem(each) for each in sorted(page_names()) if each.startswith(begun)]
+
+
+def complete_scene(_context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the shipped scenes whose names begin so, and let the shell add files."""
+    from skillc_ontology import catalogue
+
+    shipped = [
+        CompletionItem(name, help="a shipped scene") for name in catalogue.scene_names() if name.startswith(begun)
+    ]
+    return [*shipped, CompletionItem(begun, type="file")]
+
+
+def complete_template(_context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the templates of projects whose names begin so, with what they contain."""
+    from skillc.services.project_templates import TEMPLATES
+
+    return [CompletionItem(each.name, help=each.summary) for each in TEMPLATES if each.name.startswith(begun)]
+
+
+def complete_device(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the shipped robots, grippers or tools whose names begin so."""
+    from skillc.services.additions import FOLDERS
+    from skillc_ontology import catalogue
+
+    folder = FOLDERS.get(context.params.get("kind") or "")
+    found = sorted(path.stem for path in (catalogue.ROOT / folder).glob("*.xml")) if folder else []
+    return [CompletionItem(name) for name in found if name.startswith(begun)]

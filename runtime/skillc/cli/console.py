@@ -6,7 +6,7 @@ import json
 import os
 import shutil
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TextIO
 
 import click
@@ -50,11 +50,33 @@ def print_result(text: str) -> None:
     click.echo(text, color=True)
 
 
+def print_lines(lines: Iterable[str]) -> None:
+    """Print lines that were laid out for the page of stdout."""
+    for line in lines:
+        click.echo(line, color=True)
+
+
+def print_text(text: str) -> None:
+    """Print a result; lines that are wider than the page go on below, with a hanging indent."""
+    page = page_of(sys.stdout)
+    for line in text.split("\n"):
+        body = line.lstrip(" ")
+        margin = " " * (len(line) - len(body))
+        for part in page.wrap(body, indent=margin, hanging=f"{margin}    "):
+            click.echo(part)
+
+
 def print_remark(text: str) -> None:
     """Print what is not a result, such as a count or the next steps, to stderr, unless the command is quiet."""
     if not output_settings().quiet:
         for line in page_of(sys.stderr).wrap(text, hanging="  "):
             click.echo(line, err=True)
+
+
+def remark_default(named: str | None, chosen: str | None) -> None:
+    """Say which task was taken if none was named."""
+    if named is None and chosen is not None:
+        print_remark(f"task `{chosen}`, the default one of this project")
 
 
 def print_error(message: str) -> None:

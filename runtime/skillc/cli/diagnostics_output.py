@@ -1,4 +1,4 @@
-"""Prints diagnostics in the formats of `--format`; nothing heavy is imported here."""
+"""Prints diagnostics in the formats of `--format` and `--json`; nothing heavy is imported here."""
 
 from __future__ import annotations
 
@@ -7,18 +7,21 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import click
 
-from skillc.cli.console import has_colours, page_width
+from skillc.cli.console import has_colours, page_width, print_remark
 from skillc.services.reporting import format_count
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 
-FORMS = ("full", "concise", "json", "sarif", "github")
+FORMS = ("full", "concise", "github", "sarif")
+JSON = "json"
 
 
 def print_diagnostics(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source], form: str) -> None:
-    """Print the diagnostics in a format of FORMS to stdout, and a summary to stderr."""
+    """Print the diagnostics in a format of FORMS or as JSON to stdout, and a summary to stderr."""
     click.echo(render_diagnostics(diagnostics, texts, form), nl=False, color=True)
-    click.echo(("\n" if form == "full" and diagnostics else "") + summarise(diagnostics), err=True)
+    if form == "full" and diagnostics:
+        print_remark("")
+    print_remark(summarise(diagnostics))
 
 
 def exit_code(diagnostics: Iterable[Diagnostic]) -> int:
@@ -27,13 +30,13 @@ def exit_code(diagnostics: Iterable[Diagnostic]) -> int:
 
 
 def render_diagnostics(diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source], form: str) -> str:
-    """Return the diagnostics in a format of FORMS."""
+    """Return the diagnostics in a format of FORMS, or as JSON."""
     match form:
         case "concise":
             from skillc_dsl.rendering.concise import render as concise
 
             return concise(diagnostics, texts)
-        case "json":
+        case _ if form == JSON:
             from skillc_dsl.rendering.json import render as as_json
 
             return as_json(diagnostics, texts)

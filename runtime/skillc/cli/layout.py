@@ -108,15 +108,20 @@ class Page:
         *head, last = row
         begin = indent + "".join(f"{' ' * width}{GAP}" for width in widths)
         fits = all(count_cells(each.text) <= width for each, width in zip(head, widths, strict=True))
-        if fits and (self.width is None or self.width - count_cells(begin) >= LEAST_CELLS):
+        if fits and self._has_cells(last.text, count_cells(begin)):
             first, *rest = self.wrap(last.text, last.style, begin) or [""]
             shown = (self._pad(each, width) + GAP for each, width in zip(head, widths, strict=True))
             yield (indent + "".join(shown) + first[len(begin) :]).rstrip()
             yield from rest
             return
         below = min(begin, indent + " " * 4, key=len) if any(widths) else indent + " " * 4
-        yield (indent + GAP.join(self.paint(printable(each.text), each.style) for each in head)).rstrip()
+        yield (indent + GAP.join(self.paint(printable(each.text.rstrip()), each.style) for each in head)).rstrip()
         yield from self.wrap(last.text, last.style, below) if last.text else ()
+
+    def _has_cells(self, text: str, begin: int) -> bool:
+        """Whether a text can be wrapped in the last column, which begins at a cell, without being too narrow for it."""
+        longest = max(map(count_cells, text.split()), default=0)
+        return self.width is None or self.width - begin >= max(LEAST_CELLS, min(longest, self.width - 4))
 
     def _table_line(self, row: Sequence[Cell], widths: Sequence[int], right: Collection[int]) -> str:
         cells = (

@@ -17,7 +17,9 @@ _WIDEST = 100
 
 def format_page(shown: Page) -> str:
     """Return a page as text, in colours if the terminal supports them."""
-    lines = [f"{_styled(shown.name, fg='cyan')}: {shown.title}", f"family: {shown.family}", ""]
+    first, *rest = textwrap.wrap(f"{shown.name}: {shown.title}", _width(), subsequent_indent="  ")
+    head = f"{_styled(shown.name, fg='cyan')}{first.removeprefix(shown.name)}"
+    lines = [head, *rest, f"family: {shown.family}", ""]
     for paragraph in filter(None, shown.prose.split("\n\n")):
         lines += [*_paragraph(paragraph), ""]
     lines += [_styled("Bad", fg="red"), "", *_indented(shown.bad), ""]

@@ -9,16 +9,27 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from skillc.cli.settings import GroupedOption
 from skillc_ontology import catalogue
 
 if TYPE_CHECKING:
     from skillc_runtime.execution.pace import Pace
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-FOLDER = click.Path(path_type=Path, file_okay=False)
 PATH = click.Path(path_type=Path)
+FOLDER = click.Path(path_type=Path, file_okay=False)
+FOLDER.name = "folder"
+EXISTING_FOLDER = click.Path(path_type=Path, file_okay=False, exists=True)
+EXISTING_FOLDER.name = "folder"
+WORLD, PLANNING, EXECUTION, OUTPUT = "World", "Planning", "Execution", "Output"
+"""Sections of the help in which the options of a command are."""
 WITH_ONTOLOGY = ("check", "compile", "doc", "graph", "plan", "run", "world")
 """The commands that read libraries or scenes."""
+
+
+def grouped_option(group: str, *names: str, **settings: Any) -> Callable[[Function], Function]:
+    """Return a decorator that adds an option in the section `group` of the help."""
+    return click.option(*names, cls=GroupedOption, group=group, **settings)
 
 
 def json_option(function: Function) -> Function:
@@ -28,17 +39,20 @@ def json_option(function: Function) -> Function:
 
 def store_options(function: Function) -> Function:
     """Add `--store` and `--reset`."""
-    function = click.option("--reset", is_flag=True, help="Empty the store and load the scene into it again.")(function)
+    function = grouped_option(WORLD, "--reset", is_flag=True, help="Empty the store and load the scene into it again.")(
+        function
+    )
     help_ = "Keep the world in a folder or on a SPARQL server; the first use loads the scene into it."
-    return click.option("--store", metavar="FOLDER|URL", help=help_)(function)
+    return grouped_option(WORLD, "--store", metavar="FOLDER|URL", help=help_)(function)
 
 
 def planner_options(function: Function) -> Function:
     """Add `--minimise` and `--no-plan-cache`, as `minimise` and `plan_cache`."""
-    cache = click.option(
-        "--plan-cache/--no-plan-cache", default=True, help="Reuse plans that were found for the same problem."
+    cache = grouped_option(
+        PLANNING, "--plan-cache/--no-plan-cache", default=True, help="Reuse plans that were found for the same problem."
     )
-    measure = click.option(
+    measure = grouped_option(
+        PLANNING,
         "--minimise",
         type=click.Choice(("work", "makespan")),
         default="work",
@@ -51,7 +65,8 @@ def planner_options(function: Function) -> Function:
 def operating_options(function: Function) -> Function:
     """Add `--pace`, `--deadline`, `--step` and `--pause-at`."""
     options = (
-        click.option(
+        grouped_option(
+            EXECUTION,
             "--pace",
             default="fast",
             show_default=True,
@@ -59,14 +74,18 @@ def operating_options(function: Function) -> Function:
             callback=_parse_pace,
             help="Let simulated time pass as fast as it computes, or at most N times as fast as real time.",
         ),
-        click.option(
+        grouped_option(
+            EXECUTION,
             "--deadline",
             type=click.FloatRange(min=0.0, min_open=True),
             metavar="SECONDS",
             help="Let the task fail if it has not ended after these seconds of simulated time; also limits planning.",
         ),
-        click.option("--step", is_flag=True, help="Pause before the first call; keys continue step by step."),
-        click.option(
+        grouped_option(
+            EXECUTION, "--step", is_flag=True, help="Pause before the first call; keys continue step by step."
+        ),
+        grouped_option(
+            EXECUTION,
             "--pause-at",
             multiple=True,
             metavar="SKILL|FILE:LINE",
@@ -80,7 +99,8 @@ def operating_options(function: Function) -> Function:
 
 def looks_option(function: Function) -> Function:
     """Add `--looks`, the appearance of devices in films."""
-    return click.option(
+    return grouped_option(
+        OUTPUT,
         "--looks",
         default="primitive",
         show_default=True,
@@ -93,13 +113,14 @@ def add_ontology_option(command: click.Command) -> click.Command:
     """Add `--ontology` to a command, once."""
     if not any(parameter.name == "ontology" for parameter in command.params):
         command.params.append(
-            click.Option(
+            GroupedOption(
                 ["--ontology"],
+                group=WORLD,
                 multiple=True,
-                type=click.Path(path_type=Path, file_okay=False, exists=True),
+                type=EXISTING_FOLDER,
                 expose_value=False,
                 callback=_set_folders,
-                help=f"A folder of further ontologies; {catalogue.VARIABLE} can list more.",
+                help=f"A folder of further ontologies. Can be repeated; {catalogue.VARIABLE} can list more.",
             )
         )
     return command

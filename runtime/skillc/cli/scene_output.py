@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from typing import Any
 
+from skillc.cli.layout import Page
 from skillc.services.scene_show import PlacedThing
 from skillc.services.scenes import IndividualFacts, OpenScene, SceneDiff
 from skillc_runtime.scene.query import QueryResult, QueryValue
@@ -28,13 +29,11 @@ def format_individuals(individuals: Iterable[IndividualFacts], scene: OpenScene,
     return "\n\n".join(_individual_text(each, scene) for each in individuals)
 
 
-def format_answer(answer: QueryResult, as_json: bool) -> str:
+def format_answer(answer: QueryResult, as_json: bool, page: Page) -> str:
     """Return the answer of a query, as a table or as a list of objects."""
     if as_json:
         return _json([dict(zip(answer.columns, row, strict=True)) for row in answer.rows])
-    rows = [answer.columns, *(tuple(map(_cell_text, row)) for row in answer.rows)]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(answer.columns))]
-    return "\n".join("  ".join(text.ljust(w) for text, w in zip(row, widths, strict=True)).rstrip() for row in rows)
+    return "\n".join(page.table(answer.columns, [tuple(map(_cell_text, row)) for row in answer.rows]))
 
 
 def format_diff(diff: SceneDiff, as_json: bool) -> str:
@@ -45,14 +44,13 @@ def format_diff(diff: SceneDiff, as_json: bool) -> str:
     return "\n".join(f"{'-+'[sign]} {s} {p} {value}" for s, p, sign, value in sorted(lines)) or "no differences"
 
 
-def format_placed(things: Sequence[PlacedThing], as_json: bool) -> str:
+def format_placed(things: Sequence[PlacedThing], as_json: bool, page: Page) -> str:
     """Return things with their poses in the world: as text a table, as JSON a list of objects."""
     if as_json:
         return _json([asdict(each) for each in things])
-    rows = [("thing", "class", "stated", "x y z, m", "roll pitch yaw, deg", "size, m"), *map(_placed_row, things)]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = ["  ".join(text.ljust(w) for text, w in zip(row, widths, strict=True)).rstrip() for row in rows]
-    return "\n".join([*lines, *(each.problem for each in things if each.problem is not None)])
+    header = ("thing", "class", "stated", "x y z, m", "roll pitch yaw, deg", "size, m")
+    problems = (line for each in things if each.problem is not None for line in page.wrap(each.problem, hanging="  "))
+    return "\n".join([*page.table(header, [_placed_row(each) for each in things]), *problems])
 
 
 def _placed_row(each: PlacedThing) -> tuple[str, ...]:

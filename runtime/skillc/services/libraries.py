@@ -14,6 +14,7 @@ from skillc.services.library_files import (
     source_texts,
     user_vocabularies,
 )
+from skillc.services.task_list import list_tasks
 from skillc_compiler import pipeline
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import read_sources
@@ -79,11 +80,12 @@ def _shipped() -> tuple[Source, ...]:
 
 
 def find_task(library: SkillLibrary, name: str) -> Task:
-    """Return a task; RequestError lists those that exist."""
+    """Return a task; RequestError suggests one that exists."""
     if name not in library.tasks:
-        hint = did_you_mean(name, library.tasks) or "it has none"
-        elsewhere = "a task of another library is written LIBRARY:NAME; `skillc tasks` lists all"
-        raise RequestError(f"there is no task `{name}` in {library.name}: {hint}; {elsewhere}")
+        elsewhere = [each.name for each in list_tasks() if each.name.endswith(f":{name}")]
+        hint = f"did you mean `{elsewhere[0]}`?" if elsewhere else did_you_mean(name, library.tasks)
+        more = f"{hint} " if hint else ""
+        raise RequestError(f"there is no task `{name}` in {library.name}; {more}(`skillc tasks` lists all)")
     return library.tasks[name]
 
 

@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 
 from skillc.services.errors import RequestError
@@ -71,9 +72,13 @@ def find_library(path: Path) -> LibraryFiles:
 def _find_by_name(name: Path) -> Path:
     """Return the folder of a dependency or of a shipped library; RequestError if there is none of that name."""
     here = projects.find_project(Path())
-    root = next((each.root for each in (here.others() if here else ()) if each.name == str(name)), SHIPPED / name)
+    libraries = {each.name: each.root for each in (here.others() if here else ())}
+    root = libraries.get(str(name), SHIPPED / name)
     if inspect_path(root).kind == "missing":
-        raise RequestError(f"there is no file or folder {name}")
+        shipped = (each.name for each in SHIPPED.iterdir() if each.is_dir())
+        near = get_close_matches(str(name), sorted({*libraries, *shipped}), n=1)
+        hint = f"; did you mean the library `{near[0]}`?" if near else ""
+        raise RequestError(f"there is no file or folder {name}{hint}")
     return root
 
 
@@ -126,7 +131,7 @@ def find_scene(scene: Path) -> Path:
     try:
         return catalogue.scene_path(str(scene))
     except FileNotFoundError as error:
-        missing = f"there is no file {scene}, and {error}"
+        missing = f"there is no file {scene} here, and {error}"
         raise RequestError(missing if found.kind == "missing" else f"{scene} {found.is_what}") from error
 
 

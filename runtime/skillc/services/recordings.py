@@ -47,7 +47,7 @@ def answer_question(story: RunHistory, question: str) -> CallSelection:
 
 def _missing(run: Path) -> str:
     if inspect_path(run).kind != "folder":
-        return f"there is no {run}; `skillc run TASK --out DIR` records a run in DIR, unless it is refused"
+        return f"there is no folder {run}; `skillc run TASK --out DIR` records a run in DIR, unless it is refused"
     others = sorted(str(each.parent) for each in run.glob(f"*/{NAME}"))
     if others:
         return f"{run} has no {NAME}; there are recordings in {', '.join(others)}"

@@ -55,7 +55,8 @@ class TaskRequest:
         nothing = (self.goal is None) == (self.call is None)
         if self.task is None and ((self.scene or self.store.place) is None or nothing):
             choice = "--goal TEXT or --skill CALL" if calls else "--goal TEXT"
-            raise RequestError(f"name either a TASK, or --scene FILE (or --store) with {choice}")
+            listed = "name either a TASK (`skillc tasks` lists them)"
+            raise RequestError(f"{listed}, or --scene FILE (or --store) with {choice}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,17 +8,23 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.completions import complete_device
 
 if TYPE_CHECKING:
     from skillc.services.additions import Kind
 
 
 @click.command(cls=Command)
-@click.argument("kind", type=click.Choice(["skill", "robot", "gripper", "tool"]))
+@click.argument("kind", metavar="KIND", type=click.Choice(["skill", "robot", "gripper", "tool"]))
 @click.argument("name")
-@click.option("--like", metavar="DEVICE", help="The shipped device to copy, such as `ur5e`, `wsg50` or `peg`.")
+@click.option(
+    "--like",
+    metavar="DEVICE",
+    shell_complete=complete_device,
+    help="The shipped device to copy, such as `ur5e`, `wsg50` or `peg`.",
+)
 def command(kind: Kind, name: str, like: str | None) -> None:
-    """Add the files of a KIND called NAME to the project here.
+    """Add the files of a KIND (skill, robot, gripper or tool) called NAME to the project here.
 
     A skill is a `.skill` file. A robot, gripper or tool is a data sheet and a model in the project's ontology folder,
     copied from a shipped device, to be replaced by your numbers.

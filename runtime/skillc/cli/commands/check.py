@@ -6,13 +6,15 @@ Prints each problem with its location and, where there is one, a fix. Exit code 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
-from skillc.cli.diagnostics_output import FORMS, exit_code, print_diagnostics
-from skillc.cli.options import PATH
+from skillc.cli.diagnostics_output import FORMS, JSON, exit_code, print_diagnostics
+from skillc.cli.options import PATH, json_option
 from skillc.services.checking import (
     STDIN,
     CheckRequest,
@@ -23,11 +25,30 @@ from skillc.services.checking import (
     read_libraries,
 )
 
+EXAMPLES = """
+skillc check
+skillc check --fix
+skillc check parts.skill --scene cell.ttl
+skillc check --format github
+"""
 
-@click.command(cls=Command)
+
+class FormChoice(click.Choice[str]):
+    """A format of diagnostics; JSON has an option of its own, as in all commands."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the format; fail with what exists for another one."""
+        if value == JSON:
+            self.fail("`json` is no format: write `--json`", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+@click.command(cls=Command, examples=EXAMPLES)
 @click.argument("paths", nargs=-1, type=PATH)
-@click.option("--scene", type=PATH, help="Also check this scene against the library's vocabulary.")
-@click.option("--format", "form", type=click.Choice(FORMS), default="full", show_default=True, help="Output format.")
+@click.option("--scene", type=PATH, shell_complete=complete_scene, help="Also check this scene against the libraries.")
+@click.option(
+    "--format", "form", type=FormChoice(FORMS), default="full", show_default=True, help="The format of diagnostics."
+)
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option(
     "--unsafe-fixes", is_flag=True, help="Include unsafe fixes, which may change meaning, in --fix and --diff."
@@ -36,6 +57,7 @@ from skillc.services.checking import (
 @click.option("--watch", is_flag=True, help="Check again whenever a file changes, until interrupted.")
 @click.option("--stdin-filename", type=PATH, help="The path of the file that is read from `-`.")
 @click.option("--cache/--no-cache", default=True, show_default=True, help="Reuse the results of unchanged files.")
+@json_option
 def command(
     paths: tuple[Path, ...],
     scene: Path | None,
@@ -46,8 +68,12 @@ def command(
     watch: bool,
     stdin_filename: Path | None,
     cache: bool,
+    as_json: bool,
 ) -> int:
-    """Check the libraries or files at PATHS, by default the project or folder here. `-` reads a file from stdin."""
+    """Check the libraries or files at PATHS, by default the project or folder here; `-` reads a file from stdin.
+
+    Prints each problem with its place and, where there is one, a fix. Tasks are also checked in their scenes.
+    """
     from skillc.cli.console import read_stdin
     from skillc.services.library_files import find_scene
 
@@ -56,11 +82,14 @@ def command(
         raise click.UsageError("--stdin-filename names the file of `-`, but `-` is not among the paths")
     if unsafe_fixes and not (fix or diff):
         raise click.UsageError("--unsafe-fixes requires --fix or --diff")
+    if as_json and (diff or form != "full"):
+        raise click.UsageError("--json cannot be used with --format or --diff")
     if watch and (from_stdin or fix or diff):
         raise click.UsageError("--watch cannot be used with `-`, --fix or --diff")
     scene = scene and find_scene(scene)
     stdin = StdinFile(stdin_filename, read_stdin()) if from_stdin else None
     request = CheckRequest(paths or (Path(),), scene, stdin, cache)
+    form = JSON if as_json else form
     if watch:
         return _watch(request, form)
     if diff:

@@ -22,7 +22,11 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
 @click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="The robot to run.")
 @click.option("--out", type=FOLDER, help="Write reports, figures and films to this folder.")
 @click.option(
-    "--seed", default=SEED, show_default=True, help="Seed of the differences between world model and simulation."
+    "--seed",
+    metavar="N",
+    default=SEED,
+    show_default=True,
+    help="The seed of what differs from the world model.",
 )
 @looks_option
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON: a list with one object per task.")

@@ -6,18 +6,34 @@ once.
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.console import print_remark
+from skillc.cli.completions import complete_template
+from skillc.cli.console import page_of, print_lines, print_remark
+from skillc.cli.layout import Cell
 from skillc.cli.options import PATH
 
+EXAMPLES = """
+skillc new press_button
+skillc new sorting --template pick-place
+skillc new --list
+"""
 
-@click.command(cls=Command)
+
+@click.command(cls=Command, examples=EXAMPLES)
 @click.argument("name", required=False, type=PATH)
-@click.option("--template", default="press", show_default=True, metavar="TEMPLATE", help="What the project is about.")
+@click.option(
+    "--template",
+    default="press",
+    show_default=True,
+    metavar="TEMPLATE",
+    shell_complete=complete_template,
+    help="What the project is about.",
+)
 @click.option("--list", "list_", is_flag=True, help="List the templates.")
 def command(name: Path | None, template: str, list_: bool) -> None:
     """Create a project in the new folder NAME, with skills, a scene, a task, a test and a CI workflow.
@@ -28,8 +44,7 @@ def command(name: Path | None, template: str, list_: bool) -> None:
     from skillc.services.project_templates import TEMPLATES
 
     if list_:
-        for each in TEMPLATES:
-            click.echo(f"{each.name:10}  {each.summary}")
+        print_lines(page_of(sys.stdout).columns([(Cell(each.name, "strong"), each.summary) for each in TEMPLATES]))
         return
     if name is None:
         raise click.UsageError("name the folder of the new project; --list lists the templates")

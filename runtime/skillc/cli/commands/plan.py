@@ -16,30 +16,37 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.completions import complete_task
-from skillc.cli.options import PATH, json_option, planner_options, store_options
+from skillc.cli.completions import complete_scene, complete_task
+from skillc.cli.options import PATH, PLANNING, grouped_option, json_option, planner_options, store_options
 from skillc.cli.settings import output_settings
 
 if TYPE_CHECKING:
     from skillc.services.planning import Measure
 
 NOTICE_AFTER_S = 2.0
+EXAMPLES = """
+skillc plan clean_table
+skillc plan --scene cell.ttl --goal "lab:Bin-A contain lab:Part-1"
+skillc plan wiping:clean_both --minimise makespan --json
+"""
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_task)
-@click.option("--scene", type=PATH, help="The scene to plan in; by default the task's.")
-@click.option("--goal", help="The goal to plan for, as a condition or as PDDL.")
-@click.option("--library", type=PATH, help="The library with the skills to plan with; by default the shipped one.")
+@click.option("--goal", metavar="CONDITION", help="Plan without a task: for this goal, a condition or PDDL.")
+@click.option("--scene", type=PATH, shell_complete=complete_scene, help="The scene of --goal.")
+@click.option("--library", type=PATH, help="The library of --goal; by default that here, or `wiping`.")
 @store_options
 @planner_options
-@click.option("--prove", is_flag=True, help="Include more of a large scene until the plan is proved optimal.")
-@click.option(
+@grouped_option(PLANNING, "--prove", is_flag=True, help="Include more of a large scene until optimality is proved.")
+@grouped_option(
+    PLANNING,
     "--deadline",
     type=click.FloatRange(min=0.1),
+    metavar="SECONDS",
     default=30.0,
     show_default=True,
-    help="Time limit of the planner, in seconds.",
+    help="The time limit of the planner.",
 )
 @json_option
 def command(
@@ -55,8 +62,12 @@ def command(
     deadline: float,
     as_json: bool,
 ) -> int:
-    """Plan for TASK (`LIBRARY:NAME`, or one of the project here, or a shipped one), or for --goal in --scene."""
-    from skillc.cli.console import Terminal
+    """Plan for TASK, or for --goal in --scene, and print the steps.
+
+    TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
+    project, TASK may be left out if the manifest names a default one.
+    """
+    from skillc.cli.console import Terminal, print_text, remark_default
     from skillc.cli.plan_output import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
     from skillc.services.stores import StoreChoice
@@ -65,6 +76,7 @@ def command(
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
 
     request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset)).with_defaults()
+    remark_default(task, request.task)
     request.check(calls=False)
     if prove and minimise != "work":
         raise click.UsageError("--prove requires --minimise work; for makespan the answer always has a lower bound")
@@ -72,7 +84,10 @@ def command(
     with load_task(request, Terminal()) as loaded:
         with _notice_if_slow(deadline):
             answer = plan_goal(loaded, measure, prepare_planners(plan_cache), CancelToken(deadline))
-        click.echo(plan_as_json(answer, loaded) if as_json else format_plan(answer, loaded))
+        if as_json:
+            click.echo(plan_as_json(answer, loaded))
+        else:
+            print_text(format_plan(answer, loaded))
     return 3 if isinstance(answer, Unsolvable | GaveUp) else 0
 
 

@@ -13,10 +13,13 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.completions import complete_task
+from skillc.cli.completions import complete_scene, complete_task
 from skillc.cli.options import (
+    EXECUTION,
     FOLDER,
+    OUTPUT,
     PATH,
+    grouped_option,
     json_option,
     looks_option,
     operating_options,
@@ -28,40 +31,56 @@ if TYPE_CHECKING:
     from skillc.services.backends import BackendName
     from skillc_runtime.execution.pace import Pace
 
+EXAMPLES = """
+skillc run clean_table --out out
+skillc run contact:press_button --seed 3 --pace real
+skillc run --scene cell.ttl --goal "lab:Bin-A contain lab:Part-1"
+skillc run clean_table --pause-at Wipe
+"""
 
-@click.command(cls=Command)
+
+@click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_task)
-@click.option("--scene", type=PATH, help="The scene to run in; by default the task's.")
-@click.option("--goal", help="The goal to plan for, as a condition or as PDDL.")
-@click.option("--skill", help="The skill call to run instead of a goal, such as `Wipe(surface: lab:Table-1)`.")
-@click.option("--library", type=PATH, help="The library with the skills to use; by default the shipped one.")
-@click.option(
+@click.option("--goal", metavar="CONDITION", help="Run without a task: plan for this goal, a condition or PDDL.")
+@click.option("--skill", metavar="CALL", help="Run without a task: call a skill, as in `Wipe(surface: lab:Table-1)`.")
+@click.option("--scene", type=PATH, shell_complete=complete_scene, help="The scene of --goal or --skill.")
+@click.option("--library", type=PATH, help="The library of --goal or --skill; by default that here, or `wiping`.")
+@grouped_option(
+    OUTPUT,
     "--out",
     type=FOLDER,
-    help="Write report.html, result.json, events.jsonl, the figure, the film and stills to this folder.",
+    help="Write report.html, result.json, events.jsonl, figures, the film and stills to this folder.",
 )
 @looks_option
 @store_options
 @planner_options
-@click.option(
-    "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
+@grouped_option(
+    EXECUTION,
+    "--seed",
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="The seed of what differs from the world model.",
 )
-@click.option(
+@grouped_option(
+    EXECUTION,
     "--backend",
     type=click.Choice(["mujoco", "kinematic"]),
     default="mujoco",
     show_default=True,
     help="Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then.",
 )
-@click.option(
+@grouped_option(
+    EXECUTION,
     "--tick-timeout",
     type=click.FloatRange(min=0.0),
+    metavar="SECONDS",
     default=30.0,
     show_default=True,
     help="End the run if a tick takes longer than this many seconds of wall time; 0 lets it take any time.",
 )
 @operating_options
-@click.option("--strict", is_flag=True, help="Exit with code 3 also if the success rests on an assumption.")
+@grouped_option(EXECUTION, "--strict", is_flag=True, help="Exit with code 3 also if success rests on an assumption.")
 @json_option
 def command(
     task: str | None,
@@ -85,8 +104,12 @@ def command(
     strict: bool,
     as_json: bool,
 ) -> int:
-    """Run TASK (`LIBRARY:NAME`, or one of the project here, or a shipped one) in simulation, or --goal or --skill."""
-    from skillc.cli.console import Terminal, print_json
+    """Run TASK in simulation: plan if it has a goal, choose implementations by the world model, and execute.
+
+    TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
+    project, TASK may be left out if the manifest names a default one.
+    """
+    from skillc.cli.console import Terminal, print_json, remark_default
     from skillc.cli.run_output import check_operable, print_results, run_with_progress
     from skillc.services import task_loading
     from skillc.services.files import check_writable
@@ -95,6 +118,7 @@ def command(
     from skillc.services.stores import StoreChoice
 
     request = task_loading.TaskRequest(task, scene, goal, skill, library, StoreChoice(store, reset)).with_defaults()
+    remark_default(task, request.task)
     request.check()
     options = RunOptions(
         out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json, deadline, step, pause_at, backend

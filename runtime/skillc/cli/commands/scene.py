@@ -7,6 +7,7 @@ Exit code 1 if the scene has errors or would have errors; then the file is not c
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from skillc.cli.command import Command, Group
+from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
 from skillc.cli.options import FOLDER, PATH, add_ontology_option, json_option
 
@@ -42,6 +44,7 @@ class NumberText(click.ParamType[str]):
 
 
 NUMBER = NumberText()
+FACES = ("top", "bottom", "front", "back", "left", "right")
 
 
 def pose_options(function: Function) -> Function:
@@ -52,7 +55,7 @@ def pose_options(function: Function) -> Function:
         click.option("--at-z", type=NUMBER, metavar="Z", help="The same along z: on the top, a gap below the thing."),
         click.option("--corner", "anchor", flag_value="corner", help="Count --at from the corner with the least x, y."),
         click.option("--centre", "anchor", flag_value="centre", help="Count --at from the centre (the default)."),
-        click.option("--face", type=click.Choice(("top", "bottom", "front", "back", "left", "right"))),
+        click.option("--face", type=click.Choice(FACES), help="On which face of it, instead of the top."),
         click.option("--board", type=NUMBER, metavar="N", help="On which board of a shelf, from the bottom, 1 and up."),
         click.option("--position", nargs=3, type=NUMBER, metavar="X Y Z", help="A position in m, in a frame."),
         click.option("--frame", metavar="FRAME", help="The frame of --position; `map`, the world, by default."),
@@ -101,7 +104,7 @@ def command() -> None:
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.option("--arm", metavar="CLASS", help="Start with an arm of this class on a pedestal, with its gripper.")
 def new(scene: Path, arm: str | None) -> None:
     """Create the file SCENE: a workstation, and an arm if one is named."""
@@ -112,7 +115,7 @@ def new(scene: Path, arm: str | None) -> None:
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.argument("name")
 @click.argument("cls", metavar="CLASS")
 @click.option("--size", nargs=3, type=NUMBER, metavar="X Y Z", help="The extent along its own axes, in m.")
@@ -137,7 +140,7 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.argument("name")
 @pose_options
 @LIBRARY
@@ -150,7 +153,7 @@ def move(scene: Path, name: str, library: Path | None, **given: Any) -> None:
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.argument("names", nargs=-1, required=True)
 @LIBRARY
 def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
@@ -162,7 +165,7 @@ def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.argument("edits", nargs=-1, required=True, metavar="EDIT...")
 @LIBRARY
 def edit(scene: Path, edits: tuple[str, ...], library: Path | None) -> None:
@@ -179,7 +182,7 @@ def edit(scene: Path, edits: tuple[str, ...], library: Path | None) -> None:
 
 
 @command.command("import", cls=Command)
-@click.argument("scene", type=PATH)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.argument("source", metavar="FILE", type=PATH)
 @pose_options
 @LIBRARY
@@ -200,7 +203,7 @@ def import_(scene: Path, source: Path, library: Path | None, **given: Any) -> No
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.option("--out", type=FOLDER, default="out/scene", show_default=True, help="The folder for the pictures.")
 @LIBRARY
 @json_option
@@ -209,13 +212,13 @@ def show(scene: Path, out: Path, library: Path | None, as_json: bool) -> None:
 
     The view from above is an SVG file. A PNG picture is rendered as well if there is a GL library.
     """
-    from skillc.cli.console import Terminal
+    from skillc.cli.console import Terminal, page_of, print_result
     from skillc.cli.scene_output import format_placed
     from skillc.services import scene_show, scenes
     from skillc.services.stores import StoreChoice
 
     with scenes.open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
-        click.echo(format_placed(scene_show.list_placed(opened), as_json))
+        print_result(format_placed(scene_show.list_placed(opened), as_json, page_of(sys.stdout)))
         drawn = scene_show.draw_pictures(opened, out)
     for each in drawn.files:
         print_remark(str(each))

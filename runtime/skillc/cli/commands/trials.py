@@ -17,12 +17,28 @@ from skillc.cli.completions import complete_task
 from skillc.cli.options import FOLDER, json_option
 from skillc_runtime.evaluation.trials.trial import Disturbance
 
+EXAMPLES = """
+skillc trials clean_table -n 20
+skillc trials contact:insert_peg -n 100 --out trials
+skillc trials clean_table --disturb push --json
+"""
 
-@click.command(cls=Command)
+COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
+
+
+@click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_task)
-@click.option("-n", "--number", type=click.IntRange(min=1), default=50, show_default=True, help="The number of trials.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="The seed of the first trial.")
-@click.option("--jobs", type=click.IntRange(min=1), help="The number of parallel trials.  [default: one per core]")
+@click.option(
+    "-n",
+    "--number",
+    type=click.IntRange(min=1),
+    metavar="N",
+    default=50,
+    show_default=True,
+    help="The number of trials.",
+)
+@click.option("--seed", type=SEED, metavar="N", default=0, show_default=True, help="The seed of the first trial.")
+@click.option("--jobs", type=COUNT, metavar="N", help="The number of parallel trials; by default one per core.")
 @click.option(
     "--disturb",
     type=click.Choice(get_args(Disturbance)),
@@ -38,7 +54,8 @@ from skillc_runtime.evaluation.trials.trial import Disturbance
     type=click.FloatRange(min=1.0),
     default=3600.0,
     show_default=True,
-    help="Time limit of one trial, in seconds of wall-clock time.",
+    metavar="SECONDS",
+    help="The time limit of one trial, in wall time.",
 )
 @json_option
 def command(
@@ -55,7 +72,7 @@ def command(
 
     Each seed draws how the simulation differs from the world model, within the ranges that the scene states.
     """
-    from skillc.cli.console import Terminal, is_unicode, page_of, print_json, print_result
+    from skillc.cli.console import Terminal, is_unicode, page_of, print_json, print_result, remark_default
     from skillc.cli.trial_progress import TrialProgress
     from skillc.cli.trials_output import format_series
     from skillc.services.task_list import require_task
@@ -64,8 +81,10 @@ def command(
     def progress(name: str, done: int) -> TrialProgress:
         return TrialProgress(name, disturb, number, done, quiet=as_json)
 
+    chosen = require_task(task)
+    remark_default(task, chosen)
     at_a_time = min(jobs or os.cpu_count() or 1, number)
-    request = TrialRequest(require_task(task), disturb, range(seed, seed + number), at_a_time, out, deadline)
+    request = TrialRequest(chosen, disturb, range(seed, seed + number), at_a_time, out, deadline)
     result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)

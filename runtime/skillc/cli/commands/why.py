@@ -25,7 +25,7 @@ def command(run: Path, question: str | None, as_json: bool) -> None:
     QUESTION is the number of a step (`2`, or `2.1` for a call inside it), the name of a skill or an implementation
     (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`). Without QUESTION, print an overview.
     """
-    from skillc.cli.console import Terminal, print_json
+    from skillc.cli.console import Terminal, print_json, print_text
     from skillc.cli.story_output import format_answer, format_overview
     from skillc.services.recordings import answer_question, read_run
 
@@ -34,4 +34,4 @@ def command(run: Path, question: str | None, as_json: bool) -> None:
     if as_json:
         print_json(answer or story)
     else:
-        click.echo(format_overview(story, str(run)) if answer is None else format_answer(answer))
+        print_text(format_overview(story, str(run)) if answer is None else format_answer(answer))

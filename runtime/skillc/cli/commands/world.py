@@ -8,12 +8,14 @@ Exit code 1 if the scene has errors, the store cannot be used or the query is no
 from __future__ import annotations
 
 import shlex
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.completions import complete_scene
 from skillc.cli.options import PATH, json_option, store_options
 
 if TYPE_CHECKING:
@@ -23,10 +25,23 @@ FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
 
 
 @click.command(cls=Command)
-@click.argument("scene", required=False, type=PATH)
-@click.option("--query", "sparql", help="Answer a SPARQL query; the prefixes of the vocabulary are declared.")
-@click.option("--search", "words", help="List individuals whose names, labels, classes or texts contain these words.")
-@click.option("--show", "names", multiple=True, help="Show all facts about an individual, including derived ones.")
+@click.argument("scene", required=False, type=PATH, shell_complete=complete_scene)
+@click.option(
+    "--query", "sparql", metavar="SPARQL", help="Answer a SPARQL query; the prefixes of the vocabulary are declared."
+)
+@click.option(
+    "--search",
+    "words",
+    metavar="WORDS",
+    help="List individuals whose names, labels, classes or texts contain these words.",
+)
+@click.option(
+    "--show",
+    "names",
+    metavar="INDIVIDUAL",
+    multiple=True,
+    help="Show all facts about an individual, including derived ones.",
+)
 @click.option("--diff", "other", type=PATH, help="Show the differences between this scene and another one.")
 @click.option("--graph", type=click.Path(path_type=Path, dir_okay=False), help="Draw the scene as an SVG file.")
 @click.option("--export", "form", type=click.Choice(FORMATS), help="Write the scene in an RDF format.")
@@ -69,7 +84,7 @@ def command(
 
     `skillc scene` writes scenes.
     """
-    from skillc.cli.console import Terminal
+    from skillc.cli.console import Terminal, print_result, print_text
     from skillc.services import scene_export, scenes
     from skillc.services.stores import StoreChoice
 
@@ -91,7 +106,8 @@ def command(
         elif form:
             click.echo(scene_export.export_scene(opened, form, everything), nl=False)
         else:
-            click.echo(_format_view(opened, sparql, other, names, words, as_json))
+            view = _format_view(opened, sparql, other, names, words, as_json)
+            (print_result if as_json or sparql is not None else print_text)(view)
 
 
 def _format_view(
@@ -99,11 +115,11 @@ def _format_view(
 ) -> str:
     """Return the answer to a query, the differences from another scene, or individuals: the named or the found ones."""
     from skillc.cli import scene_output
-    from skillc.cli.console import Terminal
+    from skillc.cli.console import Terminal, page_of
     from skillc.services import scenes
 
     if sparql is not None:
-        return scene_output.format_answer(scenes.query_scene(opened, sparql), as_json)
+        return scene_output.format_answer(scenes.query_scene(opened, sparql), as_json, page_of(sys.stdout))
     if other is not None:
         return scene_output.format_diff(scenes.compare_scenes(opened, other, Terminal()), as_json)
     if names:
