@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +16,7 @@ from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
 from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, RunSamples, make_samples, report_run
+from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
 from skillc.services.store_polling import StorePoller
 from skillc.services.task_loading import LoadedTask
 from skillc.services.unstarted_runs import end_unstarted
@@ -46,7 +48,7 @@ class RunOptions:
     `deadline_s` of the cell's time after its start, or if a plan takes as long. It pauses before its first call with
     `step`, and at each SKILL or FILE:LINE of `pause_at`.
 
-    RequestError for meshes without a folder, because then no film is made.
+    RequestError for meshes without a folder, because then no film is made, and for signals that cannot be recorded.
     """
 
     out: Path | None = None
@@ -59,10 +61,12 @@ class RunOptions:
     step: bool = False
     pause_at: tuple[str, ...] = ()
     backend: BackendName = "mujoco"
+    signals: SignalFormat | None = None
 
     def __post_init__(self) -> None:
         if self.looks != PRIMITIVE_LOOKS and self.out is None:
             raise RequestError(f"--looks {self.looks} applies to films and stills, which require --out")
+        check_signals(self.signals, self.out)
 
 
 def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter) -> RunResult:
@@ -109,8 +113,11 @@ class _Run:
         choices = ChoiceListener()
         start = summarise_start(task.assignment.name, cell)
         recording = RecordingOptions(options.out, options.tick_timeout_s, options.prints_json)
-        with recorded_run(start, recording, self.reporter) as recorded:
-            loop, began = self._make_loop(planning), perf_counter()
+        with (
+            recorded_run(start, recording, self.reporter) as recorded,
+            recorded_signals(cell, options.signals, options.out, self.reporter) as hooks,
+        ):
+            loop, began = self._make_loop(planning, hooks), perf_counter()
             settings, publisher = RunSettings(deadline_s=options.deadline_s), recorded.publisher
             listeners = (choices, self.monitor, publisher)
             run = loop.submit(task.assignment, listeners, settings, self.gate, publisher.run)
@@ -120,12 +127,12 @@ class _Run:
             self.monitor.say("writing the report" if options.out is not None else "finished")
             return report_run(execution, choices, task.library, self.samples, options.out, self.reporter)
 
-    def _make_loop(self, planning: PlanningJob) -> CellLoop:
+    def _make_loop(self, planning: PlanningJob, recording: tuple[Callable[[], None], ...]) -> CellLoop:
         def plan_again(assignment: Assignment, failures: FailedSteps) -> PlanningJob:
             return _start_planning(self.task, assignment, failures, self.options, self.cell.clock.now)
 
         poller = StorePoller(self.cell.cell.world, self.reporter)
-        hooks = (poller.poll, self.samples.sample)
+        hooks = (poller.poll, *recording, self.samples.sample)
         preparation = prepare_after(planning, plan_again)
         origin = CellOrigin(self.task.scene, self.options.seed, self.options.backend)
         return CellLoop(self.cell, self.task.library, preparation, origin, hooks)

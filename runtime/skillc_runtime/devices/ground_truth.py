@@ -155,6 +155,13 @@ class GroundTruth(Protocol):
         """Return the greatest force on a tool while it was held; KeyError if the cell has no such tool."""
         ...
 
+    def mean_force_n(self, tool: str, since: float) -> float:
+        """Return the mean normal force in N of the contacts of a tool's working face from `since` in s on.
+
+        It is 0 while the tool is not held. KeyError if the cell has no such tool.
+        """
+        ...
+
     def surface_pose(self, surface: str) -> Pose:
         """Return the true pose of a surface in the world; KeyError if the cell has no such surface."""
         ...

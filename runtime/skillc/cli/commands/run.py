@@ -29,6 +29,7 @@ from skillc.cli.options import (
 
 if TYPE_CHECKING:
     from skillc.services.backends import BackendName
+    from skillc.services.signal_files import SignalFormat
     from skillc_runtime.execution.pace import Pace
 
 EXAMPLES = """
@@ -50,6 +51,11 @@ skillc run clean_table --pause-at Wipe
     "--out",
     type=FOLDER,
     help="Write report.html, result.json, events.jsonl, figures, the film and stills to this folder.",
+)
+@click.option(
+    "--signals",
+    type=click.Choice(["csv", "parquet"]),
+    help="Record forces, poses, joints and references, 100 samples a second, to the folder of --out.",
 )
 @looks_option
 @store_options
@@ -89,6 +95,7 @@ def command(
     skill: str | None,
     library: Path | None,
     out: Path | None,
+    signals: SignalFormat | None,
     looks: str,
     store: str | None,
     reset: bool,
@@ -121,7 +128,17 @@ def command(
     remark_default(task, request.task)
     request.check()
     options = RunOptions(
-        out, seed, prepare_planners(plan_cache), looks, tick_timeout, as_json, deadline, step, pause_at, backend
+        out,
+        seed,
+        prepare_planners(plan_cache),
+        looks,
+        tick_timeout,
+        as_json,
+        deadline,
+        step,
+        pause_at,
+        backend,
+        signals,
     )
     check_operable(options)
     check_writable(out)

@@ -39,6 +39,12 @@ class Recorder:
         asked = (reference.pose.position, reference.twist[:3], path.pose.position, path.twist[:3], (on_surface_n,))
         self._references.append((time, np.concatenate(asked)))
 
+    def mean_force_n(self, since: float) -> float:
+        """Return the mean normal force in N of the steps from `since` in s on, 0 if there is none."""
+        rows = self._rows[: self._count]
+        first = int(np.searchsorted(rows[:, 0], since))
+        return float(rows[first:, 1].mean()) if first < len(rows) else 0.0
+
     def recording(self) -> Recording:
         """Return a read-only copy of the recording; references are interpolated between samples."""
         rows = np.empty((self._count, COLUMNS))

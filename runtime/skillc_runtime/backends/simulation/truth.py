@@ -54,6 +54,10 @@ class SimulatedTruth:
         """Return the greatest force on a tool while it was held; KeyError if the cell has no such tool."""
         return self.observers[tool].peak_force.newton
 
+    def mean_force_n(self, tool: str, since: float) -> float:
+        """Return the mean force on a tool's working face from `since` in s on; KeyError if there is no such tool."""
+        return self.observers[tool].recorder.mean_force_n(since)
+
     def surface_pose(self, surface: str) -> Pose:
         """Return the true pose of a surface in the world; KeyError if the cell has no such surface."""
         assumed = {each.individual: each.pose for each in self.scene.surfaces}

@@ -1,0 +1,1 @@
+"""Signals of a run: numbers that are sampled, beside the events. Start at `sampler.SignalSampler`."""
