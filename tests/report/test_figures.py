@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.report.figure_files import render_figure
 from skillc_runtime.evaluation.report.figure_style import STYLE
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, find_overlay_period
 from skillc_runtime.evaluation.report.wiping_figure import draw_figure
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -35,7 +36,7 @@ def wiped(*, upright: bool = False) -> WipingDrawing:
         time=TIME,
         lane_speed=np.full(200, 100.0),
         tool_speed=np.full(200, 90.0),
-        overlaid=True,
+        overlay_period_s=1.0,
         contact_time=TIME - 2.0,
         force=np.where(TIME > 1.0, 18.0, 0.0),
         force_n=18.0,
@@ -106,14 +107,22 @@ def test_a_speed_with_an_overlay_is_drawn_without_it_too_and_says_so() -> None:
         wiped(), time=time, lane_speed=np.full(2001, 100.0), tool_speed=100.0 + 85.0 * np.sin(2 * np.pi * time),
         lanes=np.zeros((2001, 2)), tool=np.zeros((2001, 2)),
     )  # fmt: skip
-    assert swinging.overlay_period_s == pytest.approx(1.0, rel=0.02)
     (axes,) = (each for each in drawn([swinging]).axes if "mm/s" in each.get_ylabel())
     assert "overlay of 1.00 s" in axes.get_title(loc="left")
     lines = {line.get_label(): np.asarray(line.get_ydata()) for line in axes.lines}
     mean = lines["mean over a period of the overlay: simulator truth"][100:-100]
     assert np.abs(mean - 100.0).max() < 2.0 < np.ptp(lines["tool with its overlay: simulator truth"])
-    (plain,) = (each for each in drawn([replace(swinging, overlaid=False)]).axes if "mm/s" in each.get_ylabel())
+    (plain,) = (each for each in drawn([replace(swinging, overlay_period_s=None)]).axes if "mm/s" in each.get_ylabel())
     assert "overlay" not in plain.get_title(loc="left")
+
+
+def test_the_period_of_an_overlay_is_found_though_lanes_turn_and_it_does_not() -> None:
+    time = np.arange(0.0, 31.0, 0.001)
+    rows = np.zeros((len(time), 25))
+    rows[:, 0], rows[:, 12] = time, 0.01 * np.sin(2 * np.pi * time)
+    rows[:, 21] = np.where(time % 8.0 < 4.0, 0.1, -0.1)
+    assert find_overlay_period(Recording(rows)) == pytest.approx(1.0, rel=0.01)
+    assert find_overlay_period(Recording(rows[:10])) is None
 
 
 def test_each_curve_says_where_it_comes_from() -> None:

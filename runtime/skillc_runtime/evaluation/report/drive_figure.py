@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
@@ -22,8 +23,9 @@ from skillc_runtime.world.space.bodies import read_bodies
 from skillc_runtime.world.space.outlines import convex_hull, outline_points
 from skillc_runtime.world.state.labelled import display_name
 
-HEIGHT_IN, AROUND_M, RATIO = 5.0, 0.6, 2.2
-"""Height of the figure, how much is shown around the path, and how many times as wide as high that is."""
+HEIGHT_IN, NEAR_M, AROUND_M, RATIO = 5.0, 1.5, 0.3, 2.2
+"""Height of the figure; what is nearer to the path is shown whole; how much is shown around that, and how many times as
+wide as high this is."""
 
 MOST_BODIES = 60
 """With more bodies around, only their outlines are drawn, without names."""
@@ -34,9 +36,12 @@ def draw_drive(path: Array, record: RunRecord) -> Figure:
     figure = Figure(figsize=(WIDTH_IN, HEIGHT_IN), layout="constrained")
     axes = figure.subplots()
     places = thin_rows(path[:, 1:3])
+    near: list[Array] = []
     bodies = [each for each in read_bodies(record.state) if not each.movable]
     for body in bodies:
         hull = convex_hull(outline_points(record.state, body.individual, body.pose)[:, :2])
+        if float(np.linalg.norm(places[:, None] - hull.mean(axis=0), axis=2).min()) < NEAR_M:
+            near.append(hull)
         axes.add_patch(Polygon(hull, closed=True, facecolor=SHADE, edgecolor=DIM, linewidth=0.8, zorder=1))
         if len(bodies) <= MOST_BODIES:
             axes.annotate(
@@ -46,7 +51,7 @@ def draw_drive(path: Array, record: RunRecord) -> Figure:
     plot_path(axes, places, "sensor", "path of the base", linestyle="-", linewidth=1.6)
     axes.plot(*places[0], "o", color=INK, markeredgecolor=PAPER, markersize=8, zorder=6, label="began")
     axes.plot(*places[-1], "s", color=INK, markeredgecolor=PAPER, markersize=8, zorder=6, label="ended")
-    fit_limits(axes, places, AROUND_M, RATIO)
+    fit_limits(axes, np.vstack([places, *near]), AROUND_M, RATIO)
     axes.set(xlabel="x in the world, m", ylabel="y in the world, m")
     axes.set_title("Path of the base from above")
     add_legend(figure)

@@ -31,7 +31,8 @@ STYLE: Any = MappingProxyType(
         "axes.edgecolor": DIM, "xtick.color": DIM, "ytick.color": DIM, "xtick.labelcolor": INK,
         "ytick.labelcolor": INK, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
         "grid.color": GRID, "grid.linewidth": 0.6, "axes.axisbelow": True, "svg.fonttype": "none",
-        "svg.hashsalt": "skillc", "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial", "sans-serif"],
+        "svg.hashsalt": "skillc",
+        "figure.constrained_layout.h_pad": 0.08, "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial", "sans-serif"],
     }
 )  # fmt: skip
 """The settings of matplotlib; text in an SVG remains text."""
@@ -52,7 +53,7 @@ CURVES: Mapping[Source, tuple[str, Mapping[str, Any]]] = MappingProxyType(
 )
 """The words of the legend and the line style of each source."""
 
-COLUMN_IN, LETTER_IN = 0.55, 0.072
+COLUMN_IN, LETTER_IN = 0.68, 0.076
 """Width of a column of a legend without its text, and of a letter."""
 
 MOST_POINTS = 4000
@@ -110,9 +111,8 @@ def add_legend(figure: Figure) -> None:
 def count_columns(names: Sequence[str]) -> int:
     """Return how many columns a legend with these names may have within the width of a figure."""
     for columns in range(len(names), 1, -1):
-        height = -(-len(names) // columns)
-        widest = (max(map(len, names[first : first + height])) for first in range(0, len(names), height))
-        if sum(COLUMN_IN + LETTER_IN * each for each in widest) <= WIDTH_IN:
+        parts = (names[int(part[0]) : int(part[-1]) + 1] for part in np.array_split(np.arange(len(names)), columns))
+        if sum(COLUMN_IN + LETTER_IN * max(map(len, part)) for part in parts) <= WIDTH_IN:
             return columns
     return 1
 

@@ -60,6 +60,6 @@ def _draw_view(axes: Axes, period: FreePeriod, path: Array, order: tuple[int, in
         axes.plot(*place, "x", color=INK, markersize=9, markeredgewidth=2, zorder=7, label="intended by the person")
         shown = np.vstack([shown, place])
     fit_limits(axes, shown, MARGIN_MM, RATIO)
-    if order == (1, 0):  # seen from above, and not from below
+    if order[0] == 1:  # x upwards and y to the left, as seen from above
         axes.invert_xaxis()
     axes.set(xlabel=f"{'xyz'[order[0]]} in the world, mm", ylabel=f"{'xyz'[order[1]]} in the world, mm")

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from skillc_runtime.evaluation.report.figure_style import DIM, SHADE, WIDTH_IN, add_legend, plot_curve
-from skillc_runtime.evaluation.report.pushes import Push, find_force_source, find_true_force
+from skillc_runtime.evaluation.report.pushes import Push, find_force_source
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import ForceSource
 from skillc_runtime.motion.pose import Array
@@ -25,22 +25,16 @@ ROOM = 1.08
 
 @dataclass(frozen=True, slots=True)
 class PushDrawing:
-    """A push to draw: times in s from its start, forces in N, travel in mm; truth (m, 2) as `find_true_force` has it.
-
-    `switched_s` is when the button that was pressed switched, None if none did.
-    """
+    """A push to draw: where the arm knows its force from, and when a button in it switched, None if none did."""
 
     push: Push
     source: ForceSource
-    truth: Array | None
     switched_s: float | None
 
 
 def make_push_drawing(push: Push, record: RunRecord) -> PushDrawing:
     """Return what is drawn of a push."""
-    return PushDrawing(
-        push, find_force_source(push.arm, record), find_true_force(push, record), _find_switching(push, record)
-    )
+    return PushDrawing(push, find_force_source(push.arm, record), _find_switching(push, record))
 
 
 def draw_push(drawing: PushDrawing) -> Figure:
@@ -50,10 +44,10 @@ def draw_push(drawing: PushDrawing) -> Figure:
     push, time, travel = drawing.push, drawing.push.samples.time, drawing.push.travel_mm
     draw_force(by_time, drawing)
     by_time.set_title("Force over time")
-    moved = travel >= 0.0 if push.contact_s is not None else np.ones(len(travel), dtype=bool)
-    if drawing.truth is not None:
-        at = np.interp(drawing.truth[:, 0], time, travel)
-        plot_curve(by_travel, at, drawing.truth[:, 1], "truth", "force")
+    moved = time >= (push.start_s if push.contact_s is None else push.contact_s)
+    if drawing.push.truth is not None:
+        at = np.interp(drawing.push.truth[:, 0], time, travel)
+        plot_curve(by_travel, at, drawing.push.truth[:, 1], "truth", "force")
     plot_curve(by_travel, travel[moved], push.force[moved], drawing.source, "force")
     plot_curve(by_travel, _ends(travel[moved]), np.full(2, push.force_n), "commanded", "force")
     by_travel.set(xlabel=f"travel of the tool after {'contact' if push.contact_s else 'its start'}, mm: sensor")
@@ -68,14 +62,14 @@ def draw_force(axes: Axes, drawing: PushDrawing) -> None:
     push, time = drawing.push, drawing.push.samples.time - drawing.push.start_s
     if push.contact_s is not None:
         axes.axvspan(push.contact_s - push.start_s, time[-1], color=SHADE, linewidth=0, zorder=0, label="in contact")
-    if drawing.truth is not None:
-        plot_curve(axes, drawing.truth[:, 0] - push.start_s, drawing.truth[:, 1], "truth", "force")
+    if drawing.push.truth is not None:
+        plot_curve(axes, drawing.push.truth[:, 0] - push.start_s, drawing.push.truth[:, 1], "truth", "force")
     plot_curve(axes, time, push.force, drawing.source, "force")
     plot_curve(axes, _ends(time), np.full(2, push.force_n), "commanded", "force")
     if drawing.switched_s is not None:
         when = drawing.switched_s - push.start_s
         axes.axvline(when, color=DIM, linewidth=1.0, linestyle=(0, (6, 3)), label="switched: simulator truth")
-    every = [push.force] if drawing.truth is None else [push.force, drawing.truth[:, 1]]
+    every = [push.force] if drawing.push.truth is None else [push.force, drawing.push.truth[:, 1]]
     least, greatest = (float(find([find(each) for each in every])) for find in (min, max))
     first = time[0] if push.contact_s is None else max(time[0], push.contact_s - push.start_s - BEFORE_S)
     axes.set(xlabel="time from the start of the push, s", ylabel="force, N", xlim=(first, time[-1]))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.evaluation.metrics.intervals import Interval
 from skillc_runtime.evaluation.report.arm_trace import ArmPath
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import ForceSource, PushResult
@@ -21,8 +22,9 @@ from skillc_runtime.world.state.world_state import WorldState
 ARM, ALONG, FORCE = "arm", "along", "force"
 """The parameters of primitives that press: which arm, opposite to which direction, with how many N."""
 
-TOUCHED_N = 1.0
-"""A tool touches something while it is pressed with more than this."""
+TOUCHED_N, KNOWN_SHARE = 1.0, 0.3
+"""A tool touches something while the simulator has more than this, or, without that, while the arm knows of more than
+this share of the commanded force."""
 
 LEAST_SAMPLES = 3
 
@@ -34,7 +36,9 @@ class Push:
     """A scope in which an arm pressed its tool opposite to `along`, a unit vector (3,) in the world, with `force_n`.
 
     `within` is the call of the skill around it, `on` are the individuals it names besides devices, by IRI; `body` is
-    what was done in the scope. `samples` are from shortly before the push to its end.
+    what was done in the scope. `samples` are from shortly before the push to its end. `truth` (m, 2) are times in s and
+    forces in N of the simulator, on a button or else of the held tool, None for neither. `contact_s` is when the tool
+    touched something: by the truth, or else when the arm knew a part of the commanded force; None if it never did.
     """
 
     within: ImplementationChosen
@@ -46,17 +50,13 @@ class Push:
     end_s: float
     body: tuple[NodeOutcome, ...]
     samples: ArmPath
+    truth: Array | None
+    contact_s: float | None
 
     @property
     def force(self) -> Array:
         """The force (n,) in N against the push, as the arm knows it."""
         return np.asarray(self.samples.force @ self.along)
-
-    @property
-    def contact_s(self) -> float | None:
-        """When the tool touched something, in s; None if it did not."""
-        touching = np.flatnonzero(self.force > TOUCHED_N)
-        return float(self.samples.time[touching[0]]) if touching.size else None
 
     @property
     def travel_mm(self) -> Array:
@@ -74,7 +74,7 @@ def find_pushes(record: RunRecord) -> tuple[Push, ...]:
 
 def measure_push(push: Push, record: RunRecord) -> PushResult:
     """Return the numbers of a push."""
-    short, truth, contact = record.state.vocabulary.short, find_true_force(push, record), push.contact_s
+    short, truth, contact = record.state.vocabulary.short, push.truth, push.contact_s
     known = push.force[push.samples.time >= contact] if contact is not None else np.zeros(0)
     pressed = truth[truth[:, 1] > TOUCHED_N, 1] if truth is not None else np.zeros(0)
     return PushResult(
@@ -99,20 +99,26 @@ def find_force_source(arm: str, record: RunRecord) -> ForceSource:
     return "sensor" if record.has_force_sensor(arm) else "estimate"
 
 
-def find_true_force(push: Push, record: RunRecord) -> Array | None:
-    """Return times in s and forces in N (n, 2) of the simulator: on a button, else of the held tool; None for neither.
-
-    The end of the last contact of a button is a row with 0 N.
-    """
-    for button in (each for each in push.on if record.state.is_a(each, BUTTON)):
+def _find_true_force(on: Sequence[str], arm: str, scope: Interval, record: RunRecord) -> Array | None:
+    """Return times and forces (n, 2) of the simulator in an interval: on a button, else of the held tool."""
+    start, end = scope
+    for button in (each for each in on if record.state.is_a(each, BUTTON)):
         rows = record.truth.pressing(button)
-        inside = rows[(rows[:, 0] >= push.start_s) & (rows[:, 0] <= push.end_s), :2]
+        inside = rows[(rows[:, 0] >= start) & (rows[:, 0] <= end), :2]
         return inside if len(inside) else None
-    for tool in record.held_by(push.arm, push.start_s, push.end_s):
-        held = _recording(tool, record).between(push.start_s, push.end_s)
+    for tool in record.held_by(arm, start, end):
+        held = _recording(tool, record).between(start, end)
         if len(held.time):
             return np.column_stack([held.time, held.force])
     return None
+
+
+def _find_contact(samples: ArmPath, along: Array, force_n: float, truth: Array | None, start: float) -> float | None:
+    """Return when the tool touched something, in s; None if it did not."""
+    known = np.column_stack([samples.time, samples.force @ along])
+    rows, least_n = (known[known[:, 0] >= start], KNOWN_SHARE * force_n) if truth is None else (truth, TOUCHED_N)
+    touching = np.flatnonzero(rows[:, 1] > least_n)
+    return float(rows[touching[0], 0]) if touching.size else None
 
 
 def _recording(tool: str, record: RunRecord) -> Recording:
@@ -145,9 +151,11 @@ def _read_scope(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], reco
     for start, end in record.runs_of(node):
         samples = record.arm_path(arm.iri).between(start - 0.5, end)
         if len(samples.time) >= LEAST_SAMPLES:
+            on, axis = _find_objects(calls, record), np.array(along.components)
+            truth = _find_true_force(on, arm.iri, (start, end), record)
+            contact_s = _find_contact(samples, axis, force.value, truth, start)
             yield Push(
-                calls[-1], _find_objects(calls, record), arm.iri, np.array(along.components), force.value,
-                start, end, tuple(body), samples,
+                calls[-1], on, arm.iri, axis, force.value, start, end, tuple(body), samples, truth, contact_s
             )  # fmt: skip
 
 

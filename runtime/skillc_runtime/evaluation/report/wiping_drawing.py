@@ -32,9 +32,9 @@ class WipingDrawing:
 
     extent (2,): size of the surface; `covered`: share of it that was wiped. dose (rows along y, columns along x):
     contact time of the cells in s. lanes (n, 2): the commanded path without overlays; tool (n, 2): the measured path.
-    time (n,): of lanes, tool and speeds; lane_speed, tool_speed (n,): mm/s along the path; `overlaid` if the path has
-    an overlay. contact_time, force (m,): s and N from the approach on; `force_n` is the commanded force. While paused,
-    nothing but the force is drawn.
+    time (n,): of lanes, tool and speeds; lane_speed, tool_speed (n,): mm/s along the path; `overlay_period_s`: of the
+    overlay, None without one. contact_time, force (m,): s and N from the approach on; `force_n` is the commanded force.
+    While paused, nothing but the force is drawn.
     """
 
     surface: str
@@ -47,7 +47,7 @@ class WipingDrawing:
     time: Array
     lane_speed: Array
     tool_speed: Array
-    overlaid: bool
+    overlay_period_s: float | None
     contact_time: Array
     force: Array
     force_n: float
@@ -57,16 +57,6 @@ class WipingDrawing:
     def step_s(self) -> float:
         """The time between two rows, s."""
         return float(np.nanmedian(np.diff(self.time))) if len(self.time) > 1 else 1.0
-
-    @property
-    def overlay_period_s(self) -> float | None:
-        """The period of the strongest oscillation of the tool's speed along the lanes, s; None without an overlay."""
-        known = np.isfinite(self.tool_speed) & np.isfinite(self.lane_speed)
-        if not self.overlaid or known.sum() < LEAST_ROWS:
-            return None
-        swing = (self.tool_speed - self.lane_speed)[known]
-        spectrum = np.abs(np.fft.rfft((swing - swing.mean()) * np.hanning(len(swing))))
-        return len(swing) * self.step_s / max(1, int(spectrum[1:].argmax()) + 1)
 
     @property
     def dwell_speed(self) -> float:
@@ -97,7 +87,7 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
         time=rows_drawn.time - wiping.start,
         lane_speed=1e3 * np.linalg.norm(rows_drawn.path_velocity, axis=1),
         tool_speed=1e3 * _component_along(rows_drawn.path_velocity, rows_drawn.velocity),
-        overlaid=find_lane_velocity(window)[1] == "path",
+        overlay_period_s=find_overlay_period(window) if find_lane_velocity(window)[1] == "path" else None,
         contact_time=recording.time[::DECIMATION] - wiping.start,
         force=recording.force[::DECIMATION],
         force_n=wiping.force_n,
@@ -110,6 +100,17 @@ def _join_strokes(windows: Sequence[Recording]) -> Recording:
     rows = [each.rows[::DECIMATION] for each in windows]
     gap = np.full((1, rows[0].shape[1]), np.nan)
     return Recording(np.concatenate([part for each in rows for part in (each, gap)][:-1]))
+
+
+def find_overlay_period(window: Recording) -> float | None:
+    """Return the period in s of the strongest oscillation of an overlay; None if too little was recorded."""
+    overlay = (window.reference - window.path)[::DECIMATION]
+    if len(overlay) < LEAST_ROWS:
+        return None
+    swing = (overlay - overlay.mean(axis=0)) * np.hanning(len(overlay))[:, None]
+    strength = np.linalg.norm(np.fft.rfft(swing, axis=0), axis=1)
+    step_s = float(np.median(np.diff(window.time))) * DECIMATION
+    return len(overlay) * step_s / (1 + int(strength[1:].argmax()))
 
 
 def _component_along(path_velocity: Array, velocity: Array) -> Array:

@@ -63,7 +63,7 @@ def _measure_nothing(record: RunRecord) -> Iterator[WorkResult]:
 def _draw_wipings(record: RunRecord) -> Iterator[WorkFigure]:
     drawings = tuple(make_wiping_drawing(each, record.state, record.truth) for each in record.wipings)
     if drawings:
-        overlaid = any(each.overlaid for each in drawings)
+        overlaid = any(each.overlay_period_s is not None for each in drawings)
         yield WorkFigure(
             "wiping", "Path, contact time, speed and force on the surface",
             "The shade of a cell is how long it lay under the pressed tool." + (SWINGING if overlaid else ""),

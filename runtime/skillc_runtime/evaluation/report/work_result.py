@@ -15,7 +15,8 @@ class PushResult(msgspec.Struct, frozen=True, kw_only=True, tag="push"):
 
     `skill` is the innermost skill around the push, `on` what its parameters name besides devices. The mean and the
     greatest force are those that the arm knew, from `force_source`, while there was contact; `true_` ones are those of
-    the simulator, None where it has none. `contact_s` is None if nothing was touched.
+    the simulator, None where it has none. `contact_s` is when something was touched, by the simulator if it has the
+    force, None if nothing was.
     """
 
     skill: str
