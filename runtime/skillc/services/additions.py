@@ -37,8 +37,16 @@ def add_files(project: Project, kind: Kind, name: str, like: str | None) -> tupl
         if like is not None:
             raise RequestError("--like is for robots, grippers and tools")
         return _write({project.root / f"{name}.skill": _skill(name)})
-    folder = project.ontologies[0] if project.ontologies else project.root / ONTOLOGY
-    written = _write(_device(project, kind, name, like or MODELS[kind], folder))
+    return add_device_files(project, kind, name, *_device(project, kind, name, like or MODELS[kind]))
+
+
+def add_device_files(project: Project, kind: Kind, name: str, sheet: str, model: str) -> tuple[Path, ...]:
+    """Write a data sheet and a model into the ontology folder, and return the files that were written or changed.
+
+    The manifest names the folder from then on. RequestError if a file exists; ServiceError if one cannot be written.
+    """
+    folder = (project.ontologies[0] if project.ontologies else project.root / ONTOLOGY) / FOLDERS[kind]
+    written = _write({folder / f"{name}.ttl": sheet, folder / f"{name}.xml": model})
     return written if project.ontologies else (*written, _name_ontology(project))
 
 
@@ -47,7 +55,7 @@ def _skill(name: str) -> str:
     return open_templates().get_template("add/skill.skill.j2").render(skill=skill, term=f"is{skill}Done")
 
 
-def _device(project: Project, kind: str, name: str, like: str, folder: Path) -> dict[Path, str]:
+def _device(project: Project, kind: str, name: str, like: str) -> tuple[str, str]:
     """Return the data sheet and the model of a device, as copies of a shipped one under names of the project."""
     shipped = catalogue.ROOT / FOLDERS[kind]
     known = {path.stem for path in shipped.glob("*.xml")}
@@ -61,10 +69,8 @@ def _device(project: Project, kind: str, name: str, like: str, folder: Path) -> 
     text = _SOURCE.sub(f'skillc:source "Copied from {like}: replace the numbers, and say where each is from."', text)
     prefix = f"@prefix {project.name}: <{project.namespace}> .\n"
     head, line, rest = text.partition("@prefix ")
-    return {
-        folder / FOLDERS[kind] / f"{name}.ttl": f"{_first_line(kind, like, head)}{prefix}{line}{rest}",
-        folder / model: catalogue.model_path(found["path"]).read_text("utf-8"),
-    }
+    text = f"{_first_line(kind, like, head)}{prefix}{line}{rest}"
+    return text, catalogue.model_path(found["path"]).read_text("utf-8")
 
 
 def _first_line(kind: str, like: str, head: str) -> str:

@@ -7,17 +7,24 @@ from difflib import get_close_matches
 
 import pyoxigraph as ox
 
+from skillc.services.project.project import Project
 from skillc.services.scene_diagnostics import with_shown_path
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
+from skillc_dsl.source import Span
+from skillc_rdf.turtle.parser import parse
 from skillc_runtime.control.gains import UnknownController, read_gains
+from skillc_runtime.scene.documents import BASE
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError
-from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME
+from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME, TO_BE_STATED
 from skillc_runtime.world.state.world_state import WorldState
 
 HOME = "home"
 """The posture that every arm has."""
+
+INCOMPLETE = "incomplete-sheet"
+"""The problem of a data sheet with properties that are still to be stated."""
 
 
 def check_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
@@ -44,12 +51,36 @@ def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
         arm = iri_of(each.subject)
         if each.predicate == HAS_SHEET and each.lines.path == path and scene.state.is_a(arm, ARM_DEVICE):
             sheet = DataSheet(scene.state, iri_of(each.object))
+            if sheet.unstated:
+                yield _incomplete(scene, arm, sheet, with_shown_path(each.object_place))
+                continue
             missing = _missing_from(scene.state, arm, sheet)
             if missing is not None:
                 message = f"{scene.state.vocabulary.short(arm)} cannot be run with this sheet: {missing}"
                 yield _misspelt_home(scene, path, sheet, message) or Diagnostic(
                     "unfit-sheet", with_shown_path(each.object_place), message, "name the sheet of this arm"
                 )
+
+
+def _incomplete(scene: Scene, arm: str, sheet: DataSheet, span: Span) -> Diagnostic:
+    """Return the diagnostic of an arm whose data sheet says that properties are still to be stated."""
+    short = scene.state.vocabulary.short
+    names = ", ".join(f"skillc:{name}" for name in sheet.unstated)
+    message = f"{short(arm)} cannot be run: {short(sheet.individual)} does not state {names} yet"
+    return Diagnostic(INCOMPLETE, span, message, f"write them in the sheet, and remove them from {short(TO_BE_STATED)}")
+
+
+def check_project_sheets(project: Project) -> Iterator[Diagnostic]:
+    """Yield the data sheets of a project that say that properties are still to be stated."""
+    for folder in project.ontologies:
+        for file in sorted((folder / "robots").glob("*.ttl")):
+            text = file.read_text("utf-8", errors="replace")
+            for each in parse(str(file), text, BASE).statements:
+                if each.predicate == TO_BE_STATED and isinstance(each.object, ox.Literal) and each.object.value.strip():
+                    names = ", ".join(f"skillc:{name}" for name in each.object.value.split())
+                    message = f"this data sheet does not state {names} yet, so that no scene can use its arm"
+                    hint = "write them, with their source, and remove them here"
+                    yield Diagnostic(INCOMPLETE, with_shown_path(each.object_place), message, hint, "warning")
 
 
 def _misspelt_home(scene: Scene, path: str, sheet: DataSheet, message: str) -> Diagnostic | None:

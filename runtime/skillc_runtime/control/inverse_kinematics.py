@@ -22,17 +22,18 @@ def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits:
     The result is the solution from `seed` (nv,) if there is one, else the one nearest to it from seeds all over the
     range.
     """
-    direct = _descend(arm, target, seed, seed, limits)
+    direct = descend(arm, target, seed, seed, limits)
     if direct is not None:
         return direct
     draw = np.random.default_rng(0)
     low, high = np.maximum(limits[:, 0], seed - pi), np.minimum(limits[:, 1], seed + pi)
     starts = [draw.uniform(low, high) for _ in range(SEEDS)]
-    found = [q for start in starts if (q := _descend(arm, target, start, seed, limits)) is not None]
+    found = [q for start in starts if (q := descend(arm, target, start, seed, limits)) is not None]
     return min(found, key=lambda q: float(np.abs(q - seed).max()), default=None)
 
 
-def _descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: Array) -> Array | None:
+def descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: Array) -> Array | None:
+    """Return joints (nv,) in rad with the tool at `target` in base, found from `start` alone, near `seed`; or None."""
     q = np.clip(start, limits[:, 0], limits[:, 1])
     for _ in range(STEPS):
         arm.update_kinematics(q)

@@ -2,32 +2,81 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_device
+from skillc.cli.console import print_labelled, print_remark
+from skillc.cli.settings import GroupedOption
 
 if TYPE_CHECKING:
     from skillc.services.additions import Kind
+    from skillc.services.project.project import Project
+    from skillc.services.robot_import.add_robot import AddedRobot
+
+model_option = partial(click.option, cls=GroupedOption, group="Model file")
+MODELS = (".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
+"""Suffixes by which a file with a model is told from a name."""
 
 
-@click.command(cls=Command)
+@click.command(
+    cls=Command,
+    examples="""
+    skillc add skill rinse_board
+    skillc add gripper my_gripper --like wsg50
+    skillc add robot arm.urdf --like iiwa14
+    """,
+)
 @click.argument("kind", metavar="KIND", type=click.Choice(["skill", "robot", "gripper", "tool"]))
-@click.argument("name")
+@click.argument("name", metavar="NAME|FILE")
 @click.option(
     "--like",
     metavar="DEVICE",
     shell_complete=complete_device,
-    help="The shipped device to copy, such as `ur5e`, `wsg50` or `peg`.",
+    help="The shipped device to copy, such as `ur5e` or `wsg50`; with FILE, what has the numbers that FILE lacks.",
 )
-def command(kind: Kind, name: str, like: str | None) -> None:
-    """Add the files of a KIND (skill, robot, gripper or tool) called NAME to the project here.
+@model_option("--name", "called", metavar="NAME", help="The name of the arm; by default that of the file.")
+@model_option(
+    "--control",
+    type=click.Choice(["torque", "position", "velocity"]),
+    help="What the arm is commanded; by default as the arm of --like.",
+)
+@model_option("--base", metavar="LINK", help="The link that does not move; by default the root.")
+@model_option("--tip", metavar="LINK", help="The link or site on which a gripper is mounted, z pointing out.")
+@model_option(
+    "--tip-turn",
+    type=(float, float, float),
+    default=(0.0, 0.0, 0.0),
+    metavar="R P Y",
+    help="Roll, pitch and yaw of the flange in the frame of the tip, in degrees.",
+)
+@model_option(
+    "--correct-inertia",
+    is_flag=True,
+    help="Raise moments of inertia that no body can have, and say how much.",
+)
+@model_option("--efforts", metavar="NUMBERS", help="The greatest effort of each joint, N m.")
+@model_option("--home", metavar="NUMBERS", help="The home posture, rad; by default one is proposed.")
+@model_option(
+    "--set",
+    "settings",
+    metavar="PROPERTY=VALUE",
+    multiple=True,
+    help="A value of the data sheet in SI units, such as forceLimit=40; may be repeated.",
+)
+def command(kind: Kind, name: str, like: str | None, called: str | None, **options: Any) -> None:
+    """Add a skill, robot, gripper or tool called NAME to the project here, or the arm of a URDF or MJCF FILE.
 
     A skill is a `.skill` file. A robot, gripper or tool is a data sheet and a model in the project's ontology folder,
     copied from a shipped device, to be replaced by your numbers.
+
+    The arm of a FILE has its kinematics, inertia and joint limits, which are compared with the file by another library
+    than the one that read it. What no model states is taken from the options and from the arm of --like; what then is
+    still to be stated is listed by `skillc check`.
     """
     from skillc.services.additions import add_files
     from skillc.services.errors import RequestError
@@ -36,5 +85,52 @@ def command(kind: Kind, name: str, like: str | None) -> None:
     project = find_project(Path())
     if project is None:
         raise RequestError("there is no skillc.toml here or above; `skillc new NAME` writes a project")
+    if kind == "robot" and (Path(name).suffix.lower() in MODELS or "/" in name):
+        _add_robot(project, Path(name), like, called, **options)
+        return
+    given = [f"--{key.replace('_', '-')}" for key, value in {"name": called, **options}.items() if _is_given(value)]
+    if given:
+        raise RequestError(
+            f"{given[0].replace('settings', 'set')} is for `skillc add robot FILE`, with a URDF or MJCF file"
+        )
     for path in add_files(project, kind, name, like):
         click.echo(path)
+
+
+def _is_given(value: Any) -> bool:
+    return value is not None and value != () and value is not False and value != (0.0, 0.0, 0.0)
+
+
+def _add_robot(
+    project: Project, file: Path, like: str | None, called: str | None, settings: tuple[str, ...], **options: Any
+) -> None:
+    from skillc.services.errors import RequestError
+    from skillc.services.robot_import.add_robot import RobotRequest, add_robot
+    from skillc.services.robot_import.reading import ReadOptions
+
+    wrong = [each for each in settings if "=" not in each]
+    if wrong:
+        raise RequestError(f"--set {wrong[0]}: write PROPERTY=VALUE, such as forceLimit=40")
+    stated = {name: value for name, _, value in (each.partition("=") for each in settings)}
+    part = ReadOptions(*(options.pop(name) for name in ("base", "tip", "tip_turn", "correct_inertia")))
+    added = add_robot(project, RobotRequest(file, called, like, part=part, settings=stated, **options))
+    for path in added.files:
+        click.echo(path)
+    _show(added, project.name)
+
+
+def _show(added: AddedRobot, prefix: str) -> None:
+    """Print what was found, what is still to be stated, and how a scene uses the arm."""
+    for line in (added.summary, added.proof, f"home: {added.home}"):
+        print_remark(f"{added.name}: {line}")
+    for note in added.notes:
+        print_labelled("warning", note)
+    if added.unstated:
+        print_labelled(
+            "warning",
+            f"still to be stated, in the sheet, with --set or as those of --like: {', '.join(added.unstated)}",
+        )
+    print_remark(
+        f"in a scene: lab:Arm-1 a {prefix}:{added.cls} ; skillc:hasSheet {prefix}:{added.name}-sheet ; "
+        f'skiros:CompliantController "{added.controller}" .'
+    )

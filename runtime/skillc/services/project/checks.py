@@ -29,4 +29,9 @@ def check_project(project: Project, files: LibraryFiles) -> Iterator[Diagnostic]
         yield Diagnostic(
             "wrong-setting", project.place_of("task"), message, did_you_mean(manifest.task, task_names(files))
         )
+    if project.ontologies:
+        # What reads data sheets imports much.
+        from skillc.services.device_checks import check_project_sheets
+
+        yield from check_project_sheets(project)
     yield from check_lock(project)

@@ -214,6 +214,7 @@ def _mounted(state: WorldState, bodies: tuple[RigidBody, ...]) -> dict[str, str]
 
 def _arm(state: WorldState, arm: str) -> ArmSpec:
     sheet = sheet_of(state, arm)
+    sheet.require_complete()
     robots = sorted(state.subjects(HAS_ARM, arm))
     sensors = sorted(each for each in state.objects(arm, HAS_SENSOR) if state.is_a(each, FORCE_TORQUE_SENSOR))
     grippers = sorted(state.objects(arm, HAS_GRIPPER))

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import NumberType, PlainType
 from skillc_runtime.scene.violation import SceneViolation
+from skillc_runtime.world.state.data_sheet import DataSheet
+from skillc_runtime.world.state.terms import ARM_SHEET, SKILLC
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -15,6 +17,9 @@ def check_required(state: WorldState) -> Iterator[SceneViolation]:
     short = state.vocabulary.short
     for individual, required in _required(state):
         lost = {predicate: cls for predicate, cls in required if not _has(state, individual, predicate)}
+        if lost and state.is_a(individual, ARM_SHEET):
+            open_ = {f"{SKILLC}{name}" for name in DataSheet(state, individual).unstated}
+            lost = {predicate: cls for predicate, cls in lost.items() if predicate not in open_}
         if lost:
             of = ", ".join(sorted({short(cls) for cls in lost.values()}))
             names = ", ".join(map(short, sorted(lost)))

@@ -9,7 +9,14 @@ import numpy as np
 
 from skillc_ontology.catalogue import model_path
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, JOINT_VALUES, POSTURE_NAME, SKILLC
+from skillc_runtime.world.state.terms import (
+    HAS_POSTURE,
+    HAS_SHEET,
+    JOINT_VALUES,
+    POSTURE_NAME,
+    SKILLC,
+    TO_BE_STATED,
+)
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -55,6 +62,20 @@ class DataSheet:
     def has(self, name: str) -> bool:
         """Whether the sheet states a property."""
         return self.state.value(self.individual, SKILLC + name) is not None
+
+    @property
+    def unstated(self) -> tuple[str, ...]:
+        """The properties that the sheet says are still to be stated."""
+        return tuple(str(self.state.value(self.individual, TO_BE_STATED) or "").split())
+
+    def require_complete(self) -> None:
+        """Raise SheetError if properties are still to be stated."""
+        if self.unstated:
+            names = ", ".join(f"skillc:{name}" for name in self.unstated)
+            raise SheetError(
+                f"{self._short(self.individual)} is not complete: {names} are still to be stated; write them, and "
+                f"remove them from {self._short(TO_BE_STATED)}"
+            )
 
     def posture(self, name: str) -> Array:
         """Return the joint values (nv,) rad of a named posture; SheetError lists the existing names."""

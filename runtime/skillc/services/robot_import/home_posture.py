@@ -1,0 +1,119 @@
+"""Proposes a home posture by inverse kinematics: the tool points down, joints are not at the ends of their ranges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.control.inverse_kinematics import descend
+from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
+from skillc_runtime.motion.pose import Array, Pose, exp
+
+AHEAD = (0.5, 0.6)
+"""How far in front of the base the flange may be at home, as a share of the reach."""
+ABOVE = (0.45, 0.65)
+"""How high above the base it may be, likewise."""
+TURNS = 4
+SEEDS = 8
+FAR_RAD = 1.0
+"""Joints farther than this from the ends of their ranges are no better than those that are this far."""
+SAMPLES = 100
+"""Postures in which parts that overlap are counted; those that nearly always do overlap because shapes are simple."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArmShape:
+    """What an arm is like in its postures.
+
+    reach_m: 85 % of the largest distance of flange and shoulder; shoulder_m: height of the second joint above the base.
+    """
+
+    reach_m: float
+    shoulder_m: float
+
+
+class HomeSearch:
+    """The search in the MJCF file of an arm."""
+
+    def __init__(self, mjcf: Path) -> None:
+        spec = mujoco.MjSpec.from_file(str(mjcf))
+        for geom in spec.geoms:
+            geom.contype = geom.conaffinity = 1
+        self._model = spec.compile()
+        self._data = mujoco.MjData(self._model)
+        self._arm = VirtualArm(load_virtual_model(mjcf))
+        self._limits: Array = self._model.jnt_range.copy()
+        self._second = int(self._model.jnt_bodyid[1])
+        drawn = np.random.default_rng(2).uniform(self._limits[:, 0], self._limits[:, 1], (20 * SAMPLES, self._model.nv))
+        self._usual = self._usual_overlaps(drawn[:SAMPLES])
+        self.shape = self._measure(drawn)
+
+    def find(self) -> Array | None:
+        """Return the best posture (n,) in rad; None if the arm cannot point its flange down before its base."""
+        found = [q for q in self._candidates() if not self._touches_itself(q)]
+        return max(found, key=self._score, default=None)
+
+    def _candidates(self) -> Iterator[Array]:
+        low, high = np.maximum(self._limits[:, 0], -np.pi), np.minimum(self._limits[:, 1], np.pi)
+        draw = np.random.default_rng(3)
+        starts = [(low + high) / 2, *(draw.uniform(low, high) for _ in range(SEEDS - 1))]
+        for ahead, above, turn, start in product(AHEAD, ABOVE, range(TURNS), starts):
+            down = exp(np.array([0.0, 0.0, 2 * np.pi * turn / TURNS])) @ np.diag([1.0, -1.0, -1.0])
+            place = np.array([ahead * self.shape.reach_m, 0.0, above * self.shape.reach_m])
+            q = descend(self._arm, Pose(place, down), start, start, self._limits)
+            if q is not None:
+                yield q
+
+    def _score(self, q: Array) -> float:
+        """Rate a posture: room to the ends of ranges, dexterity, elbow above the flange, all links above the ground."""
+        room = np.minimum(np.minimum(q - self._limits[:, 0], self._limits[:, 1] - q), FAR_RAD).min()
+        self._arm.update_kinematics(q)
+        J = self._arm.jacobian
+        dexterity = np.sqrt(max(np.linalg.det(J @ J.T), 0.0))
+        self._move(q)
+        links = self._data.xpos[self._second :]
+        grounded = float(links[:, 2].min() < 0.02)
+        ease = room + dexterity / self.shape.reach_m**3 + self._elbow_height(links)
+        return float(ease - 2 * grounded - 0.05 * np.abs(q).sum())
+
+    def _elbow_height(self, links: Array) -> float:
+        """Return how far the link that is farthest from the line between shoulder and flange is above it: -1 to 1."""
+        shoulder, flange = links[0], self._data.site("flange").xpos
+        along = (flange - shoulder) / np.linalg.norm(flange - shoulder)
+        away = links - shoulder
+        away -= np.outer(away @ along, along)
+        farthest = away[np.argmax(np.linalg.norm(away, axis=1))]
+        return float(farthest[2] / max(np.linalg.norm(farthest), 1e-9))
+
+    def _measure(self, postures: Array) -> ArmShape:
+        self._move(np.clip(np.zeros(self._model.nv), *self._limits.T))
+        height = float(self._data.xpos[self._second, 2])
+        shoulder, far = np.array([0.0, 0.0, height]), 0.0
+        for q in postures:
+            self._move(q)
+            far = max(far, float(np.linalg.norm(self._data.site("flange").xpos - shoulder)))
+        return ArmShape(round(0.85 * far, 2), round(height, 4))
+
+    def _usual_overlaps(self, postures: Array) -> set[tuple[int, int]]:
+        """Return the pairs of bodies that overlap in most postures."""
+        seen = [pair for q in postures for pair in self._overlaps(q)]
+        return {pair for pair in set(seen) if seen.count(pair) > 0.7 * len(postures)}
+
+    def _touches_itself(self, q: Array) -> bool:
+        return bool(self._overlaps(q) - self._usual)
+
+    def _overlaps(self, q: Array) -> set[tuple[int, int]]:
+        self._move(q)
+        mujoco.mj_collision(self._model, self._data)
+        bodies: Any = self._model.geom_bodyid[self._data.contact.geom]
+        return {(min(pair), max(pair)) for pair in bodies.tolist()}
+
+    def _move(self, q: Array) -> None:
+        self._data.qpos[:] = q
+        mujoco.mj_kinematics(self._model, self._data)

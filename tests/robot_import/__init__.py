@@ -1,0 +1,1 @@
+"""Arms are added to a project from URDF and MJCF files."""

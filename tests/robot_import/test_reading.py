@@ -1,0 +1,177 @@
+"""What is read of a URDF or MJCF is the arm; what cannot be one is refused in a sentence with the cure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from robot_import.arms import GEN3, six
+from skillc.services.errors import RequestError
+from skillc.services.robot_import.comparison import POSTURES
+from skillc.services.robot_import.mjcf_writer import write_mjcf
+from skillc.services.robot_import.proof import prove_same
+from skillc.services.robot_import.reader import read_robot
+from skillc.services.robot_import.reading import Reading, ReadOptions
+from skillc_ontology import catalogue
+
+LAST = '  <link name="tool0"/>'
+FINGERS = "".join(
+    f'<link name="finger_{side}"/> <joint name="{side}" type="prismatic"> <parent link="tool0"/> '
+    f'<child link="finger_{side}"/> <limit lower="0" upper="0.04" effort="10" velocity="1"/> </joint>'
+    for side in ("left", "right")
+)
+
+
+def read(folder: Path, text: str, **options: Any) -> Reading:
+    """Return what is read of a text."""
+    file = folder / "six.urdf"
+    file.write_text(text, "utf-8")
+    return read_robot(file, ReadOptions(**options))
+
+
+def written(folder: Path, reading: Reading) -> Path:
+    """Write the model that is read."""
+    path = folder / "out.xml"
+    efforts = [link.joint.effort or 1.0 for link in reading.model.links]
+    path.write_text(write_mjcf(reading.model, "six", "six.urdf", "torque", efforts), "utf-8")
+    return path
+
+
+def test_a_model_agrees_with_the_file_in_another_library(tmp_path: Path) -> None:
+    assert POSTURES == 200
+    for file in (GEN3, catalogue.model_path("robots/panda.xml"), catalogue.model_path("robots/ur5e.xml")):
+        reading = read_robot(file)
+        assert {reading.library, reading.other} == {"pinocchio", "MuJoCo"}
+        assert 0 < prove_same(reading, written(tmp_path, reading)).largest < 1e-10
+
+
+def test_what_is_fixed_to_a_link_is_part_of_it(tmp_path: Path) -> None:
+    model = read(tmp_path, six()).model
+    assert [link.name for link in model.links] == [f"link_{number}" for number in range(1, 7)]
+    assert model.links[1].inertia.mass_kg == pytest.approx(3.5 + 0.4)
+    assert (model.base.name, model.tip) == ("base_link", "tool0")
+    assert model.flange.position == pytest.approx([0, 0, 0.04])
+    assert model.links[1].joint.axis == pytest.approx([0, 1, 0]), "an axis of length 2"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('mass="3.9"', 'mass="3.90001"'),
+        ('name="joint_3" axis="0 1 0"', 'name="joint_3" axis="0 -1 0"'),
+        ('fullinertia="0.02 ', 'fullinertia="0.02001 '),
+        (' pos="0 0 0.4"', ' pos="0 0 0.4000001"'),
+    ],
+)
+def test_a_model_that_differs_is_refused(old: str, new: str, tmp_path: Path) -> None:
+    reading = read(tmp_path, six())
+    path = written(tmp_path, reading)
+    text = path.read_text("utf-8")
+    assert old in text, text
+    path.write_text(text.replace(old, new), "utf-8")
+    with pytest.raises(RequestError, match=r"differs from the file: .* nothing was written"):
+        prove_same(reading, path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("<robot", "<robot><link", "this is not XML"),
+        ('<robot name="six">', '<robot xmlns:xacro="http://ros.org/xacro"><xacro:include filename="a"/>', "xacro six"),
+        ('<robot name="six">', '<sdf><robot/></sdf><robot name="six">', "not XML"),
+        ("robot", "sdf", "neither URDF"),
+        ('<link name="cover">', '<link name="link_1">', "two links called `link_1`"),
+        ('<child link="cover"/>', '<child link="lid"/>', "the child of joint `screws`, `lid`, is no link"),
+        ('<child link="cover"/>', '<child link="link_3"/>', "child of two joints"),
+        ('<child link="cover"/>', "", 'no `<child link="..">`'),
+        ('<parent link="base_link"/>', '<parent link="tool0"/>', "joined in a circle"),
+        ('type="fixed"> <parent link="link_2"', 'type="screw"> <parent link="link_2"', "of type `screw`"),
+        (LAST, f'<link name="alone"/>{LAST}', "2 links have no parent (base_link, alone)"),
+        ('lower="-2.8" upper="2.8"', "", "joint `joint_1` cannot move: its limits are 0 and 0"),
+        ('<axis xyz="0 2 0"/>', '<axis xyz="0 0 0"/>', "the axis of joint `joint_2` has length 0"),
+        ('<axis xyz="0 2 0"/>', '<axis xyz="0 one 0"/>', "must have 3 number(s)"),
+        ("<axis", '<mimic joint="joint_2"/> <axis', "follows another one (`<mimic>`)"),
+        ('name="joint_1" type="revolute"', 'name="joint_1" type="floating"', "is floating: no motor moves it"),
+        ('<mass value="4.0"/>', '<mass value="0"/>', "link `link_1` and what is fixed to it have no mass"),
+        (LAST, FINGERS + LAST, "goes on in 2 ways, with joints `left`, `right`; name the link on which"),
+        ("revolute", "fixed", "no joint moves between"),
+    ],
+)
+def test_what_is_no_arm_is_refused_in_words(old: str, new: str, says: str, tmp_path: Path) -> None:
+    text = six()
+    assert old in text
+    count = -1 if old in ("robot", "revolute") else 1
+    with pytest.raises(RequestError) as refused:
+        read(tmp_path, text.replace(old, new, count))
+    assert says in str(refused.value) and str(tmp_path) in str(refused.value)
+
+
+def test_inertia_of_no_real_body_is_refused_with_its_link(tmp_path: Path) -> None:
+    reading = read(tmp_path, six().replace('izz="0.01"', 'izz="0.1"', 1))
+    with pytest.raises(RequestError, match=r"link_1.*no real body has such moments of inertia"):
+        prove_same(reading, written(tmp_path, reading))
+    corrected = read(tmp_path, six().replace('izz="0.01"', 'izz="0.1"', 1), correct_inertia=True)
+    assert any("what joint_1 moves" in note and "changes the mass matrix by" in note for note in corrected.notes)
+    assert prove_same(corrected, written(tmp_path, corrected)).agree
+    moments = np.linalg.eigvalsh(corrected.model.links[0].inertia.matrix)
+    assert moments[0] + moments[1] == pytest.approx(moments[2], rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "options", "note"),
+    [
+        (LAST, FINGERS + LAST, {"tip": "tool0"}, "2 link(s) beyond `tool0` are left out"),
+        (LAST, FINGERS.replace('link="tool0"', 'link="link_6"') + LAST, {"tip": "tool0"}, "left, right do not belong"),
+        ('joint_4" type="revolute"', 'joint_4" type="continuous"', {}, "joint_4 turn without end"),
+        ("<axis", '<dynamics damping="0.1"/><axis', {}, "damping and friction of joints"),
+        ("<cylinder", '<mesh filename="package://none/a.stl"/><cylinder', {}, "a.stl"),
+        ('<child link="tool0"/> <origin', '<child link="tool0"/> <origin rpy="0 1.57 0"', {}, "the z axis of `tool0`"),
+        ('joint_1" type="revolute"', 'joint_1" type="prismatic"', {}, "joint_1 slide"),
+    ],
+)
+def test_what_a_user_should_know_is_said(
+    old: str, new: str, options: dict[str, str], note: str, tmp_path: Path
+) -> None:
+    assert old in six()
+    reading = read(tmp_path, six().replace(old, new, 1), **options)
+    assert any(note in each for each in reading.notes), reading.notes
+    assert prove_same(reading, written(tmp_path, reading)).agree
+
+
+def test_names_may_be_in_any_script(tmp_path: Path) -> None:
+    text = six().replace("link_3", "Ellbogen-Stück").replace("joint_3", "関節3")
+    reading = read(tmp_path, text)
+    assert reading.model.links[2].joint.name == "関節3"
+    assert prove_same(reading, written(tmp_path, reading)).agree
+
+
+def test_the_flange_may_be_turned(tmp_path: Path) -> None:
+    file = tmp_path / "six.urdf"
+    file.write_text(six(), "utf-8")
+    model = read_robot(file, ReadOptions(tip="link_6", tip_turn=(0.0, 90.0, 0.0))).model
+    assert model.flange.rotation[:, 2] == pytest.approx([1, 0, 0])
+
+
+def test_missing_numbers_of_motors_are_none(tmp_path: Path) -> None:
+    model = read(tmp_path, six().replace('effort="80" velocity="2"', 'effort="0"', 1)).model
+    assert (model.links[0].joint.effort, model.links[0].joint.speed) == (None, None)
+    assert (model.links[1].joint.effort, model.links[1].joint.speed) == (80, 2)
+
+
+def test_masses_of_both_formats_are_the_same(tmp_path: Path) -> None:
+    reading = read(tmp_path, six())
+    again = read_robot(written(tmp_path, reading))
+    pairs = list(zip(reading.model.links, again.model.links, strict=True))
+    assert len(pairs) == 6
+    for one, other in pairs:
+        assert (one.joint.name, one.joint.low, one.joint.effort) == (
+            other.joint.name,
+            other.joint.low,
+            other.joint.effort,
+        )
+        assert np.allclose(one.joint.axis, other.joint.axis)
+        assert np.allclose(one.inertia.matrix, other.inertia.matrix, atol=1e-9)
+        assert [shape.kind for shape in one.shapes] == [shape.kind for shape in other.shapes]
