@@ -9,8 +9,9 @@ from backends.kinematic_runs import library
 from skillc.services.library_files import SHIPPED
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.film.annotations import SceneAnnotator
+from skillc_runtime.film.camera import CameraView
 from skillc_runtime.film.props import Prop
-from skillc_runtime.film.rendering import CameraView, Renderer, RenderingError, check_rendering
+from skillc_runtime.film.rendering import Renderer, RenderingError, check_rendering
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import SetProperty
@@ -63,7 +64,7 @@ def test_a_ghost_and_a_name_change_the_picture() -> None:
     annotator = SceneAnnotator(sorting)
     push(sorting, 0.05)
     renderer = Renderer(sorting.model, 160, 120)
-    view = (CameraView(np.array([0.5, -0.2, 0.63]), 0.5, 50.0, -30.0),)
+    view = CameraView(np.array([0.5, -0.2, 0.63]), 0.5, 50.0, -30.0)
     plain, shown = renderer.picture(sorting.data, view), renderer.picture(sorting.data, view, annotator.sample())
     renderer.close()
     assert np.any(plain != shown)
@@ -75,7 +76,7 @@ def test_every_kind_of_solid_is_drawn() -> None:
     except RenderingError as error:
         pytest.skip(str(error))
     sorting = cell()
-    view = (CameraView(np.array([0.0, 0.0, 2.0]), 1.0, 50.0, -30.0),)
+    view = CameraView(np.array([0.0, 0.0, 2.0]), 1.0, 50.0, -30.0)
     pictures = []
     for kind in (None, "box", "cylinder", "sphere", "capsule", "hull"):
         props = () if kind is None else (Prop(Pose.of((0.0, 0.0, 2.0)), np.array([0.1, 0.1, 0.3]), (1, 0, 0, 1), kind),)

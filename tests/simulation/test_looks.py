@@ -21,7 +21,7 @@ from skillc_runtime.backends.simulation.model_builder import build_model, descri
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import draw_variation
 from skillc_runtime.film.look_cache import model_file
-from skillc_runtime.film.look_meshes import build_look_model
+from skillc_runtime.film.look_meshes import add_looks
 from skillc_runtime.film.looks import Collection, Looks, LooksError, read_looks
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.scene.load import load_scene
@@ -68,7 +68,7 @@ def corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
 def test_meshes_are_where_the_collection_s_own_model_has_them(scene: str, cache: Path) -> None:
     facts, looks = seen(scene)
     write_collection(folder_of(cache, looks.collection))
-    model = build_look_model(spec_of(facts), looks)
+    model = add_looks(spec_of(facts), looks).compile()
     data, compared = mujoco.MjData(model), 0
     data.qpos[:] += np.random.default_rng(4).uniform(0.0, 0.04, model.nq)
     mujoco.mj_kinematics(model, data)
@@ -112,7 +112,7 @@ def _turn(ours: str) -> Pose:
 def test_looks_weigh_nothing_and_touch_nothing(scene: str, cache: Path) -> None:
     facts, looks = seen(scene)
     write_collection(folder_of(cache, looks.collection))
-    plain, drawn = build_model(facts, draw_variation(facts, 3)), build_look_model(spec_of(facts), looks)
+    plain, drawn = build_model(facts, draw_variation(facts, 3)), add_looks(spec_of(facts), looks).compile()
     for name in ("body_mass", "body_inertia", "body_ipos", "body_iquat", "jnt_axis", "dof_armature", "qpos0"):
         np.testing.assert_array_equal(getattr(plain, name), getattr(drawn, name))
     meshes = drawn.geom_type == mujoco.mjtGeom.mjGEOM_MESH
@@ -128,13 +128,13 @@ def test_a_model_that_moves_otherwise_is_refused(cache: Path) -> None:
     text = file.read_text("utf-8")
     file.write_text(text.replace('type="hinge"', 'type="slide"', 1), "utf-8")
     with pytest.raises(LooksError, match=r"kuka_iiwa_14/iiwa14.xml does not move as lab:Iiwa-1 does"):
-        build_look_model(spec_of(facts), looks)
+        add_looks(spec_of(facts), looks)
     (foreign,) = (replace(look, model="universal_robots_ur5e/ur5e.xml") for look in looks.looks)
     with pytest.raises(LooksError, match=r"ur5e.xml has 6 joints and lab:Iiwa-1 has 7"):
-        build_look_model(spec_of(facts), replace(looks, looks=(foreign,)))
+        add_looks(spec_of(facts), replace(looks, looks=(foreign,)))
     file.write_text("<mujoco", "utf-8")
     with pytest.raises(LooksError, match=r"iiwa14.xml cannot be read"):
-        build_look_model(spec_of(facts), looks)
+        add_looks(spec_of(facts), looks)
 
 
 def test_a_missing_mesh_is_named(cache: Path) -> None:
@@ -143,7 +143,7 @@ def test_a_missing_mesh_is_named(cache: Path) -> None:
     write_collection(folder)
     (folder / "kuka_iiwa_14/assets/iiwa14_3.obj").unlink()
     with pytest.raises(LooksError, match=r"(?s)kuka_iiwa_14/iiwa14.xml cannot be used.*iiwa14_3.obj"):
-        build_look_model(spec_of(facts), looks)
+        add_looks(spec_of(facts), looks)
 
 
 def test_looks_that_there_are_not_are_told_with_those_there_are() -> None:

@@ -8,7 +8,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from skillc_runtime.film.rendering import CameraView, Renderer, RenderingError
+from skillc_runtime.film.camera import CameraView
+from skillc_runtime.film.rendering import Renderer, RenderingError
 
 BALL = '<mujoco><worldbody><{kind} type="sphere" size="0.5" rgba="1 0 0 1"/></worldbody></mujoco>'
 
@@ -23,7 +24,7 @@ def seen(request: pytest.FixtureRequest) -> Iterator[tuple[str, np.ndarray]]:
         renderer = Renderer(model, 32, 32)
     except RenderingError as missing:
         pytest.skip(str(missing))
-    yield request.param, renderer.picture(data, (CameraView(np.zeros(3), 2.0, 0.0, 0.0),))
+    yield request.param, renderer.picture(data, CameraView(np.zeros(3), 2.0, 0.0, 0.0))
     renderer.close()
 
 

@@ -109,6 +109,12 @@ def looks_option(function: Function) -> Function:
     )(function)
 
 
+def gif_option(function: Function) -> Function:
+    """Add `--gif`, a short film that repeats."""
+    text = "Write film.gif as well, a film of at most 4 MB that repeats."
+    return grouped_option(OUTPUT, "--gif", is_flag=True, help=text)(function)
+
+
 def add_ontology_option(command: click.Command) -> click.Command:
     """Add `--ontology` to a command, once."""
     if not any(parameter.name == "ontology" for parameter in command.params):

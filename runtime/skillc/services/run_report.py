@@ -13,6 +13,7 @@ from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.film_story import make_story
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
@@ -22,7 +23,7 @@ from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_
 from skillc_runtime.evaluation.report.work_kinds import list_figures, measure_work
 from skillc_runtime.evaluation.report.write import write_figure, write_report, write_result
 from skillc_runtime.execution.execute import Execution
-from skillc_runtime.film.film import Film, FilmFiles, Moment
+from skillc_runtime.film.film import Film, FilmFiles, Story
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError
 
@@ -55,12 +56,15 @@ class RunSamples:
         self.trace.sample()
 
 
-def make_samples(simulation: Simulation, looks: str, filmed: bool) -> RunSamples:
-    """Return what to sample, the film with the meshes of that name. ServiceError if there are none."""
+def make_samples(simulation: Simulation, looks: str, filmed: bool, loop: bool = False) -> RunSamples:
+    """Return what to sample: the film with the meshes of that name, also as a loop if that is wanted.
+
+    ServiceError if there are no such meshes.
+    """
     if not filmed:
         return RunSamples(None, RunTrace(simulation))
-    film = Film(simulation, None if looks == PRIMITIVE_LOOKS else _model_with_meshes(simulation, looks))
-    return RunSamples(film, RunTrace(simulation))
+    spec = None if looks == PRIMITIVE_LOOKS else _describe_with_meshes(simulation, looks)
+    return RunSamples(Film(simulation, spec, loop), RunTrace(simulation))
 
 
 def report_run(
@@ -84,7 +88,8 @@ def report_run(
         with writing_to(folder):
             write_result(folder, result)
             moments = find_moments(record.wipings, trees, choices, state, truth)
-            filmed = _write_film(samples.film, folder, moments, reporter)
+            story = make_story(moments, trees, choices, library, result, state)
+            filmed = _write_film(samples.film, folder, story, reporter)
             write_report(folder, result, trees, list_figures(record), filmed)
     except ServiceError as error:
         reporter.say(f"error: {error}")
@@ -98,22 +103,22 @@ def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | 
         return folder / "wiping.png" if write_figure(folder, drawings) is not None else None
 
 
-def _model_with_meshes(simulation: Simulation, looks: str) -> Any:
-    """Return the MuJoCo model of a cell with the meshes of that name. ServiceError if there are none."""
-    from skillc_runtime.film.look_meshes import build_look_model
+def _describe_with_meshes(simulation: Simulation, looks: str) -> Any:
+    """Return the `mujoco.MjSpec` of a cell with the meshes of that name. ServiceError if there are none."""
+    from skillc_runtime.film.look_meshes import add_looks
     from skillc_runtime.film.looks import LooksError, read_looks
 
     try:
         wanted = read_looks(simulation.cell.world.snapshot(), simulation.drawing.prefixes, looks)
-        return build_look_model(simulation.drawing.describe_model(), wanted)
+        return add_looks(simulation.drawing.describe_model(), wanted)
     except LooksError as error:
         raise ServiceError(str(error)) from error
 
 
-def _write_film(film: Film, folder: Path, wanted: Sequence[Moment], reporter: Reporter) -> FilmFiles | None:
-    """Write the film and the stills of the moments; report if they cannot be made."""
+def _write_film(film: Film, folder: Path, story: Story, reporter: Reporter) -> FilmFiles | None:
+    """Write the film, stills and the loop if it is wanted; report if they cannot be made."""
     try:
-        return film.write(folder, wanted)
+        return film.write(folder, story)
     except (FilmError, RenderingError) as error:
         reporter.say(f"no film: {error}")
         return None

@@ -46,9 +46,10 @@ class RunOptions:
     A run in which a tick takes longer than `tick_timeout_s` is ended (0: never). With `prints_json` the caller prints
     the result as JSON, and the watchdog does if the run is interrupted. The task fails if it has not ended
     `deadline_s` of the cell's time after its start, or if a plan takes as long. It pauses before its first call with
-    `step`, and at each SKILL or FILE:LINE of `pause_at`.
+    `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop.
 
-    RequestError for meshes without a folder, because then no film is made, and for signals that cannot be recorded.
+    RequestError for meshes or a loop without a folder, because then no film is made, and for signals that cannot be
+    recorded.
     """
 
     out: Path | None = None
@@ -62,11 +63,14 @@ class RunOptions:
     pause_at: tuple[str, ...] = ()
     backend: BackendName = "mujoco"
     signals: SignalFormat | None = None
+    gif: bool = False
 
     def __post_init__(self) -> None:
         if self.looks != PRIMITIVE_LOOKS and self.out is None:
             raise RequestError(f"--looks {self.looks} applies to films and stills, which require --out")
         check_signals(self.signals, self.out)
+        if self.gif and self.out is None:
+            raise RequestError("--gif writes a film, which requires --out")
 
 
 def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter) -> RunResult:
@@ -86,7 +90,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
         try:
             monitor.say("planning, and building the simulation")
             cell = make_backend(options.backend, task.world, options.seed)
-            samples = make_samples(cell, options.looks, filmed=options.out is not None)
+            samples = make_samples(cell, options.looks, options.out is not None, options.gif)
         except (SheetError, FrameError, StoreError) as error:
             return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)
         except KeyboardInterrupt as interrupt:

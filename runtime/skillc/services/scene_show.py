@@ -14,9 +14,12 @@ from skillc.services.scenes import OpenScene
 from skillc.services.top_view import Outline, draw_top_view
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.variation import exact_variation
+from skillc_runtime.film.camera import CameraView
+from skillc_runtime.film.framing import posed
 from skillc_runtime.film.picture_files import write_picture
 from skillc_runtime.film.props import make_props
-from skillc_runtime.film.rendering import CameraView, Renderer, RenderingError
+from skillc_runtime.film.rendering import Renderer, RenderingError
+from skillc_runtime.film.workshop import workshop_model
 from skillc_runtime.motion.pose import angles_from_rotation
 from skillc_runtime.world.space.bodies import read_body
 from skillc_runtime.world.space.bounding_boxes import bounding_box
@@ -141,9 +144,10 @@ def _render(scene: OpenScene, png: Path) -> None:
     cell = SimulatedCell(WorldModel(state), reality=lambda spec, _: exact_variation(spec))
     surfaces = (each for each in sorted(state.instances(SURFACE)) if _size(state, each))
     props = tuple(prop for each in surfaces for prop in make_props(pose(state, each), size(state, each)))
-    renderer = Renderer(cell.model, WIDTH, HEIGHT, props, "still")
+    model = workshop_model(cell.drawing)
+    renderer = Renderer(model, WIDTH, HEIGHT, props, "still")
     try:
-        write_picture(png, renderer.picture(cell.data, (_camera(scene),)))
+        write_picture(png, renderer.picture(posed(model, cell.drawing.posture()), _camera(scene)))
     finally:
         renderer.close()
         cell.close()

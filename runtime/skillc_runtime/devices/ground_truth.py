@@ -194,6 +194,14 @@ class GroundTruth(Protocol):
         """Return where a gripper really is and how it grips; KeyError if the cell has no such gripper."""
         ...
 
+    def contact_force(self, gripper: str) -> Array | None:
+        """Return the force (3,) in N, world axes, with which a hand and what it holds press on the rest, added up.
+
+        A person who leads the hand counts as the rest. None where forces are not computed; KeyError if the cell has no
+        such gripper.
+        """
+        ...
+
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if switched, else 0.
 

@@ -33,6 +33,11 @@ class Drawing(Protocol):
         """The prefix of the names in the model of all parts of an arm or gripper, by IRI."""
         ...
 
+    @property
+    def surfaces(self) -> Mapping[str, str]:
+        """The name in the model of the geom of each surface that is really there, by IRI."""
+        ...
+
     def posture(self) -> Posture:
         """Return a copy of the present posture."""
         ...

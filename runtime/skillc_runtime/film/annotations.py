@@ -1,4 +1,4 @@
-"""What pictures show besides the simulation: names of things, and ghosts where things are only believed to be."""
+"""What pictures show besides the simulation: names, arrows, trails, and ghosts where things are only believed to be."""
 
 from __future__ import annotations
 
@@ -35,11 +35,25 @@ class NameTag:
 
 
 @dataclass(frozen=True, slots=True)
+class ForceArrow:
+    """An arrow between two points (3,) in m of the world, in the direction of a force, and its label."""
+
+    tail: Array
+    tip: Array
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Annotations:
-    """The ghosts and names of one frame."""
+    """The ghosts and names of one frame, arrows of forces, and trails: points (n, 3) in m of the world."""
 
     ghosts: tuple[Prop, ...] = ()
     tags: tuple[NameTag, ...] = ()
+    arrows: tuple[ForceArrow, ...] = ()
+    trails: tuple[Array, ...] = ()
+
+
+NO_ANNOTATIONS = Annotations()
 
 
 class SceneAnnotator:

@@ -1,56 +1,41 @@
-"""A film of a run, and stills: postures are stored during the run, pictures are rendered afterwards."""
+"""A film of a run, and stills: frames are sampled during the run, pictures are rendered afterwards."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 
-from skillc_runtime.devices.simulation import Drawing, Posture, Simulation
-from skillc_runtime.film.annotations import Annotations, SceneAnnotator
-from skillc_runtime.film.picture_files import FilmError, write_film, write_picture
+from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.film.annotations import Annotations
+from skillc_runtime.film.camera import CameraView
+from skillc_runtime.film.captions import STRIP_PIXELS, Caption, Ending, StripText, caption_at, draw_strip
+from skillc_runtime.film.force_marks import ForceMarks
+from skillc_runtime.film.frames import FRAMES_PER_S, Frame, FrameSampler
+from skillc_runtime.film.framing import Framing, posed
+from skillc_runtime.film.picture_files import FilmError, LoopPictures, write_film, write_picture
 from skillc_runtime.film.props import make_props
-from skillc_runtime.film.rendering import CameraView, Picture, Quality, Renderer
+from skillc_runtime.film.rendering import Picture, Quality, Renderer
+from skillc_runtime.film.surface_colours import colour_surface
+from skillc_runtime.film.workshop import find_texture, workshop_model
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.space.frames import pose, size
-from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER, SURFACE
-from skillc_runtime.world.state.world_state import WorldState
+from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE
 
-FILM = "film.mp4"
-FRAMES_PER_S = 12
-SPEED_UP = 4
-"""Speed of the film relative to the run."""
+FILM, LOOP = "film.mp4", "film.gif"
+WIDTH, HEIGHT = 1280, 720
+"""Size of a picture in pixels; a strip with captions is at its bottom."""
 
-WIDTH, HEIGHT = 720, 360
-"""Size in pixels of the picture of one arm: a view of the arm and one of its hand."""
+END_S = 2.0
+"""How long the last picture is shown, with how the run ended."""
 
-STILL_WIDTH, STILL_HEIGHT = 960, 720
-AZIMUTH_DEG, ELEVATION_DEG, DISTANCE_M = 50.0, -20.0, 2.0
-"""The camera looks over the robot's right shoulder; the azimuth is relative to the x axis of the arm's base."""
-
-AHEAD_M, ABOVE_M = 0.25, 0.25
-"""Distance of the point that the camera looks at in front of an arm's base and above it."""
-
-CLOSE_DEG, CLOSE_M, CLOSER_M = -28.0, 0.75, 0.6
-"""Elevation of the camera of a hand, and its distance in films and in stills."""
-
-REACH_M = 0.15
-"""Distance of the point that the camera of a hand looks at from the palm."""
-
-
-@dataclass(frozen=True, slots=True)
-class CameraTarget:
-    """An arm that cameras follow: the bodies of its base and its hand, and the forward direction (3,) of the base."""
-
-    body: int
-    hand: int
-    forward: Array
+WORKED = "lighter: the tool worked there (ground truth of the simulator)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,39 +56,56 @@ class Still:
 
 
 @dataclass(frozen=True, slots=True)
+class Story:
+    """What the film of a run tells besides its pictures: moments for stills, captions, how the run ended."""
+
+    moments: Sequence[Moment] = ()
+    captions: Sequence[Caption] = ()
+    ending: Ending | None = None
+
+
+NO_STORY = Story()
+
+
+@dataclass(frozen=True, slots=True)
 class FilmFiles:
-    """The names of the written files: a film and stills."""
+    """The names of the written files, a film, stills and a loop; how many times faster the film is than the run."""
 
     film: str
     stills: tuple[Still, ...]
+    speed_up: int
+    loop: str | None = None
 
 
 class Film:
-    """Samples frames of a run and renders them.
+    """Samples frames of a run and renders them, from one camera that frames the work."""
 
-    One camera follows each arm, and one its hand; all are shown side by side.
-    """
+    def __init__(self, simulation: Simulation, spec: Any | None = None, loop: bool = False) -> None:
+        """Film a cell, with a `loop` also as film.gif, a short film that repeats.
 
-    def __init__(self, simulation: Simulation, drawn: mujoco.MjModel | None = None) -> None:
-        """Film a cell; `drawn` is the model to render, with the same joints, if it is not that of the cell."""
-        self._clock, self._drawing = simulation.clock, simulation.drawing
-        self._drawn = self._drawing.model if drawn is None else drawn
-        self._frames: list[tuple[Posture, Annotations]] = []
-        self._annotator = SceneAnnotator(simulation)
-        state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
-        self._arms = {arm: _camera_target(self._drawing, state, arm) for arm in sorted(state.instances(ARM_DEVICE))}
-        present = filter(truth.is_present, sorted(state.instances(SURFACE)))
+        `spec` describes the model to render, with the same joints, if it is not that of the cell.
+        """
+        self._drawing, self._truth, self._spec = simulation.drawing, simulation.ground_truth, spec
+        self._loop = loop
+        self._sampler = FrameSampler(simulation)
+        self._state = simulation.cell.world.snapshot()
+        self._arms = sorted(self._state.instances(ARM_DEVICE))
+        present = filter(self._truth.is_present, sorted(self._state.instances(SURFACE)))
         self._props = tuple(
-            prop for each in present for prop in make_props(truth.surface_pose(each), size(state, each))
+            prop for each in present for prop in make_props(self._truth.surface_pose(each), size(self._state, each))
         )
+
+    @property
+    def speed_up(self) -> int:
+        """How many times faster the film is than the run."""
+        return self._sampler.speed_up
 
     def sample(self) -> None:
         """Sample a frame if one is due."""
-        if self._clock.now * FRAMES_PER_S / SPEED_UP >= len(self._frames):
-            self._frames.append((self._drawing.posture(), self._annotator.sample()))
+        self._sampler.sample()
 
-    def write(self, directory: Path, moments: Sequence[Moment] = ()) -> FilmFiles:
-        """Render all frames to film.mp4, and stills of some moments to PNG.
+    def write(self, directory: Path, story: Story = NO_STORY) -> FilmFiles:
+        """Render all frames to film.mp4, stills of some moments to PNG, and the loop if it is wanted.
 
         Each file is written completely or not at all.
 
@@ -111,93 +113,101 @@ class Film:
         """
         if not self._arms:
             raise FilmError("there is no arm in the scene for a camera to stay with")
-        if not self._frames:
+        if not self._sampler.frames:
             raise FilmError("the run ended before anything moved")
-        write_film(directory / FILM, self.pictures(), WIDTH * len(self._arms), HEIGHT, FRAMES_PER_S)
-        stills = tuple(Still(each.title, f"{number}-{_slug(each.title)}.png") for number, each in enumerate(moments, 1))
-        for still, picture in zip(stills, self.stills(moments), strict=True):
-            write_picture(directory / still.file, picture)
-        return FilmFiles(FILM, stills)
+        model = self._model()
+        aspect = WIDTH / (HEIGHT - STRIP_PIXELS)
+        framing = Framing(model, self._drawing, self._sampler.frames, dict(self._corners()), aspect)
+        shown = LoopPictures()
+        pictures = self._pictures(model, framing, story)
+        write_film(directory / FILM, shown.keep(pictures) if self._loop else pictures, WIDTH, HEIGHT, FRAMES_PER_S)
+        if self._loop:
+            shown.write(directory / LOOP)
+        names = [f"{number}-{_slug(each.title)}.png" for number, each in enumerate(story.moments, 1)]
+        for name, picture in zip(names, self._stills(model, framing, story.moments), strict=True):
+            write_picture(directory / name, picture)
+        stills = tuple(Still(each.title, name) for each, name in zip(story.moments, names, strict=True))
+        return FilmFiles(FILM, stills, self.speed_up, LOOP if self._loop else None)
 
-    def pictures(self) -> Iterator[Picture]:
-        """Render the frames, each (HEIGHT, WIDTH times the number of arms, 3)."""
-        with self._renderer(WIDTH, HEIGHT, "film") as (renderer, data):
-            for posture, annotations in self._frames:
-                self._show(data, posture)
-                ghosts = replace(annotations, tags=())
-                pictures = [
-                    renderer.picture(data, (_arm_view(data, arm), _hand_view(data, arm)), ghosts)
-                    for arm in self._arms.values()
-                ]
-                yield np.concatenate(pictures, axis=1)
+    def _pictures(self, model: Any, framing: Framing, story: Story) -> Iterator[Picture]:
+        """Render the pictures of the film, each (HEIGHT, WIDTH, 3)."""
+        frames, high = self._sampler.frames, HEIGHT - STRIP_PIXELS
+        marks = ForceMarks(frames, self._truth, self.speed_up)
+        views, picture = framing.work_views(), np.empty(0, dtype=np.uint8)
+        with self._renderer(model, WIDTH, high, "film") as scene:
+            for at, (frame, view) in enumerate(zip(frames, views, strict=True)):
+                marked = Annotations(frame.annotations.ghosts, (), marks.arrows(at), marks.trails(at))
+                picture = scene.picture(frame, view, marked)
+                text = StripText(
+                    caption_at(story.captions, frame.time), self._legend(), _force_text(marks, at), self._time(frame)
+                )
+                yield np.concatenate([picture, draw_strip(text, WIDTH)])
+        if story.ending is not None:
+            text = StripText(story.ending.text, "", "", self._time(frames[-1]), story.ending.kind)
+            for _ in range(round(END_S * FRAMES_PER_S)):
+                yield np.concatenate([picture, draw_strip(text, WIDTH)])
 
-    def stills(self, moments: Sequence[Moment]) -> Iterator[Picture]:
-        """Render close views of some moments, each (STILL_HEIGHT, STILL_WIDTH, 3)."""
+    def _stills(self, model: Any, framing: Framing, moments: Sequence[Moment]) -> Iterator[Picture]:
+        """Render close views of some moments, each (HEIGHT, WIDTH, 3)."""
         if not moments:
             return
-        with self._renderer(STILL_WIDTH, STILL_HEIGHT, "still") as (renderer, data):
+        frames = self._sampler.frames
+        marks = ForceMarks(frames, self._truth, self.speed_up)
+        with self._renderer(model, WIDTH, HEIGHT, "still") as scene:
             for moment in moments:
-                at = min(round(moment.time * FRAMES_PER_S / SPEED_UP), len(self._frames) - 1)
-                posture, annotations = self._frames[at]
-                self._show(data, posture)
-                yield renderer.picture(data, (_hand_view(data, self._arms[moment.arm], CLOSER_M),), annotations)
+                at = min(round(moment.time * FRAMES_PER_S / self.speed_up), len(frames) - 1)
+                view = framing.hand_view(at, moment.arm)
+                yield scene.picture(frames[at], view, replace(frames[at].annotations, arrows=marks.arrows(at)))
 
     @contextmanager
-    def _renderer(self, width: int, height: int, quality: Quality) -> Iterator[tuple[Renderer, Any]]:
-        renderer = Renderer(self._drawn, width, height, self._props, quality)
+    def _renderer(self, model: Any, width: int, height: int, quality: Quality) -> Iterator[FrameRenderer]:
+        renderer = Renderer(model, width, height, self._props, quality)
+        textures = {each: find_texture(model, self._drawing, each) for each in self._worked()}
         try:
-            yield renderer, mujoco.MjData(self._drawn)
+            yield FrameRenderer(renderer, model, textures)
         finally:
             renderer.close()
 
-    def _show(self, data: Any, frame: Posture) -> None:
-        _apply_posture(data, frame)
-        mujoco.mj_forward(self._drawn, data)
+    def _model(self) -> Any:
+        """Return the model to draw; surfaces that were worked on can change their colours."""
+        shades = self._sampler.frames[-1].shades
+        return workshop_model(self._drawing, self._spec, {each: shades[each].shape for each in self._worked()})
+
+    def _worked(self) -> list[str]:
+        return [each for each, shades in self._sampler.frames[-1].shades.items() if shades.any()]
+
+    def _corners(self) -> Iterator[tuple[str, Array]]:
+        """Yield each surface that was worked on, by IRI, with its corners (4, 3) in m."""
+        for each in self._worked():
+            half = size(self._state, each) / 2
+            corners = [np.array([x, y, 0.0]) for x, y in product((-half[0], half[0]), (-half[1], half[1]))]
+            yield each, np.array([self._truth.surface_pose(each).apply(corner) for corner in corners])
+
+    def _legend(self) -> str:
+        return WORKED if self._worked() else ""
+
+    def _time(self, frame: Frame) -> str:
+        return f"{frame.time:.1f} s, film {self.speed_up} x faster"
 
 
-def _camera_target(drawing: Drawing, state: WorldState, arm: str) -> CameraTarget:
-    model, own, grippers = drawing.model, drawing.prefixes[arm], sorted(state.objects(arm, HAS_GRIPPER))
-    joint = next(each for each in range(model.njnt) if model.joint(each).name.startswith(own))
-    body = int(model.body_parentid[model.jnt_bodyid[joint]])
-    hand = int(model.site(f"{own}flange").bodyid[0])
-    if grippers:
-        hand = int(model.body(f"{drawing.prefixes[grippers[0]]}palm").id)
-    return CameraTarget(body, hand, _rotation(drawing, body).T @ pose(state, arm).rotation[:, 0])
+@dataclass(frozen=True, slots=True)
+class FrameRenderer:
+    """Renders frames of a run; `textures` are the ids of those of surfaces, by IRI."""
+
+    renderer: Renderer
+    model: Any
+    textures: Mapping[str, int]
+
+    def picture(self, frame: Frame, view: CameraView, annotations: Annotations) -> Picture:
+        """Return the picture of a frame."""
+        for surface, texture in self.textures.items():
+            self.renderer.paint(texture, colour_surface(frame.shades[surface]))
+        return self.renderer.picture(posed(self.model, frame.posture), view, annotations)
 
 
-def _apply_posture(data: Any, posture: Posture) -> None:
-    data.qpos[:] = posture.joints
-    data.mocap_pos[:], data.mocap_quat[:] = posture.base_positions, posture.base_quaternions
-
-
-def _rotation(drawing: Drawing, body: int) -> Array:
-    """Return the present rotation (3, 3) of a body in the world."""
-    data = mujoco.MjData(drawing.model)
-    _apply_posture(data, drawing.posture())
-    mujoco.mj_kinematics(drawing.model, data)
-    return np.asarray(data.xmat[body].reshape(3, 3))
-
-
-def _arm_view(data: Any, arm: CameraTarget) -> CameraView:
-    """Return the view of an arm."""
-    forward = _forward(data, arm)
-    focus = data.xpos[arm.body] + AHEAD_M * forward + np.array([0.0, 0.0, ABOVE_M])
-    return CameraView(focus, DISTANCE_M, _heading_deg(forward) + AZIMUTH_DEG, ELEVATION_DEG)
-
-
-def _hand_view(data: Any, arm: CameraTarget, distance: float = CLOSE_M) -> CameraView:
-    """Return the view of the hand of an arm."""
-    focus = data.xpos[arm.hand] + REACH_M * data.xmat[arm.hand].reshape(3, 3)[:, 2]
-    return CameraView(focus, distance, _heading_deg(_forward(data, arm)) + AZIMUTH_DEG, CLOSE_DEG)
-
-
-def _forward(data: Any, arm: CameraTarget) -> Array:
-    return np.asarray(data.xmat[arm.body].reshape(3, 3) @ arm.forward)
-
-
-def _heading_deg(direction: Array) -> float:
-    """Return the angle of a direction (3,) about the vertical, from the world's x axis."""
-    return float(np.degrees(np.arctan2(direction[1], direction[0])))
+def _force_text(marks: ForceMarks, at: int) -> str:
+    force = marks.greatest_n(at)
+    return "" if force is None else f"presses with {force:.0f} N"
 
 
 def _slug(title: str) -> str:

@@ -22,14 +22,15 @@ HINGE_RAD, SLIDE_M = 0.4, 0.01
 """Joint displacements with which two models are compared."""
 
 
-def build_look_model(spec: Any, looks: Looks) -> mujoco.MjModel:
-    """Return the model that a scene's description, which is used up, makes with the meshes of its devices' looks.
+def add_looks(spec: Any, looks: Looks) -> Any:
+    """Return a scene's description, in which the meshes of its devices' looks replace their own shapes.
 
-    LooksError where meshes cannot be had, or move otherwise than the device.
+    LooksError where meshes cannot be had or used, or move otherwise than the device.
     """
     for look in looks.looks:
         _dress(spec, look, model_file(looks.collection, look.model))
-    return _compiled(spec, looks.collection.name)
+    _compiled(spec, looks.collection.name)
+    return spec
 
 
 def _dress(spec: Any, look: Look, file: Path) -> None:

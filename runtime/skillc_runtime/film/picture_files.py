@@ -1,16 +1,29 @@
-"""Writes pictures to files: as a film, or one by one."""
+"""Writes pictures to files: as a film, as a short film that repeats, or one by one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
-from matplotlib.image import imsave
+from PIL import Image
 
 from skillc_runtime.film.rendering import Picture
+
+PRESET, CRF = "veryfast", "24"
+"""How much x264 compresses for how long, and the quality it keeps."""
+
+LOOP_EVERY, LOOP_RATE = 2, 12.5
+"""Every second picture of a film is in its loop, so many of these are shown in a second."""
+
+LOOP_WIDTHS = (800, 640, 560, 480, 400, 320)
+"""Widths in pixels of a loop, the greatest first that keeps it small enough."""
+
+LOOP_BYTES = 4_000_000
+"""A loop is not larger than this."""
 
 
 class FilmError(RuntimeError):
@@ -27,7 +40,7 @@ def write_film(path: Path, pictures: Iterable[Picture], width: int, height: int,
     except ImportError as error:
         raise FilmError("films need PyAV: pip install 'skillc[video]'") from error
     with _partial_file(path) as partial, av.open(str(partial), "w", format="mp4") as container:
-        stream: Any = container.add_stream("libx264", rate=rate)
+        stream: Any = container.add_stream("libx264", rate=rate, options={"preset": PRESET, "crf": CRF})
         stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
         for picture in pictures:
             frame = av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")
@@ -38,7 +51,55 @@ def write_film(path: Path, pictures: Iterable[Picture], width: int, height: int,
 def write_picture(path: Path, picture: Picture) -> None:
     """Write a picture as PNG, completely or not at all; OSError if the path cannot be written."""
     with _partial_file(path) as partial:
-        imsave(partial, np.ascontiguousarray(picture), format="png", metadata={"Software": ""})
+        Image.fromarray(picture).save(partial, format="png")
+
+
+class LoopPictures:
+    """Keeps reduced pictures of a film, and writes them as a short film that starts again when it ends."""
+
+    def __init__(self) -> None:
+        self._images: list[Image.Image] = []
+
+    def keep(self, pictures: Iterable[Picture]) -> Iterator[Picture]:
+        """Yield the pictures, and keep some of them."""
+        for number, picture in enumerate(pictures):
+            if number % LOOP_EVERY == 0:
+                self._images.append(_reduced(Image.fromarray(picture), LOOP_WIDTHS[0]))
+            yield picture
+
+    def write(self, path: Path, limit: int = LOOP_BYTES) -> None:
+        """Write a GIF or an animated WebP, by the path's suffix, of at most `limit` bytes.
+
+        FilmError if that is too few for the smallest one, OSError if the path cannot be written.
+        """
+        kind: Literal["gif", "webp"] = "gif" if path.suffix == ".gif" else "webp"
+        for width in LOOP_WIDTHS:
+            written = _encode_loop([_reduced(each, width) for each in self._images], kind)
+            if len(written) <= limit:
+                with _partial_file(path) as partial:
+                    partial.write_bytes(written)
+                return
+        raise FilmError(f"{len(self._images)} pictures make no loop of at most {limit / 1e6:g} MB")
+
+
+def _reduced(image: Image.Image, width: int) -> Image.Image:
+    if image.width == width:
+        return image
+    return image.resize((width, round(width * image.height / image.width)), Image.Resampling.LANCZOS)
+
+
+def _encode_loop(images: Sequence[Image.Image], kind: Literal["gif", "webp"]) -> bytes:
+    """Return pictures of equal size as a file that repeats for ever."""
+    written, interval_ms = BytesIO(), round(1000 / LOOP_RATE)
+    if kind == "gif":
+        palette = images[len(images) // 2].quantize(128, Image.Quantize.MEDIANCUT)
+        images = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in images]
+        images[0].save(written, kind, save_all=True, append_images=images[1:], duration=interval_ms, loop=0)
+    else:
+        images[0].save(
+            written, kind, save_all=True, append_images=images[1:], duration=interval_ms, loop=0, quality=70, method=4
+        )
+    return written.getvalue()
 
 
 @contextmanager

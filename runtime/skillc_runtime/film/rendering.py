@@ -5,36 +5,34 @@ from __future__ import annotations
 import ctypes.util
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Literal, TypeAlias
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
-from skillc_runtime.film.annotations import Annotations, NameTag
+from skillc_runtime.film.annotations import NO_ANNOTATIONS, Annotations
+from skillc_runtime.film.camera import CameraView, Projection
+from skillc_runtime.film.labels import draw_labels
 from skillc_runtime.film.props import Prop
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.solids import Kind
 
 Picture = NDArray[np.uint8]
 Quality: TypeAlias = Literal["film", "still"]
-"""A still has shadows and smooth edges, each of which takes as long as a picture of a film without a GPU."""
 
-SAMPLES = {"film": 2, "still": 8}
-"""Samples per pixel."""
+SCALE = {"film": 1.5, "still": 2.0}
+"""A picture is rendered this many times larger and reduced: edges become smooth, faster than with multisampling."""
 
-LIGHT_FROM = (-0.35, 0.5, -1.0)
-"""Direction of the light, which is directional so that moving robots are lit equally everywhere."""
+SHADOW_PIXELS, SHADOW_REACH = {"film": 1024, "still": 4096}, 1.3
+"""Pixels of the shadow map; how far there are shadows around the point in view, relative to the camera's distance.
 
-SUN, HEADLIGHT = 0.45, (0.4, 0.33)
-"""Brightness of the light; ambient and diffuse brightness of the light at the camera."""
+Near the edge of the map that is towards the light a floor is in its own shadow; that edge is behind the camera.
+"""
 
-SHADOW_M, SHADOW_PIXELS = 1.5, 8192
-"""Distance from the centre of a still up to which there are shadows, and pixels of the shadow map."""
-
-MOST_GEOMS = 2000
-NO_ANNOTATIONS = Annotations()
+MOST_GEOMS = 2500
 GEOMS: dict[Kind, Any] = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,
     "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
@@ -47,19 +45,11 @@ GEOMS: dict[Kind, Any] = {
 PLATFORMS = {"EGL": "egl", "OSMesa": "osmesa"}
 """GL libraries that render off screen, and their names in PyOpenGL."""
 
+TRAIL_RGBA, TRAIL_PIXELS = (0.05, 0.35, 0.75), 3.0
+
 
 class RenderingError(RuntimeError):
     """There is no GL library that renders off screen; the message says how to install one."""
-
-
-@dataclass(frozen=True, slots=True)
-class CameraView:
-    """A camera that looks at a point (3,) in m of the world from `distance` m."""
-
-    point: Array
-    distance: float
-    azimuth_deg: float
-    elevation_deg: float
 
 
 def check_rendering() -> str:
@@ -78,76 +68,92 @@ class Renderer:
     def __init__(
         self, model: Any, width: int, height: int, props: Sequence[Prop] = (), quality: Quality = "film"
     ) -> None:
-        self._model, self._size, self._props = model, (height, width), tuple(props)
-        self.library, context = _context(width, height)
-        self._context = context
+        self._model, self._size, self._props = model, (width, height), tuple(props)
+        self._scale = SCALE[quality]
+        self._rendered = round(self._scale * width), round(self._scale * height)
+        self.library, self._context = _context(*self._rendered)
         self._context.make_current()
-        model.vis.quality.offsamples = SAMPLES[quality]
-        model.vis.global_.offwidth, model.vis.global_.offheight = width, height
-        model.vis.quality.shadowsize = SHADOW_PIXELS
-        model.vis.map.shadowclip = SHADOW_M / model.stat.extent
+        model.vis.quality.offsamples = 0
+        model.vis.global_.offwidth, model.vis.global_.offheight = self._rendered
+        model.vis.quality.shadowsize = SHADOW_PIXELS[quality]
         self._gl = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._gl)
         self._scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
-        self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = quality == "still"
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = True
         self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_HAZE] = True
         self._camera, self._option = mujoco.MjvCamera(), mujoco.MjvOption()
         self._option.sitegroup[:] = 0  # sites are not shown
 
-    def picture(self, data: Any, views: Sequence[CameraView], annotations: Annotations = NO_ANNOTATIONS) -> Picture:
-        """Return the picture (height, width, 3) of a state: views side by side, equally wide."""
-        height, width = self._size
-        each = width // len(views)
-        for number, view in enumerate(views):
-            self._draw(data, view, mujoco.MjrRect(number * each, 0, each, height), annotations)
+    def picture(self, data: Any, view: CameraView, annotations: Annotations = NO_ANNOTATIONS) -> Picture:
+        """Return the picture (height, width, 3) of a state."""
+        self._set_scene(data, view, annotations)
+        width, height = self._rendered
+        area = mujoco.MjrRect(0, 0, width, height)
+        mujoco.mjr_render(area, self._scene, self._gl)
         pixels = np.empty((height, width, 3), dtype=np.uint8)
-        mujoco.mjr_readPixels(pixels, None, mujoco.MjrRect(0, 0, width, height), self._gl)
-        return pixels[::-1]
+        mujoco.mjr_readPixels(pixels, None, area, self._gl)
+        image = Image.fromarray(pixels[::-1])
+        projection = Projection(view, self._model.vis.global_.fovy, width, height)
+        draw_labels(image, annotations, projection, self._scale)
+        return np.asarray(
+            image.resize(self._size, Image.Resampling.BOX if self._scale == 2 else Image.Resampling.BILINEAR)
+        )
+
+    def paint(self, texture: int, colours: NDArray[np.uint8]) -> None:
+        """Replace the colours (rows along y, columns along x, 3) of a texture on a box, by its id."""
+        start = int(self._model.tex_adr[texture])
+        self._model.tex_data[start : start + colours.size] = colours[::-1].ravel()
+        mujoco.mjr_uploadTexture(self._model, self._gl, texture)
 
     def close(self) -> None:
         """Release the GL resources."""
         self._gl.free()
         self._context.free()
 
-    def _draw(self, data: Any, view: CameraView, where: Any, annotations: Annotations) -> None:
+    def _set_scene(self, data: Any, view: CameraView, annotations: Annotations) -> None:
+        self._gl.shadowClip = SHADOW_REACH * view.distance
         self._camera.lookat[:] = view.point
         self._camera.distance = view.distance
         self._camera.azimuth, self._camera.elevation = view.azimuth_deg, view.elevation_deg
         everything = mujoco.mjtCatBit.mjCAT_ALL
         mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, everything, self._scene)
         for light in self._scene.lights[: self._scene.nlight]:
-            _set_light(light)
+            if not light.headlight:
+                light.dir[:] = _turned(light.dir, view.azimuth_deg)
+                light.pos[:] = view.point - self._gl.shadowClip * light.dir
         for prop in (*self._props, *annotations.ghosts):
             self._add(prop)
-        for tag in annotations.tags:
-            self._write(tag)
-        mujoco.mjr_render(where, self._scene, self._gl)
+        for trail in annotations.trails:
+            self._add_trail(trail)
 
     def _add(self, prop: Prop) -> None:
-        geom = self._scene.geoms[self._scene.ngeom]
         half = prop.size / 2
         if prop.kind == "capsule":
             half = np.array([half[0], half[1], half[2] - half[0]])
-        rgba = np.array(prop.rgba, dtype=np.float32)
-        mujoco.mjv_initGeom(geom, GEOMS[prop.kind], half, prop.pose.position, prop.pose.rotation.ravel(), rgba)
-        self._scene.ngeom += 1
+        self._init_geom(GEOMS[prop.kind], half, prop.pose.position, prop.pose.rotation, prop.rgba)
 
-    def _write(self, tag: NameTag) -> None:
+    def _add_trail(self, points: Array) -> None:
+        """Draw a line through points (n, 3), the fainter the farther from the last one."""
+        for number, (start, end) in enumerate(pairwise(points), 1):
+            if self._scene.ngeom < MOST_GEOMS:
+                rgba = (*TRAIL_RGBA, number / len(points))
+                geom = self._init_geom(mujoco.mjtGeom.mjGEOM_LINE, np.zeros(3), start, np.eye(3), rgba)
+                mujoco.mjv_connector(geom, mujoco.mjtGeom.mjGEOM_LINE, TRAIL_PIXELS * self._scale, start, end)
+
+    def _init_geom(self, kind: Any, half: Array, position: Array, rotation: Array, rgba: tuple[float, ...]) -> Any:
         geom = self._scene.geoms[self._scene.ngeom]
-        black = np.array((0.0, 0.0, 0.0, 1.0), dtype=np.float32)
-        mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_LABEL, np.zeros(3), tag.point, np.eye(3).ravel(), black)
-        geom.label = tag.text
+        mujoco.mjv_initGeom(geom, kind, half, position, rotation.ravel(), np.array(rgba, dtype=np.float32))
+        geom.specular, geom.shininess = 0.1, 0.2
         self._scene.ngeom += 1
+        return geom
 
 
-def _set_light(light: Any) -> None:
-    """Make a light directional, and let the light at the camera brighten only dark parts."""
-    if light.headlight:
-        light.ambient[:], light.diffuse[:] = HEADLIGHT
-        return
-    light.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
-    light.dir[:] = np.array(LIGHT_FROM) / np.linalg.norm(LIGHT_FROM)
-    light.diffuse[:] = SUN
+def _turned(direction: Array, azimuth_deg: float) -> Array:
+    """Return a direction (3,) turned about the vertical."""
+    angle = np.radians(azimuth_deg)
+    x, y, z = direction
+    return np.array([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle), z])
 
 
 def _context(width: int, height: int) -> tuple[str, Any]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, looks_option
+from skillc.cli.options import FOLDER, gif_option, looks_option
 
 SEED = 1
 """With this seed both surfaces are more than 1 cm away from their poses in the world model."""
@@ -29,8 +29,9 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
     help="The seed of what differs from the world model.",
 )
 @looks_option
+@gif_option
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON: a list with one object per task.")
-def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) -> int:
+def command(robot: str, out: Path | None, seed: int, looks: str, gif: bool, as_json: bool) -> int:
     """Run the two shipped wiping tasks in simulation."""
     from skillc.cli.console import Terminal, print_json
     from skillc.cli.run_output import print_results, run_with_progress
@@ -43,7 +44,7 @@ def command(robot: str, out: Path | None, seed: int, looks: str, as_json: bool) 
     runs: list[RunResult] = []
     for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
         folder = out / task if out is not None else None
-        options = RunOptions(folder, seed, looks=looks)
+        options = RunOptions(folder, seed, looks=looks, gif=gif)
         check_writable(folder)
         with load_task(TaskRequest(task), Terminal()) as loaded:
             runs.append(run_with_progress(loaded, options, quiet=as_json))

@@ -19,6 +19,7 @@ from skillc.cli.options import (
     FOLDER,
     OUTPUT,
     PATH,
+    gif_option,
     grouped_option,
     json_option,
     looks_option,
@@ -58,6 +59,7 @@ skillc run clean_table --pause-at Wipe
     help="Record forces, poses, joints and references, 100 samples a second, to the folder of --out.",
 )
 @looks_option
+@gif_option
 @store_options
 @planner_options
 @grouped_option(
@@ -97,6 +99,7 @@ def command(
     out: Path | None,
     signals: SignalFormat | None,
     looks: str,
+    gif: bool,
     store: str | None,
     reset: bool,
     minimise: str,
@@ -139,6 +142,7 @@ def command(
         pause_at,
         backend,
         signals,
+        gif,
     )
     check_operable(options)
     check_writable(out)

@@ -46,6 +46,9 @@ class KinematicGripper(ModelledGripper):
     def _finger_force_n(self) -> None:
         """Forces are not computed."""
 
+    def contact_force(self) -> None:
+        """Forces are not computed."""
+
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m, limited to that of the gripper; the force in N has no effect."""
         self._goal = min(max(opening_m, 0.0), self._facts.max_opening_m)

@@ -9,12 +9,13 @@ from __future__ import annotations
 from typing import Any
 
 from skillc_runtime.backends.mujoco.grip import Grip, make_grip
+from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
-from skillc_runtime.backends.simulation.names import weld_name
+from skillc_runtime.backends.simulation.names import part_name, weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
-from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import RigidBody
 
 STILL_M_S, STILL_TIME_S = 0.002, 0.05
@@ -51,6 +52,13 @@ class SimulatedGripper(ModelledGripper):
         """The force in N of the closing motor; of what the weld holds, that with which it was grasped."""
         motor = max(0.0, -float(self._data.actuator_force[self._actuator]))
         return motor if self._grip is None else self._grip.force_n
+
+    def contact_force(self) -> Array:
+        """Return the force (3,) in N, world axes, with which hand and held object press on the rest, added up."""
+        roots = [self._palm]
+        if self._carried:
+            roots.append(self._model.body(part_name(self._names[self._carried], "block")).id)
+        return pressing_force(self._model, self._data, roots)
 
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from skillc_runtime.backends.simulation.model_builder import describe_model
-from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.names import box_geom_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.devices.simulation import Posture
@@ -20,6 +20,8 @@ class ModelDrawing:
         arms = [arm.individual for arm in scene.arms]
         grippers = [arm.gripper.individual for arm in scene.arms if arm.gripper is not None]
         self.prefixes = {device: part_name(scene.names[device], "") for device in (*arms, *grippers)}
+        present = (each.individual for each in scene.surfaces if variation.of(each.individual).present)
+        self.surfaces = {each: box_geom_name(scene.names[each]) for each in present}
 
     def posture(self) -> Posture:
         """Return a copy of the present posture."""

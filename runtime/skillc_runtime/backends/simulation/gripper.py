@@ -195,6 +195,10 @@ class ModelledGripper(ABC):
         """The force in N with which each finger presses, or pressed when it grasped; None if it is not computed."""
 
     @abstractmethod
+    def contact_force(self) -> Array | None:
+        """Return the force (3,) in N with which hand and held object press on the rest; None if not computed."""
+
+    @abstractmethod
     def _is_at_force_limit(self) -> bool:
         """Return whether the fingers press with the force that they were given."""
 

@@ -99,6 +99,10 @@ class SimulatedTruth:
         """Return where a gripper really is and how it grips; KeyError if the cell has no such gripper."""
         return self.grippers[gripper].sample()
 
+    def contact_force(self, gripper: str) -> Array | None:
+        """Return the force (3,) in N with which a hand and what it holds press on the rest; None if not computed."""
+        return self.grippers[gripper].contact_force()
+
     def pressing(self, button: str) -> Array:
         """Return the steps (n, 3) with a force on a button: time in s, force in N, 1 if it had switched, else 0."""
         return self.buttons[button].pressing

@@ -16,7 +16,7 @@ from skillc_runtime.evaluation.report.table import (
     split_placement,
 )
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure
-from skillc_runtime.film.film import SPEED_UP, FilmFiles
+from skillc_runtime.film.film import FilmFiles
 from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
@@ -58,7 +58,6 @@ def render_page(
         placement_names=PLACEMENT_COLUMNS,
         figures=figures,
         filmed=filmed,
-        speed_up=SPEED_UP,
         reason=_reason,
         symbols=SYMBOLS,
     )

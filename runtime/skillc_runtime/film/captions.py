@@ -1,0 +1,88 @@
+"""Draws the strip below each picture of a film: the step, the force, the time, and at the end how the run ended."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+
+from skillc_runtime.film.labels import load_font
+
+STRIP_PIXELS = 88
+"""Height of the strip."""
+
+EDGE, LARGE, SMALL = 24, 31, 22
+"""Free pixels at the left and right, and heights of letters."""
+
+BACKGROUND, TEXT, DIM, FORCE = (30, 34, 40), (255, 255, 255), (190, 198, 208), (255, 150, 215)
+ENDINGS = {"succeeded": (30, 84, 56), "unverified": (96, 78, 28), "failed": (122, 38, 30), "stopped": (70, 74, 84)}
+"""Colours of the strip once a run has ended so."""
+
+EndKind: TypeAlias = Literal["succeeded", "unverified", "failed", "stopped"]
+
+
+@dataclass(frozen=True, slots=True)
+class Caption:
+    """What was done from `start` to `end`, in s of the cell's clock."""
+
+    text: str
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """How a run ended: its colour, and what is said."""
+
+    kind: EndKind
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class StripText:
+    """The text of a strip: two lines at the left, two at the right; the upper one there is a force."""
+
+    large: str
+    small: str = ""
+    force: str = ""
+    time: str = ""
+    ending: EndKind | None = None
+
+
+def caption_at(captions: Sequence[Caption], time: float) -> str:
+    """Return what was done at a time in s; what is done at once is joined."""
+    return "  +  ".join(each.text for each in captions if each.start <= time < each.end)
+
+
+@lru_cache(maxsize=64)
+def draw_strip(text: StripText, width: int) -> NDArray[np.uint8]:
+    """Return the strip (STRIP_PIXELS, width, 3)."""
+    colour = BACKGROUND if text.ending is None else ENDINGS[text.ending]
+    image = Image.new("RGB", (width, STRIP_PIXELS), colour)
+    draw = ImageDraw.Draw(image)
+    upper, lower = STRIP_PIXELS * 0.33, STRIP_PIXELS * 0.74
+    first = upper if text.small else STRIP_PIXELS / 2
+    draw.text((width - EDGE, upper), text.force, FORCE, load_font(LARGE, bold=True), anchor="rm")
+    draw.text((width - EDGE, lower), text.time, DIM, load_font(SMALL), anchor="rm")
+    room = width - 3 * EDGE - max(draw.textlength(text.force, load_font(LARGE, bold=True)), 1.0)
+    draw.text(
+        (EDGE, first), shorten(draw, text.large, room, LARGE, True), TEXT, load_font(LARGE, bold=True), anchor="lm"
+    )
+    room = width - 3 * EDGE - draw.textlength(text.time, load_font(SMALL))
+    draw.text((EDGE, lower), shorten(draw, text.small, room, SMALL, False), DIM, load_font(SMALL), anchor="lm")
+    return np.asarray(image)
+
+
+def shorten(draw: Any, text: str, room: float, pixels: int, bold: bool) -> str:
+    """Return as much of a text as there is room for, in pixels, with an ellipsis if it is not all."""
+    font = load_font(pixels, bold)
+    if draw.textlength(text, font) <= room:
+        return text
+    while text and draw.textlength(text + "…", font) > room:
+        text = text[:-1]
+    return text.rstrip() + "…"
