@@ -2,8 +2,8 @@
 # `docker run --rm -v "$PWD:/work" skillc run --out out`.
 FROM python:3.12-slim
 
-# The library with which MuJoCo draws films and stills without a screen.
-RUN apt-get update && apt-get install --yes --no-install-recommends libegl1 && rm -rf /var/lib/apt/lists/*
+# The libraries with which MuJoCo draws films and stills without a screen.
+RUN apt-get update && apt-get install --yes --no-install-recommends libegl1 libgl1-mesa-dri && rm -rf /var/lib/apt/lists/*
 
 WORKDIR /src
 COPY pyproject.toml constraints.txt README.md LICENSE ./
@@ -12,8 +12,7 @@ COPY ontology ontology
 COPY compiler compiler
 COPY runtime runtime
 COPY skills_src skills_src
-RUN pip install --no-cache-dir --constraint constraints.txt '.[planner,temporal,motion,fast,meshes,video,data,editor]'
+RUN pip install --no-cache-dir --constraint constraints.txt '.[planner,temporal,motion,fast,meshes,video,data,editor,server]'
 
-ENV MUJOCO_GL=egl
 WORKDIR /work
 ENTRYPOINT ["skillc"]
