@@ -43,7 +43,9 @@ lab:Part-B a skiros:Product ;
 
 @pytest.fixture
 def cell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a scene in the current folder; its pictures, which cost most of the time of `show`, are not rendered."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(rendering, "PLATFORMS", {})
     path = Path("cell.ttl")
     path.write_text(CELL, "utf-8")
     return path
@@ -211,10 +213,7 @@ def test_the_view_from_above_shows_each_thing_to_scale(cell: Path) -> None:
     assert Path("pictures/cell.svg").read_bytes() == first
 
 
-def test_without_a_graphics_library_it_says_so_and_draws_from_above(
-    cell: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(rendering, "PLATFORMS", {})
+def test_without_a_graphics_library_it_says_so_and_draws_from_above(cell: Path) -> None:
     result = scene("show", "cell.ttl")
     assert result.exit_code == 0 and "no PNG: no GL library draws off screen" in result.stderr
     assert [each.name for each in Path("out/scene").iterdir()] == ["cell.svg"]
