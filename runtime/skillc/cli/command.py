@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from difflib import get_close_matches
 from typing import Any
 
@@ -30,8 +31,8 @@ class Command(click.Command):
         self.params += output_options()
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the function and exit with its code; ontology folders that a project adds are removed again."""
-        before = os.environ.get(catalogue.VARIABLE)
+        """Run the function and exit with its code; folders that a project adds to paths are removed again."""
+        before, modules = os.environ.get(catalogue.VARIABLE), sys.path[:]
         try:
             code = super().invoke(ctx)
         except DiagnosticsError as error:
@@ -42,6 +43,7 @@ class Command(click.Command):
             code = error.exit_code
         finally:
             restore_variable(catalogue.VARIABLE, before)
+            sys.path[:] = modules
         ctx.exit(code or 0)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -12,7 +12,8 @@ from skillc.services.scene_diagnostics import with_shown_path
 from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_dsl.source import Span
 from skillc_rdf.turtle.parser import parse
-from skillc_runtime.control.gains import UnknownController, read_gains
+from skillc_rdf.turtle.statements import Statement
+from skillc_runtime.control.gains import UnknownController, load_own_law, read_gains
 from skillc_runtime.scene.documents import BASE
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
@@ -38,11 +39,26 @@ def check_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
     known = tuple(CONTROLLERS)
     for each in named:
         name = each.object.value if isinstance(each.object, ox.Literal) else str(each.object)
-        if name not in known:
+        if ":" in name:
+            yield from _unusable_law(name, each)
+        elif name not in known:
             span, near = with_shown_path(each.object_place), get_close_matches(name, known, n=1)
             message = f'there is no controller "{name}"; there are: {", ".join(known)}'
             fix = Fix(span, f'"{near[0]}"', f'write "{near[0]}"', safe=False) if near else None
             yield Diagnostic("unknown-controller", span, message, did_you_mean(name, known), fix=fix)
+
+
+def _unusable_law(name: str, statement: Statement) -> Iterator[Diagnostic]:
+    """Yield why the class of a user that a statement names is no controller."""
+    try:
+        load_own_law(name, lambda _: 0.0)
+    except UnknownController as error:
+        yield Diagnostic(
+            "unknown-controller",
+            with_shown_path(statement.object_place),
+            str(error),
+            "name `module:Class` of a control law",
+        )
 
 
 def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:

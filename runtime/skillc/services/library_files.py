@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -188,6 +189,7 @@ def _library(
 ) -> LibraryFiles:
     if home.project:
         use_ontologies(home.project)
+        use_modules(home.project)
     importable = {**_shipped(), **_of_dependencies(home.others()), **neighbours}
     texts = {wanted: _read(file, shown) for wanted, (shown, file) in sorted(importable.items())}
     vocabularies = {**user_vocabularies(), **_vocabularies_of(home.others()), **beside}
@@ -208,6 +210,15 @@ def use_ontologies(project: Project) -> None:
     before = os.environ.get(catalogue.VARIABLE)
     if own:
         os.environ[catalogue.VARIABLE] = os.pathsep.join([*own, *([before] if before else [])])
+
+
+def use_modules(project: Project) -> None:
+    """Let Python import what stands in the folders of a project and of what it depends on, after all that is installed.
+
+    Processes that it starts inherit that. A command restores the path of Python when it ends.
+    """
+    roots = [str(each.root.resolve()) for each in (project, *project.others())]
+    sys.path.extend(root for root in dict.fromkeys(roots) if root not in sys.path)
 
 
 def _of_dependencies(others: Iterable[Project]) -> dict[str, tuple[str, Path]]:

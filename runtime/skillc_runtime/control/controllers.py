@@ -10,10 +10,11 @@ import mujoco
 from skillc_runtime.control.controller import Controller, JointController
 from skillc_runtime.control.damping import damping_rate
 from skillc_runtime.control.forward_dynamics import ForwardDynamics
-from skillc_runtime.control.gains import ForwardDynamicsGains, Gains, ImpedanceGains, VelocityGains
+from skillc_runtime.control.gains import ForwardDynamicsGains, Gains, ImpedanceGains, OwnGains, VelocityGains
 from skillc_runtime.control.impedance import Impedance
 from skillc_runtime.control.joint_position import ComputedTorque, JointServo
 from skillc_runtime.control.limits import JointLimit, SpeedLimit, TorqueLimit
+from skillc_runtime.control.own_law import CheckedLaw, LawSetup
 from skillc_runtime.control.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits, ArmState
 from skillc_runtime.motion.pose import Array
@@ -54,8 +55,30 @@ def make_controllers(
             return _forward_dynamics(gains, law, JointLimit(limits, state.q), virtual)
         case VelocityGains(compliance=law, tracking_rate=rate, tracking_time=lag):
             return _forward_dynamics(gains, law, SpeedLimit(limits, state.q, rate, lag), virtual)
+        case OwnGains() as law:
+            return _own(
+                LawSetup(law.number, gains, _limit_for(law, limits, state), limits, virtual, period), law, state
+            )
         case never:
             assert_never(never)
+
+
+def _limit_for(law: OwnGains, limits: ArmLimits, state: ArmState) -> TorqueLimit | JointLimit:
+    match law.mode:
+        case "torque":
+            return TorqueLimit(limits, law.number("torqueRate"))
+        case "position":
+            return JointLimit(limits, state.q)
+        case "velocity":
+            return SpeedLimit(limits, state.q, law.number("trackingRate"), law.number("trackingTime"))
+        case never:
+            assert_never(never)
+
+
+def _own(setup: LawSetup, law: OwnGains, state: ArmState) -> ControllerPair:
+    limit = setup.limit
+    joints = ComputedTorque(limit, state.q.size) if isinstance(limit, TorqueLimit) else JointServo(limit)
+    return ControllerPair(CheckedLaw(law, setup), joints, limit)
 
 
 def _impedance(gains: Gains, law: ImpedanceGains, limits: ArmLimits, state: ArmState, period: float) -> ControllerPair:

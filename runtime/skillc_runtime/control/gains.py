@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import Any, TypeAlias, get_args
 
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.arm_driver import TaskLimits
 
 NumberReader: TypeAlias = Callable[[str], float]
 """Returns a number of a data sheet by name, or raises an error that names the missing one."""
+
+
+LAW_METHODS = ("reset", "command")
+"""The methods that a control law must have, see `control.controller.Controller`."""
 
 
 class UnknownController(ValueError):
@@ -101,7 +106,26 @@ class VelocityGains:
         return self.compliance.release_damping
 
 
-LawGains: TypeAlias = ImpedanceGains | ForwardDynamicsGains | VelocityGains
+@dataclass(frozen=True, slots=True)
+class OwnGains:
+    """What the law of a user reads from the data sheet: `number` returns any number of it.
+
+    law: a class as `control.own_law.OwnLaw`; mode, needs_force, release_damping: as below.
+    """
+
+    name: str
+    law: Any
+    number: NumberReader
+    mode: Mode
+    needs_force: bool
+
+    @property
+    def release_damping(self) -> float:
+        """Force per speed of a released axis, N s/m: that of the shipped law for the same commands."""
+        return self.number("dampingFloor") if self.mode == "torque" else 1 / self.number("admittance")
+
+
+LawGains: TypeAlias = ImpedanceGains | ForwardDynamicsGains | VelocityGains | OwnGains
 """The gains of one kind of controller.
 
 mode: the commands that it gives; needs_force: whether it needs a measured wrench; release_damping N s/m: force per
@@ -127,16 +151,36 @@ class Gains:
 
 def read_gains(controller: str, number: NumberReader) -> Gains:
     """Return the gains that a data sheet states for a controller by name; UnknownController if there is none."""
-    if controller not in CONTROLLERS:
+    if ":" in controller:
+        law: LawGains = load_own_law(controller, number)
+    elif controller in CONTROLLERS:
+        law = CONTROLLERS[controller](number)
+    else:
         raise UnknownController(f"there is no controller {controller!r}; there are: {', '.join(CONTROLLERS)}")
     return Gains(
-        CONTROLLERS[controller](number),
+        law,
         number("linearStiffness"),
         number("rotationalStiffness"),
         number("dampingRatio"),
         number("commandTime"),
         TaskLimits(number("forceLimit"), number("speedLimit"), number("accelerationLimit")),
     )
+
+
+def load_own_law(name: str, number: NumberReader) -> OwnGains:
+    """Import the class that `module:Class` names; UnknownController if it is not there or cannot be used."""
+    module, _, attribute = name.partition(":")
+    try:
+        law = getattr(import_module(module), attribute)
+    except Exception as error:
+        raise UnknownController(f"the controller {name!r} cannot be imported: {error}") from error
+    mode: Any = getattr(law, "mode", None)
+    if mode not in get_args(Mode):
+        raise UnknownController(f"the controller {name!r} needs an attribute `mode`: {', '.join(get_args(Mode))}")
+    missing = [method for method in LAW_METHODS if not hasattr(law, method)]
+    if missing:
+        raise UnknownController(f"the controller {name!r} has no {', '.join(f'`{each}`' for each in missing)}")
+    return OwnGains(name, law, number, mode, bool(getattr(law, "needs_force", False)))
 
 
 def _read_forward_dynamics(number: NumberReader) -> ForwardDynamicsGains:
