@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from html import escape
 
 import click
 
@@ -40,10 +41,10 @@ def _describe(group: click.Group, context: click.Context, level: int) -> Iterato
 
 def _options(command: click.Command, context: click.Context) -> Iterator[str]:
     records = [each.get_help_record(context) for each in command.get_params(context)]
-    rows = [record for record in records if record]
+    rows = [record for record in records if record and record[1]]
     if rows:
         yield "\n| option | meaning |\n|---|---|\n"
-        yield from (f"| `{_cell(option)}` | {_escape(_cell(meaning))} |\n" for option, meaning in rows)
+        yield from (f"| <code>{_code(option)}</code> | {_escape(_cell(meaning))} |\n" for option, meaning in rows)
 
 
 def _examples(text: str) -> Iterator[str]:
@@ -65,6 +66,11 @@ def _paragraph(text: str) -> str:
 
 def _cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|")
+
+
+def _code(text: str) -> str:
+    """Return the content of a code element in a table: a table has no escape for the bar within backticks."""
+    return escape(" ".join(text.split())).replace("|", "&#124;").replace("_", "&#95;").replace("*", "&#42;")
 
 
 def _escape(text: str) -> str:

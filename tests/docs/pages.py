@@ -39,8 +39,9 @@ class Reader:
     """Someone who follows a page: writes its files, makes its changes, types its commands, compares what is printed.
 
     `sh` is typed and ends with the exit code of `exit=N`, else 0; `text` is found in what the last commands printed,
-    line by line; `diff FILE` changes a file; any other language with a word after it is a file of that name. `console`
-    blocks are not followed. Unless `everything` is done, slow commands are left out, with what they print.
+    line by line; `diff FILE` changes a file; `python run` is executed; any other language with a word after it is a
+    file of that name. `console` blocks are not followed. Unless `everything` is done, slow commands are left out, with
+    what they print, and so is Python.
     """
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, everything: bool) -> None:
@@ -60,6 +61,9 @@ class Reader:
                     self.compare(block.text)
                 case "diff":
                     self.change(Path(block.words), block.text)
+                case "python" if block.words == "run":
+                    if self.everything:
+                        exec(compile(block.text, "page", "exec"), {})
                 case _ if block.words:
                     Path(block.words).write_text(block.text, encoding="utf-8")
                 case _:

@@ -1,0 +1,37 @@
+"""Each how-to can be followed in an empty folder: files are written and changed, commands typed, outputs compared."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from docs.pages import ROOT, Reader
+
+PAGES = sorted((ROOT / "docs/how-to").glob("*.md"))
+LEAST = 3
+"""Commands that every page has, besides those that take long."""
+
+
+def test_there_are_how_tos() -> None:
+    assert len(PAGES) >= 9
+
+
+def follow(page: Path, folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> Reader:
+    monkeypatch.chdir(folder)
+    reader = Reader(monkeypatch, everything)
+    reader.follow(page)
+    return reader
+
+
+@pytest.mark.parametrize("name", ["own-controller", "own-primitive", "pick-a-part"])
+def test_what_is_checked_and_planned_is_as_the_page_says(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert follow(ROOT / f"docs/how-to/{name}.md", tmp_path, monkeypatch, everything=False).done >= LEAST
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_everything_is_as_the_page_says(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert follow(page, tmp_path, monkeypatch, everything=True).done > LEAST
