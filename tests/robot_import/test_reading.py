@@ -141,8 +141,9 @@ def test_what_a_user_should_know_is_said(
     assert prove_same(reading, written(tmp_path, reading)).agree
 
 
-def test_names_may_be_in_any_script(tmp_path: Path) -> None:
+def test_names_may_be_in_any_script_and_the_same_for_links_and_joints(tmp_path: Path) -> None:
     text = six().replace("link_3", "Ellbogen-Stück").replace("joint_3", "関節3")
+    text = text.replace("link_2", "universe").replace("joint_2", "universe")
     reading = read(tmp_path, text)
     assert reading.model.links[2].joint.name == "関節3"
     assert prove_same(reading, written(tmp_path, reading)).agree

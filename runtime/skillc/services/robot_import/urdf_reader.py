@@ -17,7 +17,7 @@ from skillc.services.robot_import.possible_inertia import is_possible, nearest_p
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import Base, Inertia, Joint, Link, RobotModel, Shape
 from skillc.services.robot_import.urdf_shapes import read_shapes, stand_in
-from skillc.services.robot_import.urdf_text import arm_text
+from skillc.services.robot_import.urdf_text import JOINT, LINK, arm_text
 from skillc.services.robot_import.urdf_tree import UrdfJoint, UrdfTree, numbers, read_tree
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -73,12 +73,12 @@ class _Arm:
             full = pinocchio.buildModelFromXML(arm_text(tree, chain))
         except (ValueError, RuntimeError) as error:
             raise RequestError(f"{tree.path} cannot be read by pinocchio: {error}") from error
-        own = {joint.name for joint in chain.joints}
+        own = {JOINT + joint.name for joint in chain.joints}
         others = [number for number, name in enumerate(full.names) if number and name not in own]
         self.tree = tree
         self.model: Any = pinocchio.buildReducedModel(full, others, _rest(pinocchio, full))
         bodies = [each for each in self.model.frames if each.type == pinocchio.FrameType.BODY]
-        self._frames = {each.name: each for each in bodies if each.name in tree.links}
+        self._frames = {each.name.removeprefix(LINK): each for each in bodies if each.name.startswith(LINK)}
         self.links = tuple(self._frames)
 
     def place(self, link: str) -> Pose:
@@ -102,7 +102,7 @@ class _Arm:
             if stated.mass > 0.0 and not is_possible(stated.inertia):
                 mended = nearest_possible(stated.inertia)
                 self.model.inertias[index] = pinocchio.Inertia(stated.mass, stated.lever, mended)
-                found.append(f"what {self.model.names[index]} moves")
+                found.append(f"what {self.model.names[index].removeprefix(JOINT)} moves")
         return found
 
     def shapes_of(self, index: int, shapes: dict[str, tuple[Shape, ...]]) -> tuple[Shape, ...]:

@@ -8,14 +8,20 @@ from xml.etree import ElementTree
 from skillc.services.robot_import.chain import Chain
 from skillc.services.robot_import.urdf_tree import UrdfTree
 
+LINK, JOINT = "link ", "joint "
+"""Before the names of links and joints, which may be the same in a URDF, but not in pinocchio."""
+
 
 def arm_text(tree: UrdfTree, chain: Chain) -> str:
-    """Return a URDF with base, tip, and all links below the base but those below the tip, with inertia and joints."""
+    """Return a URDF with base, tip, and all links below the base but those below the tip, with inertia and joints.
+
+    Names begin with `LINK` and `JOINT`.
+    """
     beyond = set(tree.below(chain.tip))
     kept = [chain.base, *(link for link in tree.below(chain.base) if link not in beyond)]
     robot = ElementTree.Element("robot", name="arm")
     for link in kept:
-        copied = ElementTree.SubElement(robot, "link", name=link)
+        copied = ElementTree.SubElement(robot, "link", name=LINK + link)
         copied.extend(deepcopy(tree.links[link].findall("inertial")))
     for link in kept[1:]:
         robot.append(_joint(tree.above[link].element))
@@ -25,6 +31,9 @@ def arm_text(tree: UrdfTree, chain: Chain) -> str:
 def _joint(element: ElementTree.Element) -> ElementTree.Element:
     """Return a joint as it is, but one whose limits are not complete has 0 for what is missing."""
     copied = deepcopy(element)
+    copied.set("name", JOINT + (element.get("name") or ""))
+    for end in (*copied.findall("parent"), *copied.findall("child")):
+        end.set("link", LINK + (end.get("link") or ""))
     for each in copied.findall("mimic"):
         copied.remove(each)
     if copied.get("type") in ("revolute", "continuous", "prismatic"):
