@@ -7,7 +7,9 @@ models beside them. All other ontology files in it are vocabularies.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -18,6 +20,7 @@ ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld")
 """The suffixes of files that may be vocabularies."""
 VARIABLE = "SKILLC_ONTOLOGY"
 """The environment variable that lists the user's folders, separated as in PATH."""
+_ADDED: ContextVar[tuple[Path, ...]] = ContextVar("added ontology folders", default=())
 
 
 def vocabulary_files() -> tuple[tuple[str, str], ...]:
@@ -26,9 +29,31 @@ def vocabulary_files() -> tuple[tuple[str, str], ...]:
 
 
 def user_folders() -> tuple[Path, ...]:
-    """Return the user's ontology folders, each once."""
+    """Return the user's ontology folders, each once: those that were added in this context, then the variable's."""
     named = os.environ.get(VARIABLE, "").split(os.pathsep)
-    return tuple(dict.fromkeys(Path(name) for name in named if name))
+    return tuple(dict.fromkeys((*_ADDED.get(), *(Path(name) for name in named if name))))
+
+
+def add_folders(folders: Iterable[Path]) -> None:
+    """Put ontology folders first, until the innermost `folder_scope` around ends; other threads do not see them."""
+    _ADDED.set(tuple(dict.fromkeys((*folders, *_ADDED.get()))))
+
+
+@contextmanager
+def folder_scope(folders: Iterable[Path] = ()) -> Iterator[None]:
+    """Add ontology folders in a `with` statement; those that are added inside are removed at its end too."""
+    before = _ADDED.get()
+    add_folders(folders)
+    try:
+        yield
+    finally:
+        _ADDED.set(before)
+
+
+def make_environment() -> dict[str, str]:
+    """Return the environment variables for a new process that shall see the same ontology folders."""
+    folders = os.pathsep.join(map(str, user_folders()))
+    return {**os.environ, VARIABLE: folders} if folders else dict(os.environ)
 
 
 def user_files() -> tuple[tuple[str, Path], ...]:

@@ -1,4 +1,80 @@
-"""The programs that people start: `cli` is the command line, `lsp` the language server, `services` what both share.
+"""Skills of robots: check libraries, plan, run and explain tasks. `docs/python.md` shows how, with examples.
 
-Start at `cli.main`, then read one command in `cli.commands` and the service that it calls.
+The command line is `cli`, the language server `lsp`; `api` has what is exported here, `services` what all share.
+Names are imported when they are used, so that the command line starts quickly.
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from skillc.api.event_stream import EventStream as EventStream
+    from skillc.api.library import Library as Library
+    from skillc.api.library import check as check
+    from skillc.api.library import load_library as load_library
+    from skillc.api.library import tasks as tasks
+    from skillc.api.operation import Operation as Operation
+    from skillc.api.picture import Figure as Figure
+    from skillc.api.picture import Picture as Picture
+    from skillc.api.planning import Plan as Plan
+    from skillc.api.planning import PlannedStep as PlannedStep
+    from skillc.api.planning import PlanningError as PlanningError
+    from skillc.api.planning import plan as plan
+    from skillc.api.run import Run as Run
+    from skillc.api.run import open_run as open_run
+    from skillc.api.running import run as run
+    from skillc.api.running import start as start
+    from skillc.api.scene import Answer as Answer
+    from skillc.api.scene import Scene as Scene
+    from skillc.api.scene import open_scene as open_scene
+    from skillc.api.table import Table as Table
+    from skillc.api.trials import Trials as Trials
+    from skillc.api.trials import trials as trials
+    from skillc.services.errors import DiagnosticsError as DiagnosticsError
+    from skillc.services.errors import RequestError as RequestError
+    from skillc.services.errors import SkillcError as SkillcError
+    from skillc_dsl.diagnostics import Diagnostic as Diagnostic
+
+_MODULES = {
+    "Answer": "skillc.api.scene",
+    "Diagnostic": "skillc_dsl.diagnostics",
+    "DiagnosticsError": "skillc.services.errors",
+    "EventStream": "skillc.api.event_stream",
+    "Figure": "skillc.api.picture",
+    "Library": "skillc.api.library",
+    "Operation": "skillc.api.operation",
+    "Picture": "skillc.api.picture",
+    "Plan": "skillc.api.planning",
+    "PlannedStep": "skillc.api.planning",
+    "PlanningError": "skillc.api.planning",
+    "RequestError": "skillc.services.errors",
+    "Run": "skillc.api.run",
+    "Scene": "skillc.api.scene",
+    "SkillcError": "skillc.services.errors",
+    "Table": "skillc.api.table",
+    "Trials": "skillc.api.trials",
+    "check": "skillc.api.library",
+    "load_library": "skillc.api.library",
+    "open_run": "skillc.api.run",
+    "open_scene": "skillc.api.scene",
+    "plan": "skillc.api.planning",
+    "run": "skillc.api.running",
+    "start": "skillc.api.running",
+    "tasks": "skillc.api.library",
+    "trials": "skillc.api.trials",
+}
+__all__ = sorted(_MODULES)
+
+
+def __getattr__(name: str) -> object:
+    if name not in _MODULES:
+        raise AttributeError(f"module 'skillc' has no attribute {name!r}")
+    value = getattr(import_module(_MODULES[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_MODULES})

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from skillc_runtime.backends.simulation.mujoco_warnings import print_warnings
+from skillc_runtime.backends.simulation.mujoco_warnings import log_warnings
 
 BALL = "<mujoco><worldbody><body><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
 
@@ -15,7 +15,7 @@ def test_an_unstable_simulation_is_told_on_stderr(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    print_warnings()
+    log_warnings()
     model = mujoco.MjModel.from_xml_string(BALL)
     data = mujoco.MjData(model)
     data.qvel[:] = np.nan

@@ -6,7 +6,7 @@ import pytest
 from msgspec import structs
 
 from selection.library import call, library, scene
-from skillc.cli.story_output import format_answer, format_overview
+from skillc.services.story_text import format_answer, format_overview
 from skillc_model.conditions import Individual
 from skillc_runtime.recording.history import RunHistory
 from skillc_runtime.recording.question import QuestionError, select_calls

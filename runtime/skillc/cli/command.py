@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from difflib import get_close_matches
 from typing import Any
@@ -10,7 +9,6 @@ from typing import Any
 import click
 
 from skillc.cli.console import Terminal, print_error
-from skillc.cli.options import restore_variable
 from skillc.cli.settings import GroupedOption, output_options
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc_ontology import catalogue
@@ -32,9 +30,10 @@ class Command(click.Command):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the function and exit with its code; folders that a project adds to paths are removed again."""
-        before, modules = os.environ.get(catalogue.VARIABLE), sys.path[:]
+        modules = sys.path[:]
         try:
-            code = super().invoke(ctx)
+            with catalogue.folder_scope():
+                code = super().invoke(ctx)
         except DiagnosticsError as error:
             Terminal().show(error.diagnostics, error.texts)
             code = error.exit_code
@@ -42,7 +41,6 @@ class Command(click.Command):
             print_error(str(error))
             code = error.exit_code
         finally:
-            restore_variable(catalogue.VARIABLE, before)
             sys.path[:] = modules
         ctx.exit(code or 0)
 

@@ -8,10 +8,14 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 
 
-class ServiceError(Exception):
-    """A request cannot be fulfilled; the message says why."""
+class SkillcError(Exception):
+    """The base of all errors that skillc reports; the message is a sentence that says what to do."""
 
     exit_code = 1
+
+
+class ServiceError(SkillcError):
+    """A request cannot be fulfilled; the message says why."""
 
 
 class RequestError(ServiceError):
@@ -24,7 +28,7 @@ class DiagnosticsError(ServiceError):
     """A library, scene, goal or call has errors: `diagnostics`, and the texts that they point into, by path."""
 
     def __init__(self, diagnostics: Sequence[Diagnostic], texts: Mapping[str, Source]) -> None:
-        super().__init__(f"{len(diagnostics)} problems")
+        super().__init__("\n".join(map(str, diagnostics)))
         self.diagnostics = diagnostics
         self.texts = texts
 

@@ -200,16 +200,10 @@ def _library(
 
 
 def use_ontologies(project: Project) -> None:
-    """Add the ontology folders of a project and of what it depends on to SKILLC_ONTOLOGY, for this process.
-
-    Processes that it starts inherit them. A command restores the variable when it ends.
-    """
+    """Add the ontology folders of a project and of what it depends on, in this context and in processes it starts."""
     known = set(map(Path.resolve, catalogue.user_folders()))
     folders = [folder for each in (project, *project.others()) for folder in each.ontologies if folder.is_dir()]
-    own = [str(folder.resolve()) for folder in dict.fromkeys(folders) if folder.resolve() not in known]
-    before = os.environ.get(catalogue.VARIABLE)
-    if own:
-        os.environ[catalogue.VARIABLE] = os.pathsep.join([*own, *([before] if before else [])])
+    catalogue.add_folders(each for each in dict.fromkeys(map(Path.resolve, folders)) if each not in known)
 
 
 def use_modules(project: Project) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -17,7 +17,7 @@ from skillc.services.watchdog.process import TICK_TIMEOUT_S, watching
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.write import REPORT, RESULT
 from skillc_runtime.platforms.watchdog_program import STATE, SharedState
-from skillc_runtime.recording.envelope import make_run_id
+from skillc_runtime.recording.envelope import Recorder, make_run_id
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.reader import TraceError
 from skillc_runtime.recording.writer import TraceWriter
@@ -27,12 +27,16 @@ from skillc_runtime.recording.writer import TraceWriter
 class RecordingOptions:
     """The folder of recording and result (None: none that stays), and how long a tick may take in s (0: any time).
 
-    With `prints_json` the caller prints the result as JSON; the watchdog does if the run is interrupted.
+    With `prints_json` the caller prints the result as JSON; the watchdog does if the run is interrupted. Without a
+    time-out nothing watches this process and handles its signals. `run` is the id of the run, empty for a new one;
+    `recorders` get its events too.
     """
 
     out: Path | None = None
-    tick_timeout_s: float = TICK_TIMEOUT_S
+    tick_timeout_s: float | None = TICK_TIMEOUT_S
     prints_json: bool = False
+    run: str = ""
+    recorders: tuple[Recorder, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,14 +61,16 @@ def recorded_run(start: TaskResult, options: RecordingOptions, reporter: Reporte
             out=None if options.out is None else str(options.out.absolute()),
             start=start,
             began_s=time.time(),
-            timeout_s=options.tick_timeout_s,
+            timeout_s=options.tick_timeout_s or 0.0,
             prints_json=options.prints_json,
         )
         with _writer(folder, reporter) as writer:
             watchdog = SharedState(Path(private) / STATE)
             try:
-                with watching(Path(private), run, watchdog):
-                    yield RecordedRun(Publisher(make_run_id(start.task), (writer,)), watchdog)
+                watched = nullcontext() if options.tick_timeout_s is None else watching(Path(private), run, watchdog)
+                with watched:
+                    publisher = Publisher(options.run or make_run_id(start.task), (writer, *options.recorders))
+                    yield RecordedRun(publisher, watchdog)
             except BaseException as error:
                 writer.close()
                 _write_end(run, error, watchdog.now, reporter)

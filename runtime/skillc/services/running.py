@@ -33,6 +33,7 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
+from skillc_runtime.recording.envelope import Recorder
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -43,7 +44,9 @@ from skillc_runtime.world.state.transactions import StoreError
 class RunOptions:
     """The folder of recording and report (None: neither), the seed, the planners, the meshes in films, the backend.
 
-    A run in which a tick takes longer than `tick_timeout_s` is ended (0: never). With `prints_json` the caller prints
+    A run in which a tick takes longer than `tick_timeout_s` is ended with its process (0: only if that dies, None: no
+    process watches it). `run_id` is the id of the run, empty for a new one; `recorders` get its events as they are
+    recorded. With `prints_json` the caller prints
     the result as JSON, and the watchdog does if the run is interrupted. The task fails if it has not ended
     `deadline_s` of the cell's time after its start, or if a plan takes as long. It pauses before its first call with
     `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop.
@@ -56,7 +59,7 @@ class RunOptions:
     seed: int = 0
     planners: Planners | None = None
     looks: str = PRIMITIVE_LOOKS
-    tick_timeout_s: float = TICK_TIMEOUT_S
+    tick_timeout_s: float | None = TICK_TIMEOUT_S
     prints_json: bool = False
     deadline_s: float | None = None
     step: bool = False
@@ -64,6 +67,8 @@ class RunOptions:
     backend: BackendName = "mujoco"
     signals: SignalFormat | None = None
     gif: bool = False
+    run_id: str = ""
+    recorders: tuple[Recorder, ...] = ()
 
     def __post_init__(self) -> None:
         if self.looks != PRIMITIVE_LOOKS and self.out is None:
@@ -116,7 +121,9 @@ class _Run:
         task, options, cell = self.task, self.options, self.cell
         choices = ChoiceListener()
         start = summarise_start(task.assignment.name, cell)
-        recording = RecordingOptions(options.out, options.tick_timeout_s, options.prints_json)
+        recording = RecordingOptions(
+            options.out, options.tick_timeout_s, options.prints_json, options.run_id, options.recorders
+        )
         with (
             recorded_run(start, recording, self.reporter) as recorded,
             recorded_signals(cell, options.signals, options.out, self.reporter) as hooks,

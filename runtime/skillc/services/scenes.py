@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -13,6 +13,7 @@ from typing import NamedTuple
 import pyoxigraph as ox
 
 from skillc.services import scene_picture
+from skillc.services.assignments import assign_goal
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
@@ -22,15 +23,21 @@ from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc.services.task_list import default_library
 from skillc.services.task_scenes import default_scene
 from skillc_compiler.emit.picture import svg
+from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_model.skills import SkillLibrary
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError, QueryResult, run_query
 from skillc_runtime.scene.statements import read_contents
 from skillc_runtime.store.triples import all_triples
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.state.elements import Element, elements_of, search_elements
+from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -42,15 +49,30 @@ QUERY_LIMIT_S = 60.0
 class OpenScene:
     """A scene's document, its world, the labels of individuals, and the individuals that are listed by default.
 
-    `path` is None if the world comes from a store; `vocabulary` is that of the library.
+    `path` is None if the world comes from a store; `library` is that whose terms it uses. `world` can be written to;
+    `state` is its version when it was opened.
     """
 
     path: Path | None
-    vocabulary: Vocabulary
+    library: SkillLibrary
+    world: WorldModel
     document: Document
     state: WorldState
     labels: dict[str, str]
     individuals: frozenset[str]
+
+    @property
+    def vocabulary(self) -> Vocabulary:
+        """The vocabulary of the library."""
+        return self.library.vocabulary
+
+    def at_present(self) -> OpenScene:
+        """Return it with the present version of its world."""
+        state = self.world.snapshot()
+        if state is self.state:
+            return self
+        own = (self.individuals | (state.individuals - self.state.individuals)) & state.individuals
+        return replace(self, state=state, document=_stored_document(self.document.path, state), individuals=own)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +121,7 @@ def open_scene(
         own = read_contents([document]).subjects & state.individuals
         labels = {**read_contents(sheet_documents()).labels, **read_contents([document]).labels}
         meant = state.individuals if everything else own
-        yield OpenScene(path, compiled.vocabulary, document, state, labels, meant)
+        yield OpenScene(path, compiled, world, document, state, labels, meant)
 
 
 def find_individuals(scene: OpenScene, words: str | None) -> tuple[Element, ...]:
@@ -158,10 +180,30 @@ def compare_scenes(scene: OpenScene, other: Path, reporter: Reporter) -> SceneDi
     return SceneDiff(_texts(ours - theirs, scene.state.vocabulary), _texts(theirs - ours, state.vocabulary))
 
 
+def list_facts(scene: OpenScene) -> list[FactText]:
+    """Return the facts that the shipped ontology does not state, in short names, sorted."""
+    shipped = frozenset(all_triples(load_documents(sheet_documents(), scene.state.vocabulary)))
+    return _texts((fact for fact in all_triples(scene.state) if fact not in shipped), scene.state.vocabulary)
+
+
+def describe_obstacle(scene: OpenScene, condition: str) -> str | None:
+    """Return why a condition does not hold, None if it does. DiagnosticsError if the text has errors."""
+    objective = assign_goal(condition, scene.library, scene.state).objective
+    assert isinstance(objective, AchieveGoal), "a goal"
+    if evaluate(objective.goal, scene.state, {}):
+        return None
+    return explain(objective.goal, scene.state, {}, scene.state.vocabulary)
+
+
+def picture_scene(scene: OpenScene) -> PictureBox:
+    """Return the picture of a scene."""
+    title = scene.path.name if scene.path else scene.document.path
+    return scene_picture.draw_boxes(scene.state, scene.individuals, scene.labels, title)
+
+
 def draw_scene(scene: OpenScene, file: Path) -> None:
     """Draw the scene as an SVG file. ServiceError if it cannot be written."""
-    title = scene.path.name if scene.path else scene.document.path
-    box = scene_picture.draw_boxes(scene.state, scene.individuals, scene.labels, title)
+    box = picture_scene(scene)
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(svg.draw_document(box), encoding="utf-8")

@@ -96,6 +96,11 @@ def list_tasks() -> list[TaskEntry]:
     return [each for each in found if each.origin == "project" or each.name not in own]
 
 
+def tasks_of(files: LibraryFiles) -> tuple[TaskEntry, ...]:
+    """Return the tasks of a library, named as in it."""
+    return tuple(_of_library(files, "project" if files.project else "shipped", ""))
+
+
 def _of_library(files: LibraryFiles, origin: Origin, prefix: str) -> Iterator[TaskEntry]:
     """Yield the tasks of a library; their names begin with `prefix`."""
     manifest = files.project.manifest if files.project else None

@@ -23,6 +23,7 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn, TextIO
 
+from skillc_ontology import catalogue
 from skillc_runtime.platforms.processes import ProcessTerminated, StartedProcess
 from skillc_runtime.platforms.signals import ENDING
 
@@ -104,7 +105,8 @@ def spawn(function: Callable[[], None], files: Sequence[int]) -> StartedProcess:
         pickle.dump(partial(_run, function, os.getpid()), request)
         request.seek(0)
         with _signals_blocked():
-            return subprocess.Popen((sys.executable, "-c", _SPAWNED), stdin=request, pass_fds=files)
+            command = (sys.executable, "-c", _SPAWNED)
+            return subprocess.Popen(command, stdin=request, pass_fds=files, env=catalogue.make_environment())
 
 
 @contextmanager

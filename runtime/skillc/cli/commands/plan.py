@@ -68,7 +68,7 @@ def command(
     project, TASK may be left out if the manifest names a default one.
     """
     from skillc.cli.console import Terminal, print_text, remark_default
-    from skillc.cli.plan_output import format_plan, plan_as_json
+    from skillc.services.plan_text import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
     from skillc.services.stores import StoreChoice
     from skillc.services.task_loading import TaskRequest, load_task

@@ -26,8 +26,8 @@ def command(run: Path, question: str | None, as_json: bool) -> None:
     (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`). Without QUESTION, print an overview.
     """
     from skillc.cli.console import Terminal, print_json, print_text
-    from skillc.cli.story_output import format_answer, format_overview
     from skillc.services.recordings import answer_question, read_run
+    from skillc.services.story_text import format_answer, format_overview
 
     story = read_run(run, Terminal())
     answer = answer_question(story, question) if question is not None else None

@@ -16,6 +16,7 @@ from skillc.services.errors import ServiceError
 from skillc.services.watchdog import ending
 from skillc.services.watchdog.compilation import watching_compilation
 from skillc.services.watchdog.ending import DESCRIPTION, RunDescription
+from skillc_ontology import catalogue
 from skillc_runtime.platforms.watchdog import IS_WATCHED, exiting_at_sigquit, start_watchdog
 from skillc_runtime.platforms.watchdog_program import SharedState
 
@@ -50,7 +51,7 @@ def _start(folder: Path, run: RunDescription) -> subprocess.Popen[bytes]:
     paths = os.pathsep.join(str(Path(path).absolute()) for path in sys.path if path)
     try:
         (folder / DESCRIPTION).write_bytes(msgspec.json.encode(run))
-        environment = {**os.environ, "PYTHONPATH": paths}
+        environment = {**catalogue.make_environment(), "PYTHONPATH": paths}
         return start_watchdog(folder, run.timeout_s, ending.__name__, not run.prints_json, environment)
     except OSError as error:
         raise ServiceError(f"the watchdog process cannot be started: {error.strerror or error}") from error

@@ -18,7 +18,7 @@ from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.model_builder import build_model
-from skillc_runtime.backends.simulation.mujoco_warnings import print_warnings
+from skillc_runtime.backends.simulation.mujoco_warnings import log_warnings
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
@@ -59,7 +59,7 @@ class ModelledCell(ABC, Generic[A, G]):
 
         Raises SheetError or FrameError if facts are missing or contradict the models.
         """
-        print_warnings()
+        log_warnings()
         self._world, self.scene, self.variation = world, scene, variation
         self.model: Any = build_model(scene, variation, timestep_s)
         self.data: Any = mujoco.MjData(self.model)

@@ -1,16 +1,16 @@
-"""Prints the warnings of MuJoCo."""
+"""Logs the warnings of MuJoCo."""
 
 from __future__ import annotations
 
-import sys
+import logging
 
 import mujoco
 
 
-def print_warnings() -> None:
-    """Print warnings of MuJoCo to stderr in this process; by default it writes MUJOCO_LOG.TXT."""
-    mujoco.set_mju_user_warning(_print_warning)
+def log_warnings() -> None:
+    """Log warnings of MuJoCo in this process, to stderr unless a program says otherwise; not to MUJOCO_LOG.TXT."""
+    mujoco.set_mju_user_warning(_log_warning)
 
 
-def _print_warning(warning: str) -> None:
-    print(f"simulation: {warning}", file=sys.stderr)
+def _log_warning(warning: str) -> None:
+    logging.getLogger("skillc").warning("simulation: %s", warning)

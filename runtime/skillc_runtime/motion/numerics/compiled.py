@@ -7,8 +7,8 @@ stored in the user's cache folder under a name that depends on the sources.
 
 from __future__ import annotations
 
+import logging
 import os
-import sys
 from collections import namedtuple
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -190,7 +190,7 @@ def _folder() -> str:
     except OSError:
         return ""
     if new:
-        print("compiling the control laws, once for this version", file=sys.stderr)
+        logging.getLogger("skillc").warning("compiling the control laws, once for this version")
     return str(folder) if os.access(folder, os.W_OK) else ""
 
 

@@ -62,10 +62,11 @@ def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
 
 def plan_as_json(answer: Answer, loaded: LoadedTask) -> str:
     """Return one JSON object: status, steps with source lines, optimality, planner, or the reason."""
-    return json.dumps(_document(answer, loaded), indent=2)
+    return json.dumps(describe_answer(answer, loaded), indent=2)
 
 
-def _document(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
+def describe_answer(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
+    """Return status, steps with source lines, optimality and planner, or the reason, as plain data."""
     match answer:
         case Solved(plan=plan):
             steps = [_step(step, loaded) for step in plan.steps]

@@ -1,0 +1,189 @@
+"""Plans for goals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from html import escape
+from typing import TYPE_CHECKING, Any, Literal
+
+from skillc.api.boundary import (
+    AnyPath,
+    Notes,
+    api_call,
+    optional_path,
+    optional_seconds,
+    optional_text,
+    require_choice,
+)
+from skillc.api.frames import make_frame, make_table
+from skillc.api.picture import Picture
+from skillc.services.errors import RequestError, ServiceError
+from skillc.services.plan_text import describe_answer, format_plan
+from skillc.services.planning import Answer, plan_goal, prepare_planners
+from skillc.services.schedule_picture import draw_schedule
+from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.makespan.scheduling import schedule_plan
+from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.solve import DEADLINE_S
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Minimise = Literal["work", "makespan"]
+PLAN_COLUMNS = ("step", "skill", "arguments", "start_s", "duration_s")
+
+
+class PlanningError(ServiceError):
+    """There is no plan. `proved` says whether that is certain, `causes` what the cell lacks or cannot do."""
+
+    def __init__(self, answer: Unsolvable | GaveUp) -> None:
+        super().__init__(answer.message)
+        self.proved = isinstance(answer, Unsolvable)
+        self.causes = answer.causes
+        self.explanation = answer.why
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedStep:
+    """A step of a plan: its skill, its arguments by parameter in short names, and when it is expected to run, in s."""
+
+    skill: str
+    arguments: dict[str, str]
+    start_s: float
+    duration_s: float
+
+    def __str__(self) -> str:
+        return f"{self.skill}({', '.join(f'{name}: {value}' for name, value in self.arguments.items())})"
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A plan, with its steps in the order in which they start; notebooks show it as a schedule.
+
+    `duration_s` is the expected work of all steps, `makespan_s` the time from start to end, in s, when steps that do
+    not wait for each other run in parallel. `optimal` is what is proved of it, `quality` the same as text.
+    """
+
+    task: str
+    steps: tuple[PlannedStep, ...]
+    duration_s: float
+    makespan_s: float
+    optimal: str
+    quality: str
+    planner: str
+    _loaded: LoadedTask = field(repr=False, compare=False)
+    _answer: Answer = field(repr=False, compare=False)
+
+    def __str__(self) -> str:
+        """Return the steps and how good the plan is, as `skillc plan` prints them."""
+        return format_plan(self._answer, self._loaded)
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as plain data, as `skillc plan --json` prints it."""
+        return describe_answer(self._answer, self._loaded)
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return a pandas frame with a row for each step. SkillcError if pandas is not installed."""
+        return make_frame([dict(zip(PLAN_COLUMNS, row, strict=True)) for row in self._rows()], PLAN_COLUMNS)
+
+    def draw(self) -> Picture:
+        """Return its picture: a bar for each step over time."""
+        bars = [(str(each), each.start_s, each.duration_s) for each in self.steps]
+        return Picture(self.task, draw_schedule(bars, f"{self.task}: {self.quality}"))
+
+    def _rows(self) -> list[tuple[int, str, str, float, float]]:
+        return [
+            (number, each.skill, str(each).removeprefix(each.skill)[1:-1], each.start_s, each.duration_s)
+            for number, each in enumerate(self.steps, 1)
+        ]
+
+    def _repr_svg_(self) -> str:
+        return self.draw().svg
+
+    def _repr_html_(self) -> str:
+        return f"{self._repr_svg_()}{make_table(PLAN_COLUMNS, self._rows())}<p>{escape(self.quality)}</p>"
+
+
+def plan(
+    task: str | None = None,
+    *,
+    goal: str | None = None,
+    scene: AnyPath | None = None,
+    library: AnyPath | None = None,
+    minimise: Minimise = "work",
+    prove: bool = False,
+    deadline_s: float = DEADLINE_S,
+) -> Plan:
+    """Plan for a task, or for a goal in a scene, without running it.
+
+    `task` is `LIBRARY:NAME`, or the name of a task of the project here or of a shipped one; without it and without a
+    goal, it is the default task of the project. `goal` is a condition or PDDL, `scene` a file or the name of a shipped
+    scene, `library` the folder, file or name of the skills. `minimise` is total work or the makespan; `prove` plans
+    with more of a large scene until the least work is proved. The search ends after `deadline_s` s.
+
+    PlanningError if there is no plan or none was found in time, DiagnosticsError if the library, the scene or the goal
+    has errors, RequestError if what is named does not exist or cannot be planned for.
+    """
+    with api_call():
+        request = make_request(task, goal, None, scene, library)
+        request.check(calls=False)
+        with load_task(request, Notes()) as loaded:
+            return make_plan(loaded, minimise, prove, deadline_s)
+
+
+def make_request(
+    task: str | None, goal: str | None, skill: str | None, scene: AnyPath | None, library: AnyPath | None
+) -> TaskRequest:
+    """Return the request for a task, or for a goal or call in a scene. RequestError for a value of a wrong type."""
+    return TaskRequest(
+        optional_text(task, "the task"),
+        optional_path(scene, "the scene"),
+        optional_text(goal, "the goal"),
+        optional_text(skill, "the skill call"),
+        optional_path(library, "the library"),
+    ).with_defaults()
+
+
+def make_plan(loaded: LoadedTask, minimise: Minimise, prove: bool, deadline_s: float) -> Plan:
+    """Plan for a loaded task; errors as of `plan`."""
+    require_choice(minimise, Minimise, "`minimise`")
+    if prove and minimise == "makespan":
+        raise RequestError('`prove` is for minimise="work"; for the makespan the plan always has a lower bound')
+    limit_s = optional_seconds(deadline_s, "`deadline_s`")
+    measure: Literal["makespan", "proven work", "work"] = (
+        "makespan" if minimise == "makespan" else "proven work" if prove else "work"
+    )
+    answer = plan_goal(loaded, measure, prepare_planners(True), CancelToken(limit_s or DEADLINE_S))
+    if isinstance(answer, Unsolvable | GaveUp):
+        raise PlanningError(answer)
+    return _as_plan(answer, loaded)
+
+
+def _as_plan(answer: Solved | Scheduled, loaded: LoadedTask) -> Plan:
+    state = loaded.assignment.state
+    schedule = answer.schedule if isinstance(answer, Scheduled) else schedule_plan(answer.plan, loaded.library, state)
+    steps = tuple(
+        PlannedStep(each.step.skill, _shorten(each.step.arguments, loaded), each.start_s, each.duration_s)
+        for each in schedule.steps
+    )
+    return Plan(
+        task=loaded.assignment.name,
+        steps=steps,
+        duration_s=answer.plan.duration_s,
+        makespan_s=schedule.makespan_s,
+        optimal=answer.optimal,
+        quality=describe_quality(answer.optimal, answer.left_out, answer.at_least_s),
+        planner=answer.planner,
+        _loaded=loaded,
+        _answer=answer,
+    )
+
+
+def _shorten(arguments: dict[str, str], loaded: LoadedTask) -> dict[str, str]:
+    short = loaded.assignment.state.vocabulary.short
+    return {name: short(iri) for name, iri in arguments.items()}

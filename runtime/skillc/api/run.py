@@ -1,0 +1,166 @@
+"""A run that has ended, or one that was recorded: result, events, explanations, figures and frames."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import msgspec
+
+from skillc.api.boundary import AnyPath, Notes, api_call, require_choice, require_path, require_text
+from skillc.api.frames import make_frame, make_table
+from skillc.api.picture import Figure
+from skillc.services.errors import ServiceError
+from skillc.services.recordings import answer_question, find_recording, read_envelopes, read_result
+from skillc.services.story_text import format_answer, format_overview
+from skillc_runtime.evaluation.report.result import StepResult, TaskResult, WipingResult
+from skillc_runtime.evaluation.report.write import REPORT
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.world.state.labelled_text import format_value
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Part = Literal["events", "steps", "wipings", "placements", "touches"]
+STEP_COLUMNS = ("step", "skill", "implementation", "arguments", "status")
+EVENT_COLUMNS = ("sequence", "time_s", "type", "name", "status", "message")
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A run that has ended; `folder` is where it was recorded, None for nowhere. Notebooks show its summary."""
+
+    result: TaskResult
+    events: tuple[Envelope, ...] = field(repr=False, default=())
+    folder: Path | None = None
+    messages: tuple[str, ...] = ()
+
+    @property
+    def task(self) -> str:
+        """The name of the task, or the text of the goal or call."""
+        return self.result.task
+
+    @property
+    def status(self) -> str:
+        """How it ended: succeeded, failed, stopped, interrupted, or refused if it did not start."""
+        return self.result.status
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the task succeeded."""
+        return self.result.status == "succeeded"
+
+    @property
+    def verified(self) -> bool | None:
+        """Whether a success rests on no assumption; None if the task did not succeed."""
+        return self.result.verified
+
+    @property
+    def failure(self) -> str | None:
+        """Why the task did not succeed, as a sentence; None if it did."""
+        return self.result.failure
+
+    @property
+    def steps(self) -> tuple[StepResult, ...]:
+        """The steps of its last plan, or of its body."""
+        return self.result.plan
+
+    @property
+    def measures(self) -> tuple[WipingResult, ...]:
+        """The quality of each wiping, as the simulator measured it."""
+        return self.result.wipings
+
+    @property
+    def figures(self) -> tuple[Figure, ...]:
+        """The figures of its report; none without a folder."""
+        if self.folder is None:
+            return ()
+        return tuple(Figure(path) for path in sorted(self.folder.glob("*.png")) if path.with_suffix(".svg").exists())
+
+    @property
+    def report(self) -> Path | None:
+        """Its report, a page in HTML; None if there is none."""
+        path = None if self.folder is None else self.folder / REPORT
+        return path if path is not None and path.exists() else None
+
+    def why(self, question: str | None = None) -> str:
+        """Explain the run, or what a question is about, as `skillc why` does.
+
+        A question is the number of a step (`2`, `2.1`), a skill, an implementation, or a parameter (`Pick.gripper`).
+        RequestError for a question about something that is not in the run.
+        """
+        with api_call():
+            history = read_history(each.event for each in self.events)
+            if history is None:
+                raise ServiceError(f"the run of {self.task} has no events: {self.failure or 'it did not begin'}")
+            if question is None:
+                return format_overview(history, str(self.folder or "RUN"))
+            return format_answer(answer_question(history, require_text(question, "the question")))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return its result as plain data, as in `result.json`."""
+        value: dict[str, Any] = msgspec.to_builtins(self.result)
+        return value
+
+    def to_frame(self, part: Part = "events") -> pd.DataFrame:
+        """Return its events, steps, wipings, placements or touches as a pandas frame with a row for each.
+
+        SkillcError if pandas is not installed.
+        """
+        require_choice(part, Part, "the part")
+        if part == "events":
+            return make_frame(map(_event_row, self.events), EVENT_COLUMNS)
+        if part == "steps":
+            return make_frame([dict(zip(STEP_COLUMNS, row, strict=True)) for row in self._step_rows()], STEP_COLUMNS)
+        values: Sequence[msgspec.Struct] = getattr(self.result, part)
+        return make_frame([msgspec.structs.asdict(each) for each in values])
+
+    def _step_rows(self) -> list[tuple[object, ...]]:
+        return [
+            (number, each.skill, each.implementation, _arguments(each.arguments), each.status)
+            for number, each in enumerate(self.steps, 1)
+        ]
+
+    def _repr_html_(self) -> str:
+        known = {None: "", True: ", verified", False: ", not verified"}[self.verified]
+        head = f"<p><b>{escape(self.task)}</b>: {self.status}{known}, {self.result.sim_time_s:.1f} s"
+        why = f"<br>{escape(self.failure)}" if self.failure else ""
+        table = make_table(STEP_COLUMNS, self._step_rows()) if self.steps else ""
+        pictures = "".join(path.with_suffix(".svg").read_text("utf-8") for path in (each.path for each in self.figures))
+        return f"{head}{why}</p>{table}{pictures}"
+
+
+def open_run(path: AnyPath) -> Run:
+    """Return the run that was recorded in a folder, or in a file of events.
+
+    SkillcError if there is no readable recording.
+    """
+    with api_call():
+        folder = require_path(path, "the folder of a run")
+        notes = Notes()
+        file = find_recording(folder)
+        events = read_envelopes(file, notes)
+        return Run(read_result(file, events), events, file.parent, tuple(notes.messages))
+
+
+def _arguments(arguments: Mapping[str, Any]) -> str:
+    return ", ".join(f"{name}: {format_value(value)}" for name, value in arguments.items())
+
+
+def _event_row(envelope: Envelope) -> dict[str, object]:
+    event = envelope.event
+    failure = getattr(event, "failure", None)
+    message = getattr(event, "message", None) or getattr(failure, "message", None)
+    name = getattr(event, "name", None) or getattr(event, "skill", None) or getattr(event, "origin", None)
+    return {
+        "sequence": envelope.sequence,
+        "time_s": event.time,
+        "type": str(event.__struct_config__.tag),
+        "name": name or getattr(event, "task", None),
+        "status": getattr(event, "status", None) or getattr(event, "state", None),
+        "message": message or getattr(event, "reason", None),
+    }

@@ -1,0 +1,196 @@
+"""Starts tasks in simulation, each as an operation in a thread of its own, and runs them to their end."""
+
+from __future__ import annotations
+
+import atexit
+import logging
+import threading
+import weakref
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import copy_context
+from dataclasses import replace
+from pathlib import Path
+
+from skillc.api.boundary import AnyPath, Notes, api_call, optional_path, optional_seconds, require_choice, require_count
+from skillc.api.operation import Operation
+from skillc.api.operation_state import Monitor, OperationState, read_pace
+from skillc.api.planning import Minimise, make_request
+from skillc.api.run import Run
+from skillc.services.backends import BackendName
+from skillc.services.errors import ServiceError
+from skillc.services.files import check_writable
+from skillc.services.planning import prepare_planners, with_minimal_makespan
+from skillc.services.run_report import PRIMITIVE_LOOKS
+from skillc.services.running import RunOptions, run_task
+from skillc.services.task_loading import LoadedTask, load_task
+from skillc_runtime.execution.pace import Pace
+from skillc_runtime.recording.envelope import make_run_id
+
+Loading = Callable[[Notes], AbstractContextManager[LoadedTask]]
+EXIT_S = 10.0
+"""How long the end of the program waits for each operation to stop."""
+_LIVE: weakref.WeakSet[OperationState] = weakref.WeakSet()
+logging.getLogger("skillc").addHandler(logging.NullHandler())
+
+
+def run(
+    task: str | None = None,
+    *,
+    goal: str | None = None,
+    skill: str | None = None,
+    scene: AnyPath | None = None,
+    library: AnyPath | None = None,
+    out: AnyPath | None = None,
+    seed: int = 0,
+    backend: BackendName = "mujoco",
+    minimise: Minimise = "work",
+    deadline_s: float | None = None,
+    looks: str = PRIMITIVE_LOOKS,
+) -> Run:
+    """Run a task, a goal or a skill call in simulation, and return how it ended; a failure is a result, not an error.
+
+    `task`, `goal`, `scene`, `library` and `minimise` are as in `plan`; `skill` is a call such as
+    `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and a film. `seed`
+    determines how the simulation differs from the world model; the backend `kinematic` is faster, without physics. The
+    task fails when it takes longer than `deadline_s` s of the cell's time.
+
+    An interrupt from the keyboard stops the task safely, and is raised again. Errors as of `start`.
+    """
+    operation = start(
+        task,
+        goal=goal,
+        skill=skill,
+        scene=scene,
+        library=library,
+        out=out,
+        seed=seed,
+        backend=backend,
+        minimise=minimise,
+        deadline_s=deadline_s,
+        looks=looks,
+    )
+    return operation.wait()
+
+
+def start(
+    task: str | None = None,
+    *,
+    goal: str | None = None,
+    skill: str | None = None,
+    scene: AnyPath | None = None,
+    library: AnyPath | None = None,
+    out: AnyPath | None = None,
+    seed: int = 0,
+    backend: BackendName = "mujoco",
+    minimise: Minimise = "work",
+    deadline_s: float | None = None,
+    looks: str = PRIMITIVE_LOOKS,
+    pace: float | str = "fast",
+    step: bool = False,
+    pause_at: Sequence[str] = (),
+) -> Operation:
+    """Start a task, a goal or a skill call in simulation, and return the operation, which runs in its own thread.
+
+    The parameters are those of `run`. `pace` is `fast`, `real`, or a factor of real time. With `step` it
+    pauses before the first call of a skill, and this returns then; it also pauses before each SKILL or FILE:LINE of
+    `pause_at`.
+
+    DiagnosticsError if the library, the scene, the goal or the call has errors, RequestError if what is named does not
+    exist, SkillcError if the folder cannot be written to.
+    """
+    with api_call():
+        request = make_request(task, goal, skill, scene, library)
+        request.check()
+        options = make_options(out, seed, backend, deadline_s, looks, step, pause_at)
+
+        @contextmanager
+        def load(notes: Notes) -> Iterator[LoadedTask]:
+            with load_task(request, notes) as loaded:
+                yield with_minimal_makespan(loaded) if minimise == "makespan" else loaded
+
+        require_choice(minimise, Minimise, "`minimise`")
+        operation = begin(load, options, pace, task or goal or skill or "task")
+        if step:
+            operation.wait_for_pause()
+        return operation
+
+
+def make_options(
+    out: AnyPath | None,
+    seed: int,
+    backend: BackendName,
+    deadline_s: float | None,
+    looks: str = PRIMITIVE_LOOKS,
+    step: bool = False,
+    pause_at: Sequence[str] = (),
+) -> RunOptions:
+    """Return the options of a run in this process, which no other process watches. RequestError for wrong ones."""
+    folder = optional_path(out, "`out`")
+    options = RunOptions(
+        out=None if folder is None else Path(folder).absolute(),
+        seed=require_count(seed, "the seed", 0),
+        planners=prepare_planners(True),
+        looks=looks,
+        tick_timeout_s=None,
+        deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
+        step=step,
+        pause_at=tuple(pause_at),
+        backend=require_choice(backend, BackendName, "the backend"),
+    )
+    check_writable(options.out)
+    return options
+
+
+def begin_loaded(task: LoadedTask, options: RunOptions, pace: float | str) -> Operation:
+    """Start a task that is loaded; its world is its own."""
+    return begin(lambda _notes: nullcontext(task), options, pace, task.assignment.name)
+
+
+def begin(load: Loading, options: RunOptions, pace: float | str, name: str) -> Operation:
+    """Start a thread that loads and runs a task, and return once it is loaded; the errors of loading are raised."""
+    state = OperationState(make_run_id(name), name, Pace(read_pace(pace)))
+    loaded = threading.Event()
+    context = copy_context()
+    thread = threading.Thread(
+        target=lambda: context.run(_work, load, options, state, loaded), name=f"skillc {state.id}", daemon=True
+    )
+    _LIVE.add(state)
+    thread.start()
+    try:
+        loaded.wait()  # wait ends: with the end of the thread at the latest
+    except KeyboardInterrupt:
+        state.ask_to_stop("interrupted")
+        raise
+    if isinstance(state.error, ServiceError) and not state.events:
+        raise state.error
+    return Operation(state)
+
+
+def _work(load: Loading, options: RunOptions, state: OperationState, loaded: threading.Event) -> None:
+    """Load and run a task, in the thread of its operation."""
+    notes, monitor = Notes(), Monitor(state)
+    watched = replace(options, run_id=state.id, recorders=(monitor.record,))
+    result: Run | None = None
+    error: BaseException | None = None
+    try:
+        with load(notes) as task:
+            state.world = task.world
+            loaded.set()
+            ran = run_task(task, watched, monitor, notes)
+            folder = watched.out if ran.written else None
+            result = Run(ran.result, tuple(state.events), folder, tuple(notes.messages))
+    except BaseException as problem:  # noqa: BLE001 - the boundary of a thread: whoever waits gets the error
+        error = problem
+    state.end(result, error)
+    loaded.set()
+
+
+@atexit.register
+def _stop_all() -> None:
+    """Stop the operations that still run when the program ends, so that nothing is torn from under them."""
+    running = [each for each in _LIVE if not each.over]
+    for each in running:
+        each.ask_to_stop("the program ends")
+    for each in running:
+        each.wait_until_over(EXIT_S)

@@ -1,0 +1,42 @@
+"""The events of runs and what they consist of, for programs that listen to them."""
+
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.events import (
+    Event,
+    ImplementationChosen,
+    NodeEnded,
+    NodeStarted,
+    Note,
+    Paused,
+    PlanArrived,
+    PlanMade,
+    Replanned,
+    Requested,
+    Resumed,
+    StateChanged,
+    TaskEnded,
+    TaskStarted,
+    WorldChanged,
+)
+from skillc_runtime.recording.failure import Failure, Rejection
+
+__all__ = [
+    "Envelope",
+    "Event",
+    "Failure",
+    "ImplementationChosen",
+    "NodeEnded",
+    "NodeStarted",
+    "Note",
+    "Paused",
+    "PlanArrived",
+    "PlanMade",
+    "Rejection",
+    "Replanned",
+    "Requested",
+    "Resumed",
+    "StateChanged",
+    "TaskEnded",
+    "TaskStarted",
+    "WorldChanged",
+]
