@@ -36,9 +36,10 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.traversal import free_variables, walk
+from skillc_model.tree import Node
 
 S = TypeVar("S", bound=msgspec.Struct)
-T = TypeVar("T", bound=Condition | Effect | Expression | Term)
+T = TypeVar("T", bound=Condition | Effect | Expression | Term | Node)
 ALWAYS, NEVER = And(()), Or(())
 
 
@@ -55,6 +56,10 @@ def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
             parts = tuple(change(each) if isinstance(each, msgspec.Struct) else each for each in value)
             if any(one is not other for one, other in zip(parts, value, strict=True)):
                 changes[name] = parts
+        elif isinstance(value, dict):
+            values = {key: change(each) if isinstance(each, msgspec.Struct) else each for key, each in value.items()}
+            if any(values[key] is not each for key, each in value.items()):
+                changes[name] = values
     return msgspec.structs.replace(item, **changes) if changes else item
 
 
@@ -64,7 +69,7 @@ def contains_kind(item: Condition, *kinds: type[msgspec.Struct]) -> bool:
 
 
 def substitute(item: T, values: Mapping[str, Expression]) -> T:
-    """Return the condition, effect, expression or term with the variables replaced by expressions; capture is avoided.
+    """Return the condition, effect, expression, term or body with the variables replaced; capture is avoided.
 
     A value in a place that takes only individuals is replaced by an unknown individual; the author's type error is
     reported elsewhere.
@@ -83,7 +88,7 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
     return changed
 
 
-def _places_of_individuals(item: Condition | Effect | Expression | Term) -> tuple[str, ...]:
+def _places_of_individuals(item: msgspec.Struct) -> tuple[str, ...]:
     match item:
         case Holds() | Assert() | Retract():
             return ("subject", "object")

@@ -12,7 +12,7 @@ from skillc_model.properties import Property
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
-FORMAT = 4
+FORMAT = 5
 KEEP_S = 2.0
 """How long a paused tool goes on pressing, in s, if no running skill states it."""
 
@@ -123,13 +123,14 @@ class Implementation(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Task(msgspec.Struct, frozen=True, kw_only=True):
-    """A scene with either a goal to plan for or a body to run.
+    """A scene with either a goal to plan for or a body to run; `parameters` occur in these as variables.
 
     `scene` is a path relative to the task's file, or the name of a shipped scene.
     """
 
     name: str
     doc: str = ""
+    parameters: tuple[Parameter, ...] = ()
     scene: str | None = None
     goal: Condition | None = None
     goal_text: str = ""

@@ -38,6 +38,12 @@ skill Unload {
 }
 impl by_hand of Unload { do seq { wait TAKES ms  apply gone, there  wait TAKES ms } }
 
+## Bring one crate to a place.
+task carry(crate: Product, to: Location) {
+    scene "yard.ttl"
+    goal to contain crate
+}
+
 task carry_all {
     scene "yard.ttl"
     goal forall c: Product (lab:Goal contain c)

@@ -23,8 +23,8 @@ def requirements_of(implementation: Implementation, kind: str) -> tuple[Requirem
 
 def declare_names(types: AliasTypes, of: Implementation | Task) -> None:
     """Record the class of each parameter and of each `let` that names an individual."""
+    types.classes.update({p.name: class_of(p) for p in of.parameters})
     if isinstance(of, Implementation):
-        types.classes.update({p.name: class_of(p) for p in of.parameters})
         for let in of.lets:
             if isinstance(let.value.type, ThingType):
                 types.classes[let.name.text] = let.value.type.cls or THING

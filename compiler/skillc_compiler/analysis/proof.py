@@ -87,21 +87,20 @@ class Prover:
     def prove_task(self, task: Task) -> None:
         """Prove the body of a task."""
         if task.body is not None:
-            run = self.new_exploration(None, task.body)
+            run = self.new_exploration(task, task.body)
             run.explore(run, task.body, {State(): None}, EvalContext())
             findings = self._all_findings(task, task.body, run, ())
             self.proofs[f"task {task.name}"] = Proof(task, findings)
 
-    def new_exploration(self, implementation: Implementation | None, body: TypedNode) -> Exploration:
+    def new_exploration(self, of: Implementation | Task, body: TypedNode) -> Exploration:
         """Return a new exploration of a body."""
         types = AliasTypes(self.program.vocabulary, self._axioms)
+        implementation = of if isinstance(of, Implementation) else None
         lets: tuple[Let, ...] = implementation.lets if implementation else ()
-        stable = {let.name.text for let in lets}
+        declare_names(types, of)
+        stable = {let.name.text for let in lets} | {p.name for p in of.parameters if p.direction != "out"}
         outputs = {node.call.out.text for node in nodes_in(body) if node.call and node.call.out}
-        if implementation is not None:
-            declare_names(types, implementation)
-            stable |= {p.name for p in implementation.parameters if p.direction != "out"}
-            outputs |= {p.name for p in implementation.parameters if p.direction == "out"}
+        outputs |= {p.name for p in of.parameters if p.direction == "out"}
         return Exploration(
             program=self.program,
             types=types,

@@ -9,6 +9,7 @@ from skillc_compiler.program.typed import (
     ParsedFile,
     Program,
     Skill,
+    Task,
     TypedCondition,
     TypedExpression,
     TypedNode,
@@ -41,6 +42,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 yield _unused("unused-let", let.name.span, f"the value `{let.name.text}` is never used")
     for skill in program.skills.values():
         yield from _parameters(program, skill)
+    for task in program.tasks:
+        yield from _task_parameters(task)
 
 
 def _unused(name: str, span: Span, message: str) -> Diagnostic:
@@ -91,6 +94,16 @@ def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
         read |= _names_read_in(implementation)
     for parameter in skill.parameters:
         if parameter.name not in read and parameter.direction != "out":
+            yield _unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
+
+
+def _task_parameters(task: Task) -> Iterator[Diagnostic]:
+    nodes = tuple(nodes_in(task.body)) if task.body else ()
+    read = _names((), (task.goal,) if task.goal else ())
+    for node in nodes:
+        read |= _names(node_values(node), node.conditions)
+    for parameter in task.parameters:
+        if parameter.name not in read:
             yield _unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
 
 

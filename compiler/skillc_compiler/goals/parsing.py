@@ -129,7 +129,7 @@ def _from_pddl(group: PddlGroup, text: str, names: Names) -> Outcome[s.TaskDecla
         condition = convert_goal(group, lambda name: names.is_term("class", name))
     except PddlGoalError as refusal:
         return Outcome(None, (refusal.problem,))
-    return Outcome(s.TaskDeclaration(s.Name("goal", group.span), None, condition, text, None, "", group.span))
+    return Outcome(s.TaskDeclaration(s.Name("goal", group.span), (), None, condition, text, None, "", group.span))
 
 
 def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:

@@ -70,15 +70,14 @@ def find_context(analysis: Analysis, path: str, cursor: InCode) -> CursorContext
     implementation = next((way for way in ways if way.name == name), None)
     task = next((task for task in program.tasks if kind == "task" and task.name == name), None)
     scene = analysis.library.scenes.get(name, {}) if kind == "task" else {}
-    found = dict(_locals(skill, implementation, analysis.types))
+    found = dict(_locals(implementation or skill or task, implementation, analysis.types))
     found |= dict(_quantified(cursor.before, visible))
     return CursorContext(visible, skill, implementation, task, most_specific_classes(program.vocabulary, scene), found)
 
 
 def _locals(
-    skill: Skill | None, implementation: Implementation | None, types: Mapping[Span, Type]
+    owner: Skill | Implementation | Task | None, implementation: Implementation | None, types: Mapping[Span, Type]
 ) -> Iterator[tuple[str, Type]]:
-    owner = implementation or skill
     for parameter in owner.parameters if owner else ():
         yield parameter.name, parameter.type
     if implementation is None:

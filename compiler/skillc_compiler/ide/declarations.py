@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import assert_never
+from typing import Literal, assert_never
 
 from skillc_compiler.ide.bodies import BodyContext, BodyOccurrences
 from skillc_compiler.ide.symbols import (
@@ -82,11 +82,22 @@ class FileOccurrences(BodyOccurrences):
 
     def _function(self, written: s.FunctionDeclaration) -> Iterator[Occurrence]:
         yield Occurrence(written.name.span, FunctionSymbol(written.name.text), declares=True)
+        known: dict[str, Symbol] = {}
+        yield from self._head("function parameter", written, known)
+        yield from self.type(written.result)
+
+    def _head(
+        self,
+        origin: Literal["function parameter", "task parameter"],
+        written: s.FunctionDeclaration | s.TaskDeclaration,
+        known: dict[str, Symbol],
+    ) -> Iterator[Occurrence]:
+        """Yield the parameters of a head, and add them to `known`."""
         for parameter in written.parameters:
-            symbol = LocalSymbol("function parameter", written.span, parameter.name.text)
+            symbol = LocalSymbol(origin, written.span, parameter.name.text)
+            known[parameter.name.text] = symbol
             yield Occurrence(parameter.name.span, symbol, declares=True)
             yield from self.type(parameter.type)
-        yield from self.type(written.result)
 
     def _skill(self, written: s.SkillDeclaration) -> Iterator[Occurrence]:
         name = written.name.text
@@ -153,13 +164,15 @@ class FileOccurrences(BodyOccurrences):
                     assert_never(member)
 
     def _task(self, written: s.TaskDeclaration) -> Iterator[Occurrence]:
+        known: dict[str, Symbol] = {}
         yield Occurrence(written.name.span, TaskSymbol(written.name.text), declares=True)
+        yield from self._head("task parameter", written, known)
         if written.scene is not None:
             yield Occurrence(written.scene.span, SceneSymbol(written.scene.value))
         if written.goal is not None:
-            yield from self.condition({}, written.goal)
+            yield from self.condition(known, written.goal)
         if written.body is not None:
-            yield from self.node(BodyContext(written.span), {}, written.body.node)
+            yield from self.node(BodyContext(written.span), known, written.body.node)
 
     def _typed(self, member: s.Parameter | s.Refinement) -> Iterator[Occurrence]:
         yield from self.type(member.type)

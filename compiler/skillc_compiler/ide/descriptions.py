@@ -26,7 +26,7 @@ from skillc_compiler.ide.symbols import (
     TypeSymbol,
 )
 from skillc_compiler.ide.term_pages import format_page
-from skillc_compiler.program.typed import Parameter, Requirement, Skill
+from skillc_compiler.program.typed import Parameter, Requirement, Skill, Task
 from skillc_compiler.program.types import describe_type
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import local_name
@@ -77,9 +77,7 @@ def _of_program(analysis: Analysis, symbol: _OfProgram) -> str:
             doc = next((i.doc for i in analysis.program.implementations if i.key == f"{skill}.{name}"), "")
             return format_page(f"impl {name} of {skill}", doc)
         case TaskSymbol(name=name):
-            return format_page(
-                f"task {name}", next((task.doc for task in analysis.program.tasks if task.name == name), "")
-            )
+            return _task(name, next((task for task in analysis.program.tasks if task.name == name), None))
         case ParameterSymbol():
             return _parameter(analysis, symbol)
         case LocalSymbol():
@@ -88,6 +86,12 @@ def _of_program(analysis: Analysis, symbol: _OfProgram) -> str:
             return _label(analysis, symbol)
         case _:
             assert_never(symbol)
+
+
+def _task(name: str, task: Task | None) -> str:
+    declared = task.parameters if task else ()
+    parameters = ", ".join(f"{each.name}: {term_pages.format_bare_type(each.declared)}" for each in declared)
+    return format_page(f"task {name}({parameters})" if parameters else f"task {name}", task.doc if task else "")
 
 
 def _skill(analysis: Analysis, skill: Skill) -> str:

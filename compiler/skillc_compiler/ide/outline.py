@@ -60,17 +60,16 @@ def _entry(written: s.Declaration) -> OutlineEntry:
         case s.PropertyDeclaration(name=name, domain=domain, span=span):
             return OutlineEntry(name.text, f"({domain.text})", "property", span, name.span)
         case s.FunctionDeclaration(name=name, parameters=parameters, span=span):
-            return OutlineEntry(
-                name.text, f"({', '.join(p.name.text for p in parameters)})", "function", span, name.span
-            )
+            return OutlineEntry(name.text, _head(parameters), "function", span, name.span)
         case s.SkillDeclaration(name=name, members=members, span=span):
             return OutlineEntry(name.text, "", "skill", span, name.span, tuple(_members(members)))
         case s.ImplementationDeclaration(name=name, skill=skill, members=members, span=span):
             return OutlineEntry(
                 name.text, f"of {skill.text}", "implementation", span, name.span, tuple(_members(members))
             )
-        case s.TaskDeclaration(name=name, scene=scene, span=span):
-            return OutlineEntry(name.text, scene.value if scene else "", "task", span, name.span)
+        case s.TaskDeclaration(name=name, parameters=parameters, scene=scene, span=span):
+            detail = " ".join(filter(None, (_head(parameters) if parameters else "", scene.value if scene else "")))
+            return OutlineEntry(name.text, detail, "task", span, name.span)
         case _:
             assert_never(written)
 
@@ -88,6 +87,10 @@ def _members(members: Iterable[s.SkillMember | s.ImplementationMember]) -> Itera
                 yield OutlineEntry(name.text, "let", "let", span, name.span)
             case _:
                 pass
+
+
+def _head(parameters: tuple[s.HeadParameter, ...]) -> str:
+    return f"({', '.join(parameter.name.text for parameter in parameters)})"
 
 
 def _below(parents: tuple[s.Name, ...]) -> str:

@@ -63,9 +63,9 @@ class ParameterSymbol:
 
 @dataclass(frozen=True, slots=True)
 class LocalSymbol:
-    """A let, loop variable, output, quantified variable or function parameter; `owner` is the place of its scope."""
+    """A let, loop variable, output, quantified variable or parameter of a head; `owner` is the place of its scope."""
 
-    origin: Literal["let", "loop variable", "output", "variable", "function parameter"]
+    origin: Literal["let", "loop variable", "output", "variable", "function parameter", "task parameter"]
     owner: Span
     name: str
 

@@ -75,6 +75,7 @@ def lower_task(typed: Task) -> library.Task:
     return library.Task(
         name=typed.name,
         doc=typed.doc,
+        parameters=tuple(_parameter(p) for p in typed.parameters),
         scene=typed.scene,
         goal=fold(typed.goal.meaning) if typed.goal else None,
         goal_text=typed.goal_text,

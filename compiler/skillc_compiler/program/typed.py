@@ -210,10 +210,11 @@ class Implementation:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A task: a scene with a goal or a body."""
+    """A task: a scene with a goal or a body; whoever runs it gives values to its parameters."""
 
     name: str
     doc: str
+    parameters: tuple[Parameter, ...]
     scene: str | None
     goal: TypedCondition | None
     goal_text: str

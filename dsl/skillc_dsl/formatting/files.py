@@ -50,11 +50,18 @@ class FileFormatter(MemberFormatter):
         if first.data in _BLOCKS:
             start = index_of(first.children, "LBRACE")
             braces = self.members(first.children[start:], _WORD if first.data == "skill" else 0)
-            yield d.concatenate(self.spaced(first.children[:start]), braces)
+            yield d.concatenate(self._head(first.children[:start]), braces)
         elif first.data in _HEADER:
             yield self.spaced(first.children)
         else:
             yield from align_columns([self._term(tree) for tree in trees])
+
+    def _head(self, children: Sequence[Branch]) -> d.Document:
+        """Return what stands before the braces; no space is between a name and its parameters."""
+        start = index_of(children, "LPAR")
+        if start < 0:
+            return self.spaced(children)
+        return d.concatenate(self.spaced(children[:start]), self.bracketed(children[start:]))
 
     def _term(self, tree: Tree[Token]) -> MemberLine:
         """Return the declaration of a class, a relation, a property or a function."""

@@ -18,7 +18,7 @@ from skillc_dsl.syntax.declarations import ClassDeclaration as ClassDeclaration
 from skillc_dsl.syntax.declarations import Declaration as Declaration
 from skillc_dsl.syntax.declarations import File as File
 from skillc_dsl.syntax.declarations import FunctionDeclaration as FunctionDeclaration
-from skillc_dsl.syntax.declarations import FunctionParameter as FunctionParameter
+from skillc_dsl.syntax.declarations import HeadParameter as HeadParameter
 from skillc_dsl.syntax.declarations import ImplementationDeclaration as ImplementationDeclaration
 from skillc_dsl.syntax.declarations import ImplementationMember as ImplementationMember
 from skillc_dsl.syntax.declarations import Import as Import

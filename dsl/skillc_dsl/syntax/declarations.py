@@ -96,8 +96,8 @@ class PropertyDeclaration:
 
 
 @dataclass(frozen=True, slots=True)
-class FunctionParameter:
-    """`name: Type` in a function's head."""
+class HeadParameter:
+    """`name: Type` in the head of a function or a task."""
 
     name: Name
     type: TypeName
@@ -109,7 +109,7 @@ class FunctionDeclaration:
     """`function name(parameter, ..) -> Type = python "module:function"`"""
 
     name: Name
-    parameters: tuple[FunctionParameter, ...]
+    parameters: tuple[HeadParameter, ...]
     result: TypeName
     python: Text
     doc: str
@@ -139,9 +139,10 @@ class ImplementationDeclaration:
 
 @dataclass(frozen=True, slots=True)
 class TaskDeclaration:
-    """`task name { scene, goal or do }`"""
+    """`task name(parameter, ..) { scene, goal or do }`"""
 
     name: Name
+    parameters: tuple[HeadParameter, ...]
     scene: Text | None
     goal: Condition | None
     goal_text: str

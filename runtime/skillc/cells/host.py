@@ -157,7 +157,7 @@ class CellHost:
         state = self.world.snapshot()
         match (request.task, request.goal, request.call):
             case (str(task), None, None):
-                return assign_task(find_task(self.library, task), state)
+                return assign_task(find_task(self.library, task), self.library, state, request.arguments)
             case (None, str(goal), None):
                 return assign_goal(goal, self.library, state)
             case (None, None, str(call)):

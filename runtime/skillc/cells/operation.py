@@ -13,6 +13,8 @@ from skillc_runtime.recording.states import State
 class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
     """What is to be done: a `task` of the cell's library, a `goal` as a condition or as PDDL, or a `call` of a skill.
 
+    `arguments` are the values of the task's parameters, as they are written in a call, such as `lab:Tray-1` or `8 N`.
+
     Operations wait for devices in the order of their submission. `approve`: each plan waits for approval.
     `ask_after_failure`: a failed step waits for a decision instead of another plan. The operation fails if it has not
     ended `deadline_s` of the cell's time after its submission. It pauses before its first call with `step`, and at each
@@ -22,6 +24,7 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     task: str | None = None
     goal: str | None = None
     call: str | None = None
+    arguments: dict[str, str] = {}
     owner: str = ""
     approve: bool = False
     ask_after_failure: bool = False

@@ -32,6 +32,24 @@ def grouped_option(group: str, *names: str, **settings: Any) -> Callable[[Functi
     return click.option(*names, cls=GroupedOption, group=group, **settings)
 
 
+def task_arguments(function: Function) -> Function:
+    """Add the values of a task's parameters, `NAME=VALUE ..`, as the mapping `arguments`."""
+    return click.argument("arguments", nargs=-1, metavar="[NAME=VALUE]..", callback=_parse_arguments)(function)
+
+
+def _parse_arguments(_context: click.Context, _parameter: click.Parameter, texts: tuple[str, ...]) -> dict[str, str]:
+    """Return the values by name; UsageError for a text without `=`, and for a name that is given twice."""
+    arguments: dict[str, str] = {}
+    for text in texts:
+        name, equal, value = text.partition("=")
+        if not equal or not name.strip() or not value.strip():
+            raise click.UsageError(f"`{text}` is no argument of a task; write NAME=VALUE, such as tray=lab:Tray-1")
+        if name.strip() in arguments:
+            raise click.UsageError(f"the argument `{name.strip()}` is given twice")
+        arguments[name.strip()] = value.strip()
+    return arguments
+
+
 def json_option(function: Function) -> Function:
     """Add `--json`, as `as_json`."""
     return click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")(function)

@@ -16,10 +16,10 @@ _ORIGINS = {"dependency": "a dependency", "shipped": "shipped with skillc"}
 def print_tasks(tasks: Sequence[TaskEntry]) -> None:
     """Print the tasks, library by library; the default task of the project is marked with an asterisk."""
     page = page_of(sys.stdout)
-    longest = max(len(each.name) for each in tasks)
+    longest = max(len(_signature(each)) for each in tasks)
     for (library, origin), members in groupby(tasks, key=lambda each: (each.library, each.origin)):
         title = library if origin == "project" else f"{library}, {_ORIGINS[origin]}"
-        rows = [(Cell(f"{_mark(each)} {each.name:{longest}}", "name"), _describe(each)) for each in members]
+        rows = [(Cell(f"{_mark(each)} {_signature(each):{longest}}", "name"), _describe(each)) for each in members]
         print_lines([page.paint(title, "strong"), *page.columns(rows)])
 
 
@@ -29,3 +29,9 @@ def _mark(task: TaskEntry) -> str:
 
 def _describe(task: TaskEntry) -> str:
     return f"{task.doc or task.aim} ({task.scene or 'no scene'})"
+
+
+def _signature(task: TaskEntry) -> str:
+    """Return the name of a task with those of its parameters."""
+    names = ", ".join(each.partition(":")[0] for each in task.parameters)
+    return f"{task.name}({names})" if names else task.name

@@ -2,25 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
+
+from msgspec import structs
 
 from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.task_scenes import classes_by_individual
 from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
-from skillc_model.skills import SkillLibrary, Task
+from skillc_model.rewriting import substitute
+from skillc_model.skills import Skill, SkillLibrary, Task
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def assign_task(task: Task, state: WorldState) -> Assignment:
-    """Return the assignment of a task; RequestError for one without a goal and without a body."""
+def assign_task(
+    task: Task, library: SkillLibrary, state: WorldState, arguments: Mapping[str, str] | None = None
+) -> Assignment:
+    """Return the assignment of a task with `arguments`, the values of its parameters as written in a call.
+
+    DiagnosticsError if an argument is missing, or has errors; RequestError for a task without a goal and a body.
+    """
+    task = bind_task(task, library, state, arguments or {})
     if task.goal is not None:
         return Assignment(task.name, state, AchieveGoal(task.goal))
     if task.body is None:
         raise RequestError(f"the task `{task.name}` has neither a goal nor a body")
     return Assignment(task.name, state, ExecuteBody(task.body))
+
+
+def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: Mapping[str, str]) -> Task:
+    """Return a task with values in place of its parameters; they are read like those of a skill of its name.
+
+    DiagnosticsError if an argument is missing, or has errors; RequestError if the task takes none.
+    """
+    if not task.parameters:
+        if arguments:
+            raise RequestError(f"the task `{task.name}` takes no arguments")
+        return task
+    written = f"{task.name}({', '.join(f'{name}: {value}' for name, value in arguments.items())})"
+    head = Skill(name=task.name, parameters=task.parameters, source=task.source)
+    individuals = classes_by_individual(state, library.vocabulary)
+    only = structs.replace(library, skills={task.name: head})
+    values = _valid(parse_call(written, only, individuals, state.vocabulary.prefixes), written).arguments
+    return structs.replace(
+        task,
+        name=written,
+        parameters=(),
+        goal=None if task.goal is None else substitute(task.goal, values),
+        body=None if task.body is None else substitute(task.body, values),
+    )
 
 
 def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignment:

@@ -41,6 +41,8 @@ def check_tasks_in_scenes(
 ) -> list[Diagnostic]:
     """Return the diagnostics of tasks that cannot succeed, individuals without implementations, and unusable arms.
 
+    What tasks with parameters do depends on their arguments, and is checked when they run.
+
     `program` is the compiled program. Libraries and scenes with errors are skipped, and so is what compiling has
     reported. What affects several tasks is reported at the first.
     """
@@ -49,9 +51,10 @@ def check_tasks_in_scenes(
     library = compiled.value
     errors: list[Diagnostic] = []
     places = value_checks.value_places(program)
+    known = {name: task for name, task in library.tasks.items() if not task.parameters}
     for name, path in scenes.files.items():
-        if path in scenes.valid and name in library.tasks:
-            found = _of_task(library.tasks[name], library, display_path, scenes.valid[path], places)
+        if path in scenes.valid and name in known:
+            found = _of_task(known[name], library, display_path, scenes.valid[path], places)
             errors += (each for each in found if not _is_reported(each, compiled.diagnostics))
     errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
@@ -61,7 +64,7 @@ def check_tasks_in_scenes(
     others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
     cells: list[Diagnostic] = []
     for path, scene in scenes.valid.items():
-        tasks = [library.tasks[name] for name, file in scenes.files.items() if file == path and name in library.tasks]
+        tasks = [known[name] for name, file in scenes.files.items() if file == path and name in known]
         goals = [each.goal for each in tasks if each.goal is not None]
         cells += cell_diagnostics(scene, str(path), _used_in(tasks, scene), goals)
     return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled), *cells]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, assert_never
 
 from skillc.services.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
@@ -24,7 +24,8 @@ Origin = Literal["project", "dependency", "shipped"]
 class TaskEntry:
     """A task: what names it here (`name`), its library, what it does, and the scene that it is in as it is written.
 
-    `origin` says whose library it is, `aim` is the text of its goal, or the calls of its body.
+    `origin` says whose library it is, `aim` is the text of its goal, or the calls of its body. `parameters` are as in
+    its declaration, such as `tray: Carrier`.
     """
 
     name: str
@@ -35,6 +36,7 @@ class TaskEntry:
     doc: str
     file: str
     is_default: bool = False
+    parameters: tuple[str, ...] = ()
 
 
 def split_reference(reference: str) -> tuple[LibraryFiles, str]:
@@ -116,12 +118,26 @@ def _of_library(files: LibraryFiles, origin: Origin, prefix: str) -> Iterator[Ta
             doc=_one_line(each.doc),
             file=files.display_path(each.span.path),
             is_default=each.name.text == default,
+            parameters=tuple(f"{parameter.name.text}: {_format_type(parameter.type)}" for parameter in each.parameters),
         )
     for name, goal in (manifest.tasks if manifest else {}).items():
         assert files.project is not None
         file = files.project.source.path
         aim = _one_line(goal.goal or goal.skill or "")
         yield TaskEntry(f"{prefix}{name}", origin, files.name, aim, goal.scene or scene, "", file, name == default)
+
+
+def _format_type(written: s.TypeName) -> str:
+    """Return a type as it is written."""
+    match written:
+        case s.Name(text=text):
+            return text
+        case s.OfDimension(of=of, dimension=dimension):
+            return f"{of.text} of {dimension.text}"
+        case s.ListOf(element=element):
+            return f"[{_format_type(element)}]"
+        case _:
+            assert_never(written)
 
 
 def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:

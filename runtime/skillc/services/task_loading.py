@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import msgspec
@@ -29,6 +29,7 @@ class TaskRequest:
     """The task `LIBRARY:NAME`, or a goal or a skill call in a scene or in a stored world.
 
     The library of a goal or call is that of the project here, or the shipped one, unless `library` is given.
+    `arguments` are the values of the task's parameters, as they are written in a call.
     """
 
     task: str | None = None
@@ -37,6 +38,7 @@ class TaskRequest:
     call: str | None = None
     library: Path | None = None
     store: StoreChoice = NO_STORE
+    arguments: Mapping[str, str] = field(default_factory=dict)
 
     def with_defaults(self) -> TaskRequest:
         """Return the request with the task or the scene of the project here, if it names none."""
@@ -113,7 +115,8 @@ def _find_scene(task: Task, files: LibraryFiles) -> Path:
 def _load_named(reference: str, request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
     library, task, scene = find_task_in_scene(reference)
     with open_world(request.store, scene, library.vocabulary, reporter) as world:
-        yield LoadedTask(library, assign_task(task, world.snapshot()), world, _origin(request, scene))
+        assignment = assign_task(task, library, world.snapshot(), request.arguments)
+        yield LoadedTask(library, assignment, world, _origin(request, scene))
 
 
 @contextmanager

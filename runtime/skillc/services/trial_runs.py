@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
+from msgspec import structs
+
+from skillc.services.assignments import bind_task
 from skillc.services.errors import ServiceError
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
@@ -32,7 +35,8 @@ StartMonitor: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[
 class TrialRequest:
     """The task of the trials, their disturbance and seeds, the number of parallel `jobs`, and the folder to write.
 
-    `limit_s` is the time that one trial may take, in s of wall-clock time.
+    `limit_s` is the time that one trial may take, in s of wall-clock time. `arguments` are the values of the task's
+    parameters, as they are written in a call.
     """
 
     reference: str
@@ -41,6 +45,7 @@ class TrialRequest:
     jobs: int
     out: Path | None
     limit_s: float = TRIAL_LIMIT_S
+    arguments: Mapping[str, str] = field(default_factory=dict)
 
 
 def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -> Series:
@@ -50,7 +55,8 @@ def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -
     process can run trials.
     """
     library, task, scene = find_task_in_scene(request.reference)
-    load_world(scene, library.vocabulary, reporter)
+    task = bind_task(task, library, load_world(scene, library.vocabulary, reporter), request.arguments)
+    library = structs.replace(library, tasks={**library.tasks, task.name: task})
     experiment = Experiment(codec.dumps(library), task.name, scene, request.disturbance)
     trials = _run(request, experiment, _heading(experiment, library), watch, reporter)
     return judge_series(task.name, request.disturbance, len(request.seeds), trials)

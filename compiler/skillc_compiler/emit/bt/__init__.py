@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Set
 from xml.etree.ElementTree import Element, indent, tostring
 
+from skillc_compiler.emit.bt.body import bind_parameters
 from skillc_compiler.emit.bt.calls import is_tree, reachable_skills
 from skillc_compiler.emit.bt.model import Model
 from skillc_compiler.emit.bt.names import NodeIds, to_identifier, to_xml_text
@@ -61,7 +62,7 @@ def _task_file(task: Task, node: Node, library: SkillLibrary, names: NodeIds, ch
     path = ("", "task", task.name)
     identity = names.of(*path)
     model.declare("SubTree", identity, path, (), task.doc)
-    body = NodeWriter(library, names, model, path)
+    body = NodeWriter(library, names, model, path, bound=bind_parameters(task.parameters))
     tree = Element("BehaviorTree", ID=identity, _description=str(task.source))
     tree.append(with_start_scripts(body, [body.node(node)]))
     called = reachable_skills([each.skill for each in find_calls(node)], library)

@@ -86,16 +86,16 @@ class FileBuilder(MemberBuilder):
         span = self.over(children)
         return s.FunctionDeclaration(
             self.as_name(children[1]),
-            children_of_type(children, s.FunctionParameter),
+            children_of_type(children, s.HeadParameter),
             self.type_at(children, len(children) - 4),
             self.string(children[-1]),
             self.doc(span),
             span,
         )
 
-    def function_parameter(self, children: list[Child]) -> s.FunctionParameter:
+    def head_parameter(self, children: list[Child]) -> s.HeadParameter:
         """`name: Type`"""
-        return s.FunctionParameter(self.label(children[0]), self.type_at(children, 1), self.over(children))
+        return s.HeadParameter(self.label(children[0]), self.type_at(children, 1), self.over(children))
 
     def skill(self, children: list[Child]) -> s.SkillDeclaration:
         """`skill Name { members }`"""
@@ -111,13 +111,14 @@ class FileBuilder(MemberBuilder):
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
 
     def task(self, children: list[Child]) -> s.TaskDeclaration:
-        """`task name { scene, goal or do }`"""
+        """`task name(parameter, ..) { scene, goal or do }`"""
         name, span = self.as_name(children[1]), self.over(children)
         scene = self._only(part for part in children_of_type(children, Part) if part.rule == "scene")
         goal = self._only(part for part in children_of_type(children, Part) if part.rule == "goal")
         condition = self.condition(goal.children[1]) if goal else None
         return s.TaskDeclaration(
             name,
+            children_of_type(children, s.HeadParameter),
             self.string(scene.children[1]) if scene else None,
             condition,
             self.written(condition.span) if condition else "",

@@ -17,7 +17,15 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene, complete_task
-from skillc.cli.options import PATH, PLANNING, grouped_option, json_option, planner_options, store_options
+from skillc.cli.options import (
+    PATH,
+    PLANNING,
+    grouped_option,
+    json_option,
+    planner_options,
+    store_options,
+    task_arguments,
+)
 from skillc.cli.settings import output_settings
 
 if TYPE_CHECKING:
@@ -33,6 +41,7 @@ skillc plan wiping:clean_both --minimise makespan --json
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_task)
+@task_arguments
 @click.option("--goal", metavar="CONDITION", help="Plan without a task: for this goal, a condition or PDDL.")
 @click.option("--scene", type=PATH, shell_complete=complete_scene, help="The scene of --goal.")
 @click.option("--library", type=PATH, help="The library of --goal; by default that here, or `wiping`.")
@@ -51,6 +60,7 @@ skillc plan wiping:clean_both --minimise makespan --json
 @json_option
 def command(
     task: str | None,
+    arguments: dict[str, str],
     scene: Path | None,
     goal: str | None,
     library: Path | None,
@@ -75,7 +85,7 @@ def command(
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
 
-    request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset)).with_defaults()
+    request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset), arguments).with_defaults()
     remark_default(task, request.task)
     request.check(calls=False)
     if prove and minimise != "work":

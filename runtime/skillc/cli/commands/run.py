@@ -26,6 +26,7 @@ from skillc.cli.options import (
     operating_options,
     planner_options,
     store_options,
+    task_arguments,
 )
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ skillc run clean_table --pause-at Wipe
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_task)
+@task_arguments
 @click.option("--goal", metavar="CONDITION", help="Run without a task: plan for this goal, a condition or PDDL.")
 @click.option("--skill", metavar="CALL", help="Run without a task: call a skill, as in `Wipe(surface: lab:Table-1)`.")
 @click.option("--scene", type=PATH, shell_complete=complete_scene, help="The scene of --goal or --skill.")
@@ -92,6 +94,7 @@ skillc run clean_table --pause-at Wipe
 @json_option
 def command(
     task: str | None,
+    arguments: dict[str, str],
     scene: Path | None,
     goal: str | None,
     skill: str | None,
@@ -127,7 +130,8 @@ def command(
     from skillc.services.running import RunOptions
     from skillc.services.stores import StoreChoice
 
-    request = task_loading.TaskRequest(task, scene, goal, skill, library, StoreChoice(store, reset)).with_defaults()
+    kept = StoreChoice(store, reset)
+    request = task_loading.TaskRequest(task, scene, goal, skill, library, kept, arguments).with_defaults()
     remark_default(task, request.task)
     request.check()
     options = RunOptions(

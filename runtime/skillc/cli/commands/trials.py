@@ -14,7 +14,7 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_task
-from skillc.cli.options import FOLDER, json_option
+from skillc.cli.options import FOLDER, json_option, task_arguments
 from skillc_runtime.evaluation.trials.trial import Disturbance
 
 EXAMPLES = """
@@ -28,6 +28,7 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_task)
+@task_arguments
 @click.option(
     "-n",
     "--number",
@@ -60,6 +61,7 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
 @json_option
 def command(
     task: str | None,
+    arguments: dict[str, str],
     number: int,
     seed: int,
     jobs: int | None,
@@ -84,7 +86,8 @@ def command(
     chosen = require_task(task)
     remark_default(task, chosen)
     at_a_time = min(jobs or os.cpu_count() or 1, number)
-    request = TrialRequest(chosen, disturb, range(seed, seed + number), at_a_time, out, deadline)
+    seeds = range(seed, seed + number)
+    request = TrialRequest(chosen, disturb, seeds, at_a_time, out, deadline, arguments)
     result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)
