@@ -1,6 +1,6 @@
 """Build cases: `python tests/accept.py` rewrites what each folder of `cases/build` is expected to compile to.
 
-It also rewrites the table of features in the documentation.
+It also rewrites the table of features in the documentation, and the JSON Schemas that ship.
 
 A case holds the `.skill` files of a library, its vocabularies in Turtle, and the artifacts below `expected/`.
 """
@@ -11,13 +11,16 @@ import shutil
 import sys
 from pathlib import Path
 
+import skillc
 from docs.manual import MANUAL, manual
+from skillc.services.schemas import SCHEMAS, format_schema, make_schema
 from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.emit.write import write
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.load import load
 
+SCHEMA_FILES = Path(skillc.__file__).parent / "schemas"
 CASES = Path(__file__).parent / "cases" / "build"
 
 
@@ -58,6 +61,8 @@ def main() -> None:
         sys.stderr.write(f"{case.name}: {', '.join(changed) or 'unchanged'}\n")
     PAGE.write_text(page())
     MANUAL.write_text(manual(), encoding="utf-8")
+    for name in SCHEMAS:
+        (SCHEMA_FILES / f"{name}.schema.json").write_text(format_schema(make_schema(name)), encoding="utf-8")
 
 
 if __name__ == "__main__":

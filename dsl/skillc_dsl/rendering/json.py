@@ -4,11 +4,46 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Literal, TypedDict
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.rendering.printable import escaped
 from skillc_dsl.source import Source, Span
+
+
+class PlaceData(TypedDict):
+    """A range of text in the file `path`."""
+
+    path: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+class LabelData(PlaceData):
+    """Another place that a diagnostic is about."""
+
+    message: str
+
+
+class FixData(PlaceData):
+    """An edit that removes the problem: `text` replaces the range; one that is not `safe` may change a meaning."""
+
+    text: str
+    message: str
+    safe: bool
+
+
+class DiagnosticData(PlaceData):
+    """A problem: its name, as `skillc explain` knows it, where it is, and what to do about it."""
+
+    name: str
+    severity: Literal["error", "warning"]
+    message: str
+    help: str
+    labels: list[LabelData]
+    fix: FixData | None
 
 
 def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> str:
@@ -23,7 +58,7 @@ def read(text: str) -> tuple[Diagnostic, ...]:
     return tuple(_diagnostic(data) for data in json.loads(text))
 
 
-def _as_data(diagnostic: Diagnostic) -> dict[str, object]:
+def _as_data(diagnostic: Diagnostic) -> DiagnosticData:
     """Return the JSON object of one diagnostic; `fix` is null if there is none."""
     fix = diagnostic.fix
     return {
@@ -37,7 +72,7 @@ def _as_data(diagnostic: Diagnostic) -> dict[str, object]:
     }
 
 
-def _place(span: Span) -> dict[str, object]:
+def _place(span: Span) -> PlaceData:
     return {
         "path": span.path,
         "line": span.line,

@@ -33,7 +33,7 @@ SECTIONS = {
     "Skills": ("check", "fmt", "explain", "graph", "doc", "compile", "shapes"),
     "Tasks": ("plan", "run", "why", "trials", "demo"),
     "Scenes": ("world", "scene"),
-    "Tools": ("doctor", "completion", "lsp"),
+    "Tools": ("doctor", "schema", "completion", "lsp"),
 }
 """The sections of the help, with their commands in the order in which they are listed."""
 

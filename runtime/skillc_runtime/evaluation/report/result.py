@@ -115,7 +115,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
     is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
     was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved, `works` one for each
-    other piece of work, `touches` one for each contact of a link, a hand or a base.
+    other piece of work, `touches` one for each contact of a link, a hand or a base. `prefixes` expands names such as
+    `lab:Arm-1` to IRIs.
     """
 
     task: str
@@ -143,3 +144,4 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     failure: str | None = None
     cause: Failure | None = None
     failed_calls: tuple[FailedCall, ...] = ()
+    prefixes: dict[str, str] = {}

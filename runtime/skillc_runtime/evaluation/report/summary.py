@@ -36,6 +36,7 @@ def summarise_start(task: str, simulation: Simulation) -> TaskResult:
         controller=", ".join(_controllers(state)),
         seed=truth.seed,
         variation=truth.variation,
+        prefixes=dict(sorted(state.vocabulary.prefixes.items())),
     )
 
 
