@@ -1,7 +1,8 @@
 """What a primitive of your own is made of; `docs/how-to/own-primitive.md` shows one."""
 
 from skillc_runtime.devices.cell import Cell
+from skillc_runtime.primitives.locate import Locate
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.state.labelled import Quantity
 
-__all__ = ["Cell", "Primitive", "Quantity", "SkillFailure", "Status"]
+__all__ = ["Cell", "Locate", "Primitive", "Quantity", "SkillFailure", "Status"]

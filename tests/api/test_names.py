@@ -15,8 +15,9 @@ import pytest
 import skillc
 from docs.pages import ROOT, blocks
 
-MODULES = ("skillc", "skillc.events")
-PAGES = (ROOT / "docs/python.md",)
+PARTS = ("backends", "collision", "controllers", "devices", "events", "primitives", "space", "world")
+MODULES = ("skillc", *(f"skillc.{part}" for part in PARTS))
+PAGES = tuple(path for path in sorted((ROOT / "docs").rglob("*.md")) if path.name != "architecture.md")
 HEAVY = ("mujoco", "numpy", "rich", "pyoxigraph", "msgspec", "lark", "pandas", "asyncio", "skillc.api")
 
 
@@ -37,7 +38,7 @@ def _needs_docstring(value: Any) -> bool:
 @pytest.mark.parametrize("module", MODULES)
 def test_every_public_name_has_a_docstring(module: str) -> None:
     found = [(name, value) for name, value in _members(module) if _needs_docstring(value)]
-    assert len(found) > 10
+    assert len(found) > 2
     assert not [name for name, value in found if not inspect.getdoc(value)]
 
 
@@ -70,7 +71,7 @@ def test_docs_import_public_modules_only_and_names_that_exist() -> None:
         for block in blocks(page):
             if block.language in ("python", "py"):
                 own += [(page.name, *each) for each in _imports(block.text) if each[0].startswith("skillc")]
-    assert len(own) >= 2
+    assert len(own) > 20
     private = [each for each in own if each[1] not in MODULES]
     assert not private
     missing = [each for each in own if each[2] and not hasattr(importlib.import_module(each[1]), each[2])]

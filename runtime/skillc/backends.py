@@ -1,0 +1,7 @@
+"""The cells that tasks can run in."""
+
+from skillc_runtime.backends.kinematic.cell import KinematicCell
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.real_time.cell import RealTimeCell
+
+__all__ = ["KinematicCell", "RealTimeCell", "SimulatedCell"]
