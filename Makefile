@@ -15,7 +15,7 @@ KINDS :=
 # For `make soak`: the number of random cells; SEED is that of the first.
 CELLS := 300
 
-.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors docs accept lock clean
+.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors docs pictures accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -63,6 +63,9 @@ editors:         ## build the extension for VS Code, editors/vscode/dist/skillc.
 
 docs: .venv/.dev  ## build the site of the documentation, out/site/index.html; nothing is loaded from elsewhere
 	PYTHONPATH=docs $(BIN)/python -m skillc_site out/site
+
+pictures: .venv/.dev ## make the pictures of docs/gallery.md and the film of README from runs (half an hour); films are kept in out/pictures
+	PYTHONPATH=tests $(BIN)/python -m docs.gallery_pictures
 
 accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build, docs/diagnostics.md and docs/matrix.md
 	$(BIN)/python tests/accept.py

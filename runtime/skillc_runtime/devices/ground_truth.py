@@ -197,8 +197,7 @@ class GroundTruth(Protocol):
     def contact_force(self, gripper: str) -> Array | None:
         """Return the force (3,) in N, world axes, with which a hand and what it holds press on the rest, added up.
 
-        A person who leads the hand counts as the rest. None where forces are not computed; KeyError if the cell has no
-        such gripper.
+        It is the sum of all contacts. None where forces are not computed; KeyError if the cell has no such gripper.
         """
         ...
 

@@ -22,6 +22,9 @@ LOOP_EVERY, LOOP_RATE = 2, 12.5
 LOOP_WIDTHS = (800, 640, 560, 480, 400, 320)
 """Widths in pixels of a loop, the greatest first that keeps it small enough."""
 
+COLOURS = 200
+"""Number of colours of a GIF."""
+
 LOOP_BYTES = 4_000_000
 """A loop is not larger than this."""
 
@@ -88,16 +91,25 @@ def _reduced(image: Image.Image, width: int) -> Image.Image:
     return image.resize((width, round(width * image.height / image.width)), Image.Resampling.LANCZOS)
 
 
+def few_colours(image: Image.Image) -> Image.Image:
+    """Return a picture with few colours, among them those of small things."""
+    return image.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+
+
+def _side_by_side(images: Sequence[Image.Image]) -> Image.Image:
+    return Image.fromarray(np.concatenate([np.asarray(each) for each in images], axis=1))
+
+
 def _encode_loop(images: Sequence[Image.Image], kind: Literal["gif", "webp"]) -> bytes:
     """Return pictures of equal size as a file that repeats for ever."""
     written, interval_ms = BytesIO(), round(1000 / LOOP_RATE)
     if kind == "gif":
-        palette = images[len(images) // 2].quantize(128, Image.Quantize.MEDIANCUT)
+        palette = few_colours(_side_by_side([images[0], images[len(images) // 2], images[-1]]))
         images = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in images]
         images[0].save(written, kind, save_all=True, append_images=images[1:], duration=interval_ms, loop=0)
     else:
         images[0].save(
-            written, kind, save_all=True, append_images=images[1:], duration=interval_ms, loop=0, quality=70, method=4
+            written, kind, save_all=True, append_images=images[1:], duration=interval_ms, loop=0, quality=70, method=2
         )
     return written.getvalue()
 
