@@ -78,9 +78,15 @@ def test_not_wiped_is_in_the_legend_only_where_something_was_not() -> None:
     assert "not wiped" not in words(render_figure(lambda: draw_figure([whole])).svg)
 
 
+def test_what_was_not_to_be_wiped_does_not_count_as_not_wiped() -> None:
+    spared = replace(wiped(), spared=wiped().dose == 0.0)
+    named = words(render_figure(lambda: draw_figure([spared])).svg)
+    assert "not to be wiped" in named and "not wiped" not in named
+
+
 def test_the_shades_have_one_hue_get_darker_with_the_dose_and_share_their_scale() -> None:
     short, long = wiped(), replace(wiped(), dose=4 * wiped().dose)
-    shades = [axes.images[0] for axes in drawn([short, long]).axes if axes.images]
+    shades = [axes.images[-1] for axes in drawn([short, long]).axes if axes.images]
     assert [each.get_clim() for each in shades] == [(0.0, 2.0), (0.0, 2.0)]
     np.testing.assert_array_equal(np.ma.getmaskarray(shades[0].get_array()), short.dose == 0)
     red, green, blue, _ = shades[0].cmap(np.linspace(0.0, 1.0, 9)).T

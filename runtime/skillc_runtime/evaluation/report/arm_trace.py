@@ -34,7 +34,7 @@ class ArmPath:
 
     @property
     def position(self) -> Array:
-        """Position (n, 3) of the tool centre point in m, from the measured joints."""
+        """Position (n, 3) of the tool centre point in m, an estimate from the measured joints."""
         return self.rows[:, 1:4]
 
     @property

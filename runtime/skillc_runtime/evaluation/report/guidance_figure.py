@@ -39,7 +39,7 @@ def draw_guidance(period: FreePeriod) -> Figure:
         plot_curve(force, period.guidance.times - start, period.guidance.forces, "truth", "force of the person")
     force.set(ylabel="force, N", xlim=(0.0, time[-1] - start), ylim=(0.0, None))
     force.set_title("Force of the person" if period.guidance is not None else "Nobody guided the tool")
-    plot_curve(speed, time - start, period.speed_mm_s, "sensor", "speed of the tool", linestyle="-")
+    plot_curve(speed, time - start, period.speed_mm_s, "estimate", "speed of the tool", linestyle="-")
     speed.set(
         xlabel="time since the arm yields, s", ylabel="speed, mm/s", xlim=(0.0, time[-1] - start), ylim=(0.0, None)
     )
@@ -52,7 +52,7 @@ def _draw_view(axes: Axes, period: FreePeriod, path: Array, order: tuple[int, in
     """Draw the path onto two axes of the world, to scale."""
     columns = list(order)
     shown = path[:, columns]
-    plot_path(axes, shown, "sensor", "path of the tool", linestyle="-")
+    plot_path(axes, shown, "estimate", "path of the tool", linestyle="-")
     axes.plot(*shown[0], "o", color=INK, markeredgecolor=PAPER, markersize=7, zorder=6, label="began")
     axes.plot(*shown[-1], "s", color=INK, markeredgecolor=PAPER, markersize=7, zorder=6, label="ended")
     if period.guidance is not None:

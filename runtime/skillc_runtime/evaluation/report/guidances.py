@@ -28,7 +28,7 @@ class FreePeriod:
 
     @property
     def speed_mm_s(self) -> Array:
-        """The speed (n,) of the tool in mm/s, by the sensors of the joints."""
+        """The speed (n,) of the tool in mm/s, from the measured joints."""
         return np.asarray(1e3 * np.linalg.norm(self.samples.velocity, axis=1))
 
 

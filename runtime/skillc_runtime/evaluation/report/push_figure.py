@@ -50,7 +50,7 @@ def draw_push(drawing: PushDrawing) -> Figure:
         plot_curve(by_travel, at, drawing.push.truth[:, 1], "truth", "force")
     plot_curve(by_travel, travel[moved], push.force[moved], drawing.source, "force")
     plot_curve(by_travel, _ends(travel[moved]), np.full(2, push.force_n), "commanded", "force")
-    by_travel.set(xlabel=f"travel of the tool after {'contact' if push.contact_s else 'its start'}, mm: sensor")
+    by_travel.set(xlabel=f"travel of the tool after {'contact' if push.contact_s else 'its start'}, mm: estimate")
     by_travel.set_title("Force over travel")
     by_travel.tick_params(labelleft=True)
     add_legend(figure)

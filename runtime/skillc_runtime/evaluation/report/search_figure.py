@@ -60,7 +60,7 @@ def _draw_path(axes: Axes, drawing: SearchDrawing) -> None:
     search = drawing.search
     path, reference = (search.in_plane(each) for each in (search.samples.position, search.samples.reference))
     plot_path(axes, reference, "commanded", "path", linewidth=0.9)
-    plot_path(axes, path, "sensor", "path of the tool", linestyle="-")
+    plot_path(axes, path, "estimate", "path of the tool", linestyle="-")
     axes.plot(*path[0], "o", color=INK, markeredgecolor=PAPER, markersize=7, zorder=6, label="began")
     if search.found:
         axes.plot(*path[-1], "s", color=INK, markeredgecolor=PAPER, markersize=7, zorder=6, label="gave way")
@@ -80,7 +80,7 @@ def _draw_depth(axes: Axes, drawing: SearchDrawing) -> None:
     search, push = drawing.search, drawing.search.push
     time = push.samples.time
     depth = push.travel_mm - push.travel_mm[min(int(np.searchsorted(time, search.start_s)), len(time) - 1)]
-    plot_curve(axes, time - push.start_s, depth, "sensor", "depth", linestyle="-")
+    plot_curve(axes, time - push.start_s, depth, "estimate", "depth", linestyle="-")
     shown = depth[time - push.start_s >= axes.get_xlim()[0]]
     room = 0.08 * max(float(np.ptp(shown)), 1.0)
     axes.set_ylim(shown.min() - room, shown.max() + room)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from skillc_runtime.devices.ground_truth import GroundTruth, Recording, join_recordings
 from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_standstill
@@ -34,7 +35,7 @@ class WipingDrawing:
     contact time of the cells in s. lanes (n, 2): the commanded path without overlays; tool (n, 2): the measured path.
     time (n,): of lanes, tool and speeds; lane_speed, tool_speed (n,): mm/s along the path; `overlay_period_s`: of the
     overlay, None without one. contact_time, force (m,): s and N from the approach on; `force_n` is the commanded force.
-    While paused, nothing but the force is drawn.
+    While paused, nothing but the force is drawn. `spared`: which cells are not to be wiped, as `dose`; None for none.
     """
 
     surface: str
@@ -52,6 +53,7 @@ class WipingDrawing:
     force: Array
     force_n: float
     pauses: tuple[Interval, ...] = ()
+    spared: NDArray[np.bool_] | None = None
 
     @property
     def step_s(self) -> float:
@@ -82,6 +84,7 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
         extent=1e3 * setup.extent,
         covered=covered.wiped_share,
         dose=covered.dose,
+        spared=~covered.mask,
         lanes=on_surface(rows_drawn.path),
         tool=on_surface(rows_drawn.position),
         time=rows_drawn.time - wiping.start,

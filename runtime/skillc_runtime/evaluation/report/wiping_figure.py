@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -35,6 +36,9 @@ MARGIN_MM = 10.0
 """How much is shown around a surface."""
 
 UNWIPED: dict[str, Any] = {"facecolor": PAPER, "edgecolor": DIM, "hatch": "////", "linewidth": 0.0, "zorder": 0}
+
+SPARED = "#b9c0c8"
+"""The colour of what is not to be wiped."""
 
 LANES: dict[str, Any] = {"linestyle": "-", "linewidth": 0.9}
 """A commanded path is dense where it turns: dots would not be seen."""
@@ -65,8 +69,7 @@ def _draw_surface(axes: Axes, drawing: WipingDrawing, longest: float) -> None:
         np.ma.masked_equal(drawing.dose, 0.0), extent=(-x, x, -y, y), origin="lower", cmap=DOSE,
         vmin=0.0, vmax=longest or 1.0, interpolation="nearest", zorder=1,
     )  # fmt: skip
-    if (drawing.dose == 0.0).any():
-        axes.add_patch(Rectangle((-x, -y), 2 * x, 2 * y, label="not wiped", **UNWIPED))
+    _draw_unwiped(axes, drawing)
     plot_path(axes, drawing.tool, "truth", "tool")
     plot_path(axes, drawing.lanes, "commanded", "lanes, without overlay", **LANES)
     axes.set(xlabel="x on the surface, mm", ylabel="y on the surface, mm", aspect="equal")
@@ -74,6 +77,19 @@ def _draw_surface(axes: Axes, drawing: WipingDrawing, longest: float) -> None:
     axes.grid(visible=False)
     axes.set_title(f"{drawing.surface} by {drawing.robot}: {drawing.covered:.1%} wiped")
     axes.figure.colorbar(shades, ax=axes, label="contact time of a 5 mm cell, s", shrink=0.8, pad=0.02)
+
+
+def _draw_unwiped(axes: Axes, drawing: WipingDrawing) -> None:
+    """Draw the cells that were not wiped, and those that should not be, if there are any."""
+    x, y = drawing.extent / 2
+    unwiped = drawing.dose == 0.0
+    spared = np.zeros_like(unwiped) if drawing.spared is None else drawing.spared & unwiped
+    if (unwiped & ~spared).any():
+        axes.add_patch(Rectangle((-x, -y), 2 * x, 2 * y, label="not wiped", **UNWIPED))
+    if spared.any():
+        shown, grey = np.ma.masked_equal(spared, False), ListedColormap([SPARED])
+        axes.imshow(shown, extent=(-x, x, -y, y), origin="lower", cmap=grey, interpolation="nearest", zorder=0.5)
+        axes.add_patch(Rectangle((0, 0), 0, 0, facecolor=SPARED, label="not to be wiped"))
 
 
 def _draw_speed(axes: Axes, drawing: WipingDrawing) -> None:

@@ -73,11 +73,9 @@ def _draw_wipings(record: RunRecord) -> Iterator[WorkFigure]:
 
 
 def _pushes(record: RunRecord) -> Iterator[Push]:
-    """Yield the pushes besides those of wiping, whose numbers say more."""
-    strokes = [stroke for each in record.wipings for stroke in each.strokes]
-    for push in find_pushes(record):
-        if not any(push.start_s <= start and end <= push.end_s for start, end in strokes):
-            yield push
+    """Yield the pushes besides those on surfaces that were wiped, whose numbers say more."""
+    wiped = {each.surface for each in record.wipings}
+    yield from (push for push in find_pushes(record) if not wiped.intersection(push.on))
 
 
 def _draw_pushes(record: RunRecord) -> Iterator[WorkFigure]:
@@ -87,7 +85,7 @@ def _draw_pushes(record: RunRecord) -> Iterator[WorkFigure]:
         drawing = make_push_drawing(push, record)
         yield WorkFigure(
             "push", f"Force of {_describe(push)}",
-            "Forces against the push. The arm knows them from a sensor, or from an estimate that needs none.",
+            "Forces against the push. The arm measures or estimates them; its travel follows from its joints.",
             "Force of the tool over time and over its travel", partial(draw_push, drawing),
         )  # fmt: skip
 
