@@ -83,7 +83,8 @@ def no_other_plan(attempts: Sequence[AttemptResult], failures: FailedSteps, answ
         cause = next((each for each in reversed(tried) if not each.is_unmet_need), cause)
     message = last.reason if cause is None else cause.message
     leading = [each for each in tried if each.message == message] or [each for each in (cause,) if each is not None]
-    end = "no other plan was found" + ("" if answer.proved else f": {answer.reason}")
+    unknown = answer.reason.removeprefix("no plan was found: ")
+    end = "no other plan was found" + ("" if answer.proved else f": {unknown}")
     why = Failure(kind="plan", message=end, detail="; ".join(filter(None, (answer.reason, answer.detail))))
     causes = (*leading, *(each for each in tried if each.message != message), why)
     return Failure(kind="plan", message=message, source=cause.source if cause else None, causes=causes)
