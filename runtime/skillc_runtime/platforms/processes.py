@@ -18,6 +18,7 @@ elif sys.platform == "win32":
 else:
     DEFAULT_START: StartMethod = "spawn"
 """A fork starts at once; system libraries of macOS do not work in forks. A process of Windows inherits no sockets."""
+INHERITS_SOCKETS = sys.platform != "win32"
 
 _JOIN_POLL_S = 0.001
 

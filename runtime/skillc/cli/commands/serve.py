@@ -40,6 +40,10 @@ def command(library: Path, scenes: tuple[Path, ...], bind: str, state: Path, bac
     """Serve the cells with the skills of LIBRARY, by default the project here."""
     if find_spec("uvicorn") is None:
         raise click.UsageError("the server needs uvicorn and starlette: pip install 'skillc[server]'")
+    from skillc_runtime.platforms.processes import INHERITS_SOCKETS
+
+    if not INHERITS_SOCKETS:
+        raise click.UsageError("`skillc serve` needs Linux or macOS: processes of Windows inherit no sockets")
     from skillc.server.cells import choose_cells
     from skillc.server.serve import serve
 
