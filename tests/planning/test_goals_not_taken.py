@@ -126,6 +126,6 @@ def test_a_task_that_no_planner_can_take_is_told_before_it_runs(lib: Path, goal:
     checked = run("check", str(lib))
     assert f"`t` has a goal that no plan can be made for in its scene: {NOT_TAKEN[goal]}" in checked.output
     drawn = run("graph", str(lib), "t", "--plan")
-    assert drawn.exit_code == 3 and drawn.stderr.startswith("no plan was searched for: ")
+    assert drawn.exit_code == 3 and drawn.stderr.startswith("error: no plan was searched for: ")
     ran = run("run", task, "--json")
     assert ran.exit_code == 3 and f"no plan was searched for: {NOT_TAKEN[goal]}" in ran.output

@@ -44,7 +44,8 @@ def _has_no_timeout(call: Call) -> bool:
 
 RULES: dict[str, Callable[[Call], bool]] = {
     **dict.fromkeys(("accept", "recv", "recv_bytes", "recv_into", "serve_forever", "start_io", "waitid"), _is_endless),
-    **dict.fromkeys(("get", "join", "wait"), _has_no_arguments),
+    **dict.fromkeys(("join", "wait"), _has_no_arguments),
+    "get": lambda call: _has_no_arguments(call) and "contextvars" not in call.imported,
     **dict.fromkeys(("HTTPConnection", "HTTPSConnection", "acquire", "communicate", "urlopen"), _has_no_timeout),
     **dict.fromkeys(("check_call", "check_output", "create_connection"), lambda call: not call.timed),
     **dict.fromkeys(("run", "call"), lambda call: call.text.startswith("subprocess.") and not call.timed),

@@ -25,6 +25,7 @@ WAITS = [
     ("with self._lock: pass", "with self._locked(): pass"),
     ("with Lock(): pass", "with store.locked(fcntl.LOCK_SH): pass"),
     ("import queue\nrequests.get()", "import queue\nrequests.get(timeout=5.0)"),
+    ("from queue import Queue\nrequests.get()", "from contextvars import ContextVar\nfolders.get()"),
     ("from queue import Queue\nrequests.put(3)", "from queue import Queue\nrequests.put_nowait(3)"),
     ("from concurrent.futures import Future\nfuture.result()", "attempt.result()"),
     ("connection.recv()", "poller.poll(5.0)"),

@@ -35,7 +35,7 @@ class EventStream:
 
     async def __aiter__(self) -> AsyncIterator[Envelope]:
         at = self._after
-        while True:
+        while True:  # wait ends: with the run, whose events these are
             over = self._over()
             found = self._events[at:]
             for each in found:

@@ -70,7 +70,7 @@ def run(
         deadline_s=deadline_s,
         looks=looks,
     )
-    return operation.wait()
+    return operation.wait()  # wait ends: with the run, which has a deadline, or by an interrupt
 
 
 def start(

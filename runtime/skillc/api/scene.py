@@ -212,7 +212,8 @@ class Scene:
         deadline_s: float | None = None,
     ) -> Run:
         """Run a goal or a skill call in a copy of the world as it is now, and return how it ended; as `start`."""
-        return self.start(goal, skill=skill, out=out, seed=seed, backend=backend, deadline_s=deadline_s).wait()
+        operation = self.start(goal, skill=skill, out=out, seed=seed, backend=backend, deadline_s=deadline_s)
+        return operation.wait()  # wait ends: with the run, which has a deadline, or by an interrupt
 
     def _load(self, goal: str | None, skill: str | None) -> LoadedTask:
         if (goal is None) == (skill is None):
