@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from skillc.api.scene import Answer as Answer
     from skillc.api.scene import Scene as Scene
     from skillc.api.scene import open_scene as open_scene
-    from skillc.api.table import Table as Table
+    from skillc.api.table import QueryResult as QueryResult
     from skillc.api.trials import Trials as Trials
     from skillc.api.trials import trials as trials
     from skillc.services.errors import DiagnosticsError as DiagnosticsError
@@ -53,7 +53,7 @@ _MODULES = {
     "Run": "skillc.api.run",
     "Scene": "skillc.api.scene",
     "SkillcError": "skillc.services.errors",
-    "Table": "skillc.api.table",
+    "QueryResult": "skillc.api.table",
     "Trials": "skillc.api.trials",
     "check": "skillc.api.library",
     "load_library": "skillc.api.library",

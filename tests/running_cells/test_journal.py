@@ -84,8 +84,12 @@ def test_a_store_that_missed_a_write_gets_it(tmp_path: Path, seed: int) -> None:
         assert facts_of(again.snapshot()) == facts_of(world.snapshot()) == facts_of(model_of(kept).snapshot())
 
 
+@pytest.mark.parametrize("kept", [5, 500])
 @pytest.mark.parametrize("seed", range(5))
-def test_the_evidence_for_each_fact_survives(tmp_path: Path, seed: int) -> None:
+def test_the_evidence_for_each_fact_survives(
+    tmp_path: Path, seed: int, kept: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("skillc_runtime.world.state.evidence.MAX_WRITES", kept)
     chance = Random(seed)
     with opened(tmp_path, DiskStore) as (world, journal, _):
         for _ in range(30):

@@ -66,11 +66,11 @@ def test_a_cell_whose_disk_is_full_stops_and_says_so(tmp_path: Path) -> None:
 
 def check(folder: Path) -> Counter[str]:
     """Check that journal, store and events tell one story; return how many crates were brought to each place."""
-    journal = Path(find_settings(folder).folder, "journal.sqlite")
+    journal = find_settings(folder).journal
     with open_cell(find_settings(folder), SilentReporter()) as host:
         world = host.world.snapshot()
     with closing(JournalReader(journal)) as reader:
-        writes = [each.transaction for each in reader.writes(0)]
+        writes = [each.transaction for each in reader.writes()]
         histories = [[each.event for each in reader.envelopes(one.id)] for one in reader.latest(time.time_ns(), 1000)]
     assert histories and all(isinstance(each[-1], TaskEnded) for each in histories)
     assert [each.sequence for each in writes] == list(range(2, len(writes) + 2))

@@ -12,8 +12,8 @@ import msgspec
 from running_cells.yard import write_yard
 from skillc.cells.host import CellSettings
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.messages import End, Give, Happened, NotStarted, Report, SetPace, Status, Submit
-from skillc.cells.operation import Operation, OperationRequest
+from skillc.cells.messages import End, Give, Happened, Report, SetPace, StartFailed, StatusChanged, Submit
+from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.cells.remote_cell import RemoteCell, start_cell
 from skillc_runtime.recording.commands import Pause, Resume, Stop
 
@@ -32,7 +32,7 @@ class Server:
         self.news.set()
 
     @property
-    def operations(self) -> dict[str, Operation]:
+    def operations(self) -> dict[str, OperationStatus]:
         """The operations as they were reported last."""
         return {each.operation.id: each.operation for each in self.reports if isinstance(each, Happened)}
 
@@ -42,7 +42,7 @@ class Server:
             await self._hear()
         return found[-1]
 
-    async def see_state(self, operation: str, state: str) -> Operation:
+    async def see_state(self, operation: str, state: str) -> OperationStatus:
         """Wait until an operation is in a state."""
         while operation not in self.operations or self.operations[operation].state != state:
             await self._hear()
@@ -70,7 +70,7 @@ async def serving(settings: CellSettings) -> AsyncIterator[tuple[RemoteCell, Ser
 def test_an_operation_runs_pauses_and_stops(tmp_path: Path) -> None:
     async def operate() -> None:
         async with serving(write_yard(tmp_path)) as (cell, server):
-            await server.see(Status)
+            await server.see(StatusChanged)
             assert (await cell.request(SetPace(factor=2.0))).refused is None
             assert (await cell.request(Submit(operation="op", request=CARRY))).refused is None
             refused = (await cell.request(Give(operation="op", command=Resume()))).refused
@@ -119,7 +119,7 @@ def test_a_cell_without_its_server_comes_to_rest_and_says_so(tmp_path: Path) -> 
             assert await asyncio.wait_for(cell.gone, 30.0) == 0
 
     asyncio.run(abandon())
-    with closing(JournalReader(Path(settings.folder, "journal.sqlite"))) as reader:
+    with closing(JournalReader(settings.journal)) as reader:
         last = reader.envelopes("op", reader.last_sequence("op") - 1)[0].event
     assert (last.status, last.failure.message) == ("interrupted", "the server of the cell is gone")
 
@@ -132,7 +132,7 @@ def test_a_scene_that_does_not_exist_is_reported(tmp_path: Path) -> None:
         with (tmp_path / "log").open("w") as log:
             cell = await start_cell(settings, log, server)
         assert await asyncio.wait_for(cell.gone, 30.0) == 1
-        report = await server.see(NotStarted)
+        report = await server.see(StartFailed)
         assert "there is no file nowhere.ttl" in report.reason
 
     asyncio.run(operate())

@@ -15,7 +15,7 @@ _COLON, _CLOSE = re.compile(r"\s*:"), re.compile(r"\s*\}")
 _STRING = re.compile(r'"([^"\\]*(?:\\.[^"\\]*)*)"')
 
 
-class Problem(NamedTuple):
+class JsonLdProblem(NamedTuple):
     """What is wrong, what to do about it, and where: line and column from 1."""
 
     message: str
@@ -24,7 +24,7 @@ class Problem(NamedTuple):
     column: int = 1
 
 
-def find_problem(text: str, deepest: int) -> Problem | None:
+def find_problem(text: str, deepest: int) -> JsonLdProblem | None:
     """Return why a text cannot be read as JSON-LD, None if nothing is wrong with it as JSON.
 
     `deepest` is the greatest depth of nested objects and lists.
@@ -32,19 +32,19 @@ def find_problem(text: str, deepest: int) -> Problem | None:
     try:
         document = json.loads(text.removeprefix("\ufeff"))
     except json.JSONDecodeError as error:
-        return Problem(f"this file is not JSON: {error.msg}", "correct the file", error.lineno, error.colno)
+        return JsonLdProblem(f"this file is not JSON: {error.msg}", "correct the file", error.lineno, error.colno)
     except (RecursionError, ValueError) as error:
         reason = _TOO_DEEP if isinstance(error, RecursionError) else "a number is too long"
-        return Problem(f"this file cannot be read: {reason}", FLATTEN)
+        return JsonLdProblem(f"this file cannot be read: {reason}", FLATTEN)
     if _depth(text) > deepest:
-        return Problem(f"this file cannot be read: {_TOO_DEEP}", FLATTEN)
+        return JsonLdProblem(f"this file cannot be read: {_TOO_DEEP}", FLATTEN)
     remote = next(_remote_contexts(document), None)
     if remote is None:
         return None
     at = max(text.find(json.dumps(remote)), 0)
     line, column = text.count("\n", 0, at) + 1, at - text.rfind("\n", 0, at)
     message = f"the context <{remote}> is in another file, and nothing is fetched"
-    return Problem(message, "write the content of the context into this file", line, column)
+    return JsonLdProblem(message, "write the content of the context into this file", line, column)
 
 
 def find_prefixes(text: str) -> dict[str, str]:

@@ -23,7 +23,7 @@ WRONG_REQUESTS = (NoSuchName, QuestionError, WorldError)
 T = TypeVar("T")
 
 
-class Notes:
+class NoticeList:
     """A reporter that keeps what a service reports: its messages and the warnings."""
 
     def __init__(self) -> None:

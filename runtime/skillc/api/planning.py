@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from skillc.api.boundary import (
     AnyPath,
-    Notes,
+    NoticeList,
     api_call,
     optional_path,
     optional_seconds,
@@ -132,7 +132,7 @@ def plan(
     with api_call():
         request = make_request(task, goal, None, scene, library)
         request.check(calls=False)
-        with load_task(request, Notes()) as loaded:
+        with load_task(request, NoticeList()) as loaded:
             return make_plan(loaded, minimise, prove, deadline_s)
 
 

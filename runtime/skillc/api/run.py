@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import msgspec
 
-from skillc.api.boundary import AnyPath, Notes, api_call, require_choice, require_path, require_text
+from skillc.api.boundary import AnyPath, NoticeList, api_call, require_choice, require_path, require_text
 from skillc.api.frames import make_frame, make_table
 from skillc.api.picture import Figure
 from skillc.services.errors import ServiceError
@@ -141,7 +141,7 @@ def open_run(path: AnyPath) -> Run:
     """
     with api_call():
         folder = require_path(path, "the folder of a run")
-        notes = Notes()
+        notes = NoticeList()
         file = find_recording(folder)
         events = read_envelopes(file, notes)
         return Run(read_result(file, events), events, file.parent, tuple(notes.messages))

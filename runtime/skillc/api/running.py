@@ -12,7 +12,15 @@ from contextvars import copy_context
 from dataclasses import replace
 from pathlib import Path
 
-from skillc.api.boundary import AnyPath, Notes, api_call, optional_path, optional_seconds, require_choice, require_count
+from skillc.api.boundary import (
+    AnyPath,
+    NoticeList,
+    api_call,
+    optional_path,
+    optional_seconds,
+    require_choice,
+    require_count,
+)
 from skillc.api.operation import Operation
 from skillc.api.operation_state import Monitor, OperationState, read_pace
 from skillc.api.planning import Minimise, make_request
@@ -27,7 +35,7 @@ from skillc.services.task_loading import LoadedTask, load_task
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.recording.envelope import make_run_id
 
-Loading = Callable[[Notes], AbstractContextManager[LoadedTask]]
+Loading = Callable[[NoticeList], AbstractContextManager[LoadedTask]]
 EXIT_S = 10.0
 """How long the end of the program waits for each operation to stop."""
 _LIVE: weakref.WeakSet[OperationState] = weakref.WeakSet()
@@ -105,7 +113,7 @@ def start(
         options = make_options(out, seed, backend, deadline_s, looks, step, pause_at)
 
         @contextmanager
-        def load(notes: Notes) -> Iterator[LoadedTask]:
+        def load(notes: NoticeList) -> Iterator[LoadedTask]:
             with load_task(request, notes) as loaded:
                 yield with_minimal_makespan(loaded) if minimise == "makespan" else loaded
 
@@ -169,7 +177,7 @@ def begin(load: Loading, options: RunOptions, pace: float | str, name: str) -> O
 
 def _work(load: Loading, options: RunOptions, state: OperationState, loaded: threading.Event) -> None:
     """Load and run a task, in the thread of its operation."""
-    notes, monitor = Notes(), Monitor(state)
+    notes, monitor = NoticeList(), Monitor(state)
     watched = replace(options, run_id=state.id, recorders=(monitor.record,))
     result: Run | None = None
     error: BaseException | None = None

@@ -9,11 +9,19 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from skillc.api.boundary import AnyPath, Notes, api_call, optional_path, refusing_values, require_path, require_text
+from skillc.api.boundary import (
+    AnyPath,
+    NoticeList,
+    api_call,
+    optional_path,
+    refusing_values,
+    require_path,
+    require_text,
+)
 from skillc.api.picture import Picture
 from skillc.api.planning import Minimise, Plan, make_plan
 from skillc.api.run import Run
-from skillc.api.table import Table
+from skillc.api.table import QueryResult
 from skillc.services import scenes
 from skillc.services.assignments import assign_call, assign_goal
 from skillc.services.errors import RequestError
@@ -116,7 +124,7 @@ class Scene:
         with api_call():
             return search_elements(self.state, require_text(words, "the words"))
 
-    def query(self, sparql: str) -> Table:
+    def query(self, sparql: str) -> QueryResult:
         """Answer a SPARQL query; the prefixes of the vocabulary are declared.
 
         It sees the statements of the scene, the data sheets and the vocabulary, without inference. SkillcError if it
@@ -124,7 +132,7 @@ class Scene:
         """
         with api_call(self._folders):
             result = scenes.query_scene(self._opened.at_present(), require_text(sparql, "the query"))
-        return Table(result.columns, result.rows)
+        return QueryResult(result.columns, result.rows)
 
     def ask(self, condition: str) -> Answer:
         """Return whether a condition holds, and why not. DiagnosticsError if its text has errors."""
@@ -236,7 +244,7 @@ def open_scene(scene: AnyPath | None = None, *, library: AnyPath | None = None, 
     Without a scene it is that of the project here. Its terms are those of `library`, else of the library beside it,
     else of the shipped library. DiagnosticsError if it has errors, RequestError if there is none.
     """
-    notes, stack = Notes(), ExitStack()
+    notes, stack = NoticeList(), ExitStack()
     with api_call(), stack:
         where = optional_path(scene, "the scene")
         named = optional_path(library, "the library")

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class QueryResult:
     """Rows of values under the names of columns; individuals are short names, None is an unbound variable."""
 
     columns: tuple[str, ...]

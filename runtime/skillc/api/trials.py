@@ -13,7 +13,7 @@ import msgspec
 
 from skillc.api.boundary import (
     AnyPath,
-    Notes,
+    NoticeList,
     api_call,
     optional_path,
     optional_seconds,
@@ -107,7 +107,7 @@ def trials(
             folder,
             optional_seconds(deadline_s, "`deadline_s`") or TRIAL_LIMIT_S,
         )
-        series = run_trials(request, _ignore_progress, Notes())
+        series = run_trials(request, _ignore_progress, NoticeList())
         if folder is not None:
             write_page(series, folder)
         return Trials(series)

@@ -16,7 +16,7 @@ MAX_BYTES = 2**24
 T = TypeVar("T")
 
 
-class FrameError(RuntimeError):
+class InvalidFrame(RuntimeError):
     """What was received is no frame of this protocol."""
 
 
@@ -39,7 +39,7 @@ class FrameReader(Generic[T]):
         self._decoder = msgspec.msgpack.Decoder(kind)
 
     def read(self) -> T | None:
-        """Wait for a value and return it; None if the other end is closed. FrameError if it is none.
+        """Wait for a value and return it; None if the other end is closed. InvalidFrame if it is none.
 
         TimeoutError if the socket has a time limit and it passes before a frame begins.
         """
@@ -48,12 +48,12 @@ class FrameReader(Generic[T]):
             return None
         (length,) = LENGTH.unpack(header)
         if length > MAX_BYTES:
-            raise FrameError(f"a frame of {length} bytes is too large")
+            raise InvalidFrame(f"a frame of {length} bytes is too large")
         content = self._receive(length)
         try:
             return None if content is None else self._decoder.decode(content)
         except msgspec.DecodeError as error:
-            raise FrameError(str(error)) from error
+            raise InvalidFrame(str(error)) from error
 
     def _receive(self, count: int) -> bytes | None:
         """Return so many bytes; None if the other end is closed before."""

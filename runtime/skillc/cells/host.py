@@ -11,7 +11,7 @@ import msgspec
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import CellStatus, Operation, OperationRequest
+from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.world import restore_world
 from skillc.services.assignments import assign_call, assign_goal, assign_task
 from skillc.services.backends import BackendName, make_backend
@@ -48,6 +48,11 @@ class CellSettings(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True
     folder: str
     backend: BackendName = "mujoco"
     seed: int = 0
+
+    @property
+    def journal(self) -> Path:
+        """The file of its journal, which exists once the cell was started."""
+        return Path(self.folder) / "journal.sqlite"
 
 
 class CellHost:
@@ -124,7 +129,7 @@ class CellHost:
         elif (submitted := self._operations.get(operation)) is not None:
             self.loop.stop(reason, submitted.run)
 
-    def take_changed(self) -> tuple[Operation, ...]:
+    def take_changed(self) -> tuple[OperationStatus, ...]:
         """Return the operations that have changed since this was called last.
 
         Those that have ended are forgotten; how they ended is in the journal.
@@ -174,11 +179,11 @@ class _Submitted:
 
     def __init__(self, request: OperationRequest, run: TaskRun, publisher: Publisher, library_hash: str) -> None:
         self.request, self.run, self.publisher, self.library_hash = request, run, publisher, library_hash
-        self.reported: Operation | None = None
+        self.reported: OperationStatus | None = None
 
-    def describe(self, cell: str) -> Operation:
+    def describe(self, cell: str) -> OperationStatus:
         run = self.run
-        return Operation(
+        return OperationStatus(
             id=run.id,
             cell=cell,
             request=self.request,
@@ -196,7 +201,7 @@ class _Submitted:
 def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
     """Start a cell where it ended: its world is that of its journal, and operations that had no end are interrupted.
 
-    ServiceError, DiagnosticsError, StoreError, DatabaseError, SheetError or FrameError if that is not possible.
+    ServiceError, StoreError, DatabaseError, NotDurable, SheetError or FrameError if that is not possible.
     """
     library, scene = compile_valid(find_library(Path(settings.library))), find_scene(Path(settings.scene))
     folder = Path(settings.folder)
@@ -204,8 +209,8 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
     choice = StoreChoice(str(folder / "world"))
     with closing(open_chosen_store(choice, str(folder / "world"), scene)) as store:
         state, sequence = read_or_fill(store, choice, scene, library.vocabulary, reporter)
-        with closing(CellJournal(folder / "journal.sqlite", store)) as journal:
-            with closing(JournalReader(folder / "journal.sqlite")) as reader:
+        with closing(CellJournal(settings.journal, store)) as journal:
+            with closing(JournalReader(settings.journal)) as reader:
                 world = restore_world(store, state, sequence, journal, reader)
                 end_interrupted(settings.name, reader, journal)
             host = CellHost(settings, library, world, journal, scene)

@@ -6,7 +6,7 @@ import time
 
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader, RecordedOperation
-from skillc.cells.operation import Operation
+from skillc.cells.operation import OperationStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
@@ -36,10 +36,10 @@ def _interrupt(last: Envelope) -> Envelope:
     return Envelope(run=last.run, sequence=last.sequence + 1, wall_time_ns=time.time_ns(), event=ended)
 
 
-def _describe(cell: str, operation: RecordedOperation, reader: JournalReader, final: Envelope) -> Operation:
+def _describe(cell: str, operation: RecordedOperation, reader: JournalReader, final: Envelope) -> OperationStatus:
     started, ended = reader.envelopes(operation.id, limit=1)[0].event, final.event
     assert isinstance(started, TaskStarted) and isinstance(ended, TaskEnded), "the first and the last event"
-    return Operation(
+    return OperationStatus(
         id=operation.id,
         cell=cell,
         request=operation.request,

@@ -7,8 +7,8 @@ from collections import deque
 from collections.abc import Callable
 from threading import Condition, Thread
 
-from skillc.cells.frames import FrameError, FrameReader, send_frame
-from skillc.cells.messages import Alive, Answer, Happened, Refused, Report, Request, Status, StopRequest
+from skillc.cells.frames import FrameReader, InvalidFrame, send_frame
+from skillc.cells.messages import Alive, CellAnswer, CellRequest, Happened, Refused, Report, StatusChanged, StopRequest
 
 MAX_WAITING = 1000
 """How many requests may wait; those beyond are refused at once."""
@@ -39,7 +39,7 @@ class Outbox:
             match report:
                 case Happened(operation=operation):
                     self._latest[operation.id] = report
-                case Status():
+                case StatusChanged():
                     self._latest[""] = report
                 case _:
                     self._answers.append(report)
@@ -81,11 +81,11 @@ class Inbox:
         self.closed = False
         self._outbox = outbox
         self._news = Condition()
-        self._waiting = deque[Request]()
+        self._waiting = deque[CellRequest]()
         self._woken = False
-        Thread(target=self._receive, args=(FrameReader(connection, Request),), daemon=True).start()
+        Thread(target=self._receive, args=(FrameReader(connection, CellRequest),), daemon=True).start()
 
-    def take(self, seconds: float) -> list[Request]:
+    def take(self, seconds: float) -> list[CellRequest]:
         """Return the requests that wait; if there are none, wait for one, or to be woken, for up to `seconds`."""
         with self._news:
             if not (self._waiting or self._woken or self.closed):
@@ -101,23 +101,23 @@ class Inbox:
             self._woken = True
             self._news.notify()
 
-    def _receive(self, reader: FrameReader[Request]) -> None:
+    def _receive(self, reader: FrameReader[CellRequest]) -> None:
         try:
             while (request := reader.read()) is not None:
                 self._put(request)
-        except (OSError, FrameError):
+        except (OSError, InvalidFrame):
             pass
         self.closed = True
         self.wake()
 
-    def _put(self, request: Request) -> None:
+    def _put(self, request: CellRequest) -> None:
         with self._news:
             if len(self._waiting) < MAX_WAITING:
                 self._waiting.append(request)
                 self._news.notify()
                 return
         reason = f"{MAX_WAITING} requests wait for the cell; try again later"
-        self._outbox.send(Answer(number=request.number, refused=Refused(kind="busy", reason=reason)))
+        self._outbox.send(CellAnswer(number=request.number, refused=Refused(kind="busy", reason=reason)))
 
 
 def listen_for_stops(connection: socket.socket, stop: Callable[[StopRequest], None]) -> None:
@@ -127,7 +127,7 @@ def listen_for_stops(connection: socket.socket, stop: Callable[[StopRequest], No
         try:
             while (request := reader.read()) is not None:
                 stop(request)
-        except (OSError, FrameError):
+        except (OSError, InvalidFrame):
             return
 
     Thread(target=receive, args=(FrameReader(connection, StopRequest),), daemon=True).start()

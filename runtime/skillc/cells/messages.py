@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc.cells.operation import CellStatus, Operation, OperationRequest
+from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc_runtime.recording.commands import Command
 
 
@@ -51,7 +51,7 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
 Message: TypeAlias = Submit | Give | SetPace | Acknowledge | End
 
 
-class Request(msgspec.Struct, frozen=True):
+class CellRequest(msgspec.Struct, frozen=True):
     """A message whose answer has the same number."""
 
     number: int
@@ -76,7 +76,7 @@ class Refused(msgspec.Struct, frozen=True, kw_only=True):
     allowed: tuple[str, ...] = ()
 
 
-class Answer(_Message, tag="answer", frozen=True, kw_only=True):
+class CellAnswer(_Message, tag="answer", frozen=True, kw_only=True):
     """The answer to a request: done, and durable, unless it was refused."""
 
     number: int
@@ -86,10 +86,10 @@ class Answer(_Message, tag="answer", frozen=True, kw_only=True):
 class Happened(_Message, tag="happened", frozen=True, kw_only=True):
     """An operation has new events, up to `operation.events` in the journal, or another state."""
 
-    operation: Operation
+    operation: OperationStatus
 
 
-class Status(_Message, tag="status", frozen=True, kw_only=True):
+class StatusChanged(_Message, tag="status", frozen=True, kw_only=True):
     """The cell as a whole, when it is ready and whenever something in this has changed."""
 
     status: CellStatus
@@ -101,10 +101,10 @@ class Alive(_Message, tag="alive", frozen=True, kw_only=True):
     rounds: int
 
 
-class NotStarted(_Message, tag="not-started", frozen=True, kw_only=True):
+class StartFailed(_Message, tag="not-started", frozen=True, kw_only=True):
     """The cell could not be started; the process ends."""
 
     reason: str
 
 
-Report: TypeAlias = Answer | Happened | Status | Alive | NotStarted
+Report: TypeAlias = CellAnswer | Happened | StatusChanged | Alive | StartFailed

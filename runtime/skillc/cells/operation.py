@@ -33,12 +33,12 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     breakpoints: tuple[str, ...] = ()
 
 
-class Operation(msgspec.Struct, frozen=True, kw_only=True):
+class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     """An operation as it is now: `reason` says why it is in its state, or for what it waits.
 
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
-    it runs. Times are in s of the cell's clock.
+    it runs.
     """
 
     id: str

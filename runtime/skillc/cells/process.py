@@ -16,11 +16,12 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
 from skillc.cells.host import CellSettings, open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
-from skillc.cells.messages import NotStarted
+from skillc.cells.messages import StartFailed
 from skillc.cells.service import CellService
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
+from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -57,14 +58,14 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
         outbox.close(CLOSE_S)
     except DiagnosticsError as error:
         return _refuse(requests, "\n".join(map(str, error.diagnostics)))
-    except (ServiceError, DatabaseError, StoreError, SheetError, FrameError) as error:
+    except (ServiceError, DatabaseError, NotDurable, StoreError, SheetError, FrameError) as error:
         return _refuse(requests, str(error))
     return 0
 
 
 def _refuse(requests: socket.socket, reason: str) -> int:
     with suppress(OSError):
-        send_frame(requests, NotStarted(reason=reason))
+        send_frame(requests, StartFailed(reason=reason))
     return 1
 
 

@@ -17,7 +17,7 @@ import msgspec
 
 from skillc.cells.frames import LENGTH, encode_frame
 from skillc.cells.host import CellSettings
-from skillc.cells.messages import Answer, Message, Report, Request, StopRequest
+from skillc.cells.messages import CellAnswer, CellRequest, Message, Report, StopRequest
 
 
 class CellGone(Exception):
@@ -30,10 +30,12 @@ class RemoteCell:
     `gone` is done with the exit code, negative for a signal, once the process has ended.
     """
 
-    def __init__(self, process: Process, requests: Link, stops: Link, report: Callable[[Report], None]) -> None:
+    def __init__(
+        self, process: Process, requests: FrameStream, stops: FrameStream, report: Callable[[Report], None]
+    ) -> None:
         self._process, self._requests, self._stops, self._report = process, requests, stops, report
         self._numbers = count(1)
-        self._unanswered: dict[int, asyncio.Future[Answer]] = {}
+        self._unanswered: dict[int, asyncio.Future[CellAnswer]] = {}
         self.gone = asyncio.ensure_future(self._follow())
 
     @property
@@ -41,16 +43,16 @@ class RemoteCell:
         """The id of the process."""
         return self._process.pid
 
-    async def request(self, message: Message) -> Answer:
+    async def request(self, message: Message) -> CellAnswer:
         """Send a message and wait for its answer: what it asks for is done and durable, or refused.
 
         CellGone if the process ends before it answers.
         """
         number = next(self._numbers)
-        answer: asyncio.Future[Answer] = asyncio.get_running_loop().create_future()
+        answer: asyncio.Future[CellAnswer] = asyncio.get_running_loop().create_future()
         self._unanswered[number] = answer
         try:
-            self._requests.send(Request(number, message))
+            self._requests.send(CellRequest(number, message))
             return await answer
         finally:
             del self._unanswered[number]
@@ -75,7 +77,7 @@ class RemoteCell:
         with suppress(asyncio.IncompleteReadError, ConnectionError):
             while True:
                 match decoder.decode(await self._requests.receive()):
-                    case Answer(number=number) as answer:
+                    case CellAnswer(number=number) as answer:
                         if number in self._unanswered and not self._unanswered[number].done():
                             self._unanswered[number].set_result(answer)
                     case report:
@@ -88,7 +90,7 @@ class RemoteCell:
         return code
 
 
-class Link:
+class FrameStream:
     """A socket whose other end a cell has; it carries frames."""
 
     def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
@@ -109,7 +111,7 @@ class Link:
 
 
 async def start_cell(settings: CellSettings, log: TextIO, report: Callable[[Report], None]) -> RemoteCell:
-    """Start the process of a cell, which writes messages to `log`; its first `Status` says that it is ready.
+    """Start the process of a cell, which writes messages to `log`; its first `StatusChanged` says that it is ready.
 
     OSError if there can be no more processes.
     """
@@ -133,7 +135,7 @@ async def start_cell(settings: CellSettings, log: TextIO, report: Callable[[Repo
     finally:
         for each in theirs:
             each.close()
-    requests, stops = [Link(*await asyncio.open_connection(sock=each)) for each in ours]
+    requests, stops = [FrameStream(*await asyncio.open_connection(sock=each)) for each in ours]
     requests.send(settings)
     return RemoteCell(process, requests, stops, report)
 

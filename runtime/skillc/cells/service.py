@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
 from typing import assert_never
 
 from skillc.cells.host import CellHost
 from skillc.cells.mailbox import Inbox, Outbox
-from skillc.cells.messages import Acknowledge, Answer, End, Give, Happened, Refused, SetPace, Status, Submit
-from skillc.cells.messages import Request as CellRequest
+from skillc.cells.messages import (
+    Acknowledge,
+    CellAnswer,
+    CellRequest,
+    End,
+    Give,
+    Happened,
+    Refused,
+    SetPace,
+    StatusChanged,
+    Submit,
+)
 from skillc.cells.operation import CellStatus
-from skillc.services.errors import DiagnosticsError, ServiceError
-from skillc_runtime.execution.cell_loop import Request, TooManyRequests
+from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
+from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests
 from skillc_runtime.execution.pace import FAST, Pace
 
 IDLE_S = 0.2
@@ -46,7 +55,10 @@ class CellService:
         self._inbox.closed = True
 
     def run(self) -> None:
-        """Serve until the process is asked to end, or whoever operates the cell is gone, and everything is at rest."""
+        """Serve until the process is asked to end, or whoever operates the cell is gone, and everything is at rest.
+
+        Reports go before answers: whoever gets an answer has heard of the operation before.
+        """
         idle = True
         while self._ending is None or self._host.loop.runs:
             self._outbox.rounds += 1
@@ -55,8 +67,8 @@ class CellService:
             if self._inbox.closed and self._ending is None:
                 self._end(self._requested_end)
             idle = not self._tick()
-            self._answer()
             self._report()
+            self._answer()
 
     def _find_wait(self, idle: bool) -> float:
         """Return how long to wait for requests before the next round; `idle` if nothing happened in the last one."""
@@ -84,6 +96,8 @@ class CellService:
         """Do what is requested, as far as that is possible before the next tick."""
         message, number = request.message, request.number
         try:
+            if self._ending is not None:
+                raise RequestError(f"the cell ends: {self._ending}")
             match message:
                 case Submit(operation=operation, request=wanted):
                     self._host.submit(operation, wanted)
@@ -101,8 +115,8 @@ class CellService:
                     self._pending.append(_Pending(number))
                 case _:
                     assert_never(message)
-        except (ServiceError, TooManyRequests) as error:
-            self._outbox.send(Answer(number=number, refused=_refuse(error)))
+        except (ServiceError, TooManyRequests, NotDurable) as error:
+            self._outbox.send(CellAnswer(number=number, refused=_refuse(error)))
 
     def _end(self, reason: str) -> None:
         """Interrupt all operations; the loop ends when everything is at rest."""
@@ -119,20 +133,20 @@ class CellService:
             elif each.command is not None and each.command.refused is not None:
                 refusal = each.command.refused
                 refused = Refused(kind="state", reason=str(refusal), allowed=refusal.allowed)
-            self._outbox.send(Answer(number=each.number, refused=refused))
+            self._outbox.send(CellAnswer(number=each.number, refused=refused))
         self._pending.clear()
 
     def _report(self) -> None:
         """Report what has changed."""
         for operation in self._host.take_changed():
             self._outbox.send(Happened(operation=operation))
-        status = self._host.describe(None if self._pace.factor == inf else self._pace.factor)
+        status = self._host.describe(None if self._pace.factor == FAST else self._pace.factor)
         if status != self._status:
             self._status = status
-            self._outbox.send(Status(status=status))
+            self._outbox.send(StatusChanged(status=status))
 
 
-def _refuse(error: ServiceError | TooManyRequests) -> Refused:
+def _refuse(error: ServiceError | TooManyRequests | NotDurable) -> Refused:
     match error:
         case TooManyRequests():
             return Refused(kind="busy", reason=str(error))

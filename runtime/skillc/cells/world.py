@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalledWrite, JournalReader
-from skillc_runtime.world.state.evidence import MAX_WRITES, EvidenceLedger
+from skillc_runtime.world.state.evidence import EvidenceLedger
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, TransactionLog
 from skillc_runtime.world.state.world_state import WorldState
@@ -18,10 +18,11 @@ def restore_world(
 ) -> WorldModel:
     """Return the world that a store and a journal keep, with the evidence for its facts.
 
-    The store is in `state` after the write `sequence`; it gets the writes that it missed. DatabaseError if store and
-    journal do not belong together, StoreError if the store cannot be written.
+    The store is in `state` after the write `sequence`; it gets the writes that it missed. All writes are read: no fact
+    that was ever assumed may count as given. DatabaseError if store and journal do not belong together, StoreError if
+    the store cannot be written.
     """
-    writes = reader.writes(after=min(sequence, reader.last_write) - MAX_WRITES)
+    writes = reader.writes()
     missed = [each for each in writes if each.transaction.sequence > sequence]
     state, sequence = _catch_up(store, state, sequence, missed)
     world = WorldModel(state, journal, sequence)

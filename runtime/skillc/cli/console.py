@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
-from skillc.cli.layout import Page
+from skillc.cli.layout import TerminalPage
 from skillc.cli.settings import output_settings
 from skillc.services.errors import RequestError
 from skillc_dsl.diagnostics import Diagnostic
@@ -102,9 +102,9 @@ def print_json(value: Any) -> None:
     click.echo(encoded if is_unicode(sys.stdout) else json.dumps(json.loads(encoded), indent=2))
 
 
-def page_of(stream: TextIO) -> Page:
+def page_of(stream: TextIO) -> TerminalPage:
     """Return the page that a stream prints on."""
-    return Page(page_width(stream), has_colours(stream))
+    return TerminalPage(page_width(stream), has_colours(stream))
 
 
 def rich_console(stream: TextIO) -> Console:

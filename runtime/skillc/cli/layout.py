@@ -24,18 +24,18 @@ _WORD = re.compile(r"\s*\S+")
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class TableCell:
     """A text in a column, and how it looks."""
 
     text: str
     style: Style = ""
 
 
-Row: TypeAlias = Sequence[Cell | str]
+Row: TypeAlias = Sequence[TableCell | str]
 
 
 @dataclass(frozen=True, slots=True)
-class Page:
+class TerminalPage:
     """Where text is printed: its width in cells, None if nothing is to be wrapped, and whether it has colours."""
 
     width: int | None = None
@@ -76,7 +76,7 @@ class Page:
         if not self.has_room(header, rows):
             return [line for row in cells for line in self._record(header, row)]
         widths = _table_widths(header, cells)
-        lines = [[Cell(name, "dim") for name in header], *cells]
+        lines = [[TableCell(name, "dim") for name in header], *cells]
         return [self._table_line(row, widths, right) for row in lines]
 
     def has_room(self, header: Sequence[str], rows: Sequence[Row]) -> bool:
@@ -97,14 +97,14 @@ class Page:
             line += word if line or not room else word.lstrip()
         yield line
 
-    def _column_widths(self, rows: Sequence[Sequence[Cell]], indent: int) -> list[int]:
+    def _column_widths(self, rows: Sequence[Sequence[TableCell]], indent: int) -> list[int]:
         """Return the widths of all columns but the last; rows that are too wide for half of the page do not count."""
         half = None if self.width is None else (self.width - indent) // 2
         heads = [[count_cells(each.text) for each in row[:-1]] for row in rows]
         fitting = [head for head in heads if half is None or sum(head) + len(GAP) * len(head) <= half]
         return [max(column) for column in zip(*(fitting or [[0] * len(heads[0])]), strict=True)]
 
-    def _row(self, row: Sequence[Cell], widths: Sequence[int], indent: str) -> Iterator[str]:
+    def _row(self, row: Sequence[TableCell], widths: Sequence[int], indent: str) -> Iterator[str]:
         *head, last = row
         begin = indent + "".join(f"{' ' * width}{GAP}" for width in widths)
         fits = all(count_cells(each.text) <= width for each, width in zip(head, widths, strict=True))
@@ -123,28 +123,28 @@ class Page:
         longest = max(map(count_cells, text.split()), default=0)
         return self.width is None or self.width - begin >= max(LEAST_CELLS, min(longest, self.width - 4))
 
-    def _table_line(self, row: Sequence[Cell], widths: Sequence[int], right: Collection[int]) -> str:
+    def _table_line(self, row: Sequence[TableCell], widths: Sequence[int], right: Collection[int]) -> str:
         cells = (
             self._pad(each, width, column in right)
             for column, (each, width) in enumerate(zip(row, widths, strict=True))
         )
         return GAP.join(cells).rstrip()
 
-    def _record(self, header: Sequence[str], row: Sequence[Cell]) -> Iterator[str]:
+    def _record(self, header: Sequence[str], row: Sequence[TableCell]) -> Iterator[str]:
         yield from self.wrap(row[0].text, row[0].style, hanging=" " * 4)
-        pairs = [(Cell(name, "dim"), each) for name, each in zip(header[1:], row[1:], strict=True) if each.text]
+        pairs = [(TableCell(name, "dim"), each) for name, each in zip(header[1:], row[1:], strict=True) if each.text]
         yield from self.columns(pairs, " " * 4)
 
-    def _pad(self, cell: Cell, width: int, right: bool = False) -> str:
+    def _pad(self, cell: TableCell, width: int, right: bool = False) -> str:
         text = printable(cell.text)
         blanks = " " * (width - count_cells(text))
         return f"{blanks}{self.paint(text, cell.style)}" if right else f"{self.paint(text, cell.style)}{blanks}"
 
 
-def _table_widths(header: Sequence[str], rows: Sequence[Sequence[Cell]]) -> list[int]:
-    lines = [[Cell(name) for name in header], *rows]
+def _table_widths(header: Sequence[str], rows: Sequence[Sequence[TableCell]]) -> list[int]:
+    lines = [[TableCell(name) for name in header], *rows]
     return [max(count_cells(row[column].text) for row in lines) for column in range(len(header))]
 
 
-def _cell(value: Cell | str) -> Cell:
-    return value if isinstance(value, Cell) else Cell(value)
+def _cell(value: TableCell | str) -> TableCell:
+    return value if isinstance(value, TableCell) else TableCell(value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc.cli.layout import Cell, Page, Row, Style
+from skillc.cli.layout import Row, Style, TableCell, TerminalPage
 from skillc_runtime.evaluation.report.result import StepResult, TaskResult
 from skillc_runtime.evaluation.report.table import format_choice_reason, list_failure_details, list_table_rows
 from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
@@ -14,7 +14,7 @@ END_STYLES: dict[str, Style] = {"succeeded": "good", "failed": "bad", "refused":
 STEP_STYLES: dict[str, Style] = {"success": "good", "failure": "bad", "halted": "warning"}
 
 
-def format_result(result: TaskResult, page: Page, verbose: bool = False) -> str:
+def format_result(result: TaskResult, page: TerminalPage, verbose: bool = False) -> str:
     """Return how a task ended and why, the steps of its plan, and its numbers.
 
     Why implementations were chosen is shown for a step that failed. If `verbose`, it is shown for each step, and a
@@ -22,16 +22,16 @@ def format_result(result: TaskResult, page: Page, verbose: bool = False) -> str:
     """
     sections = [list(_list_ending(result, page, verbose)), list(_list_steps(result, page, verbose))]
     if result.sim_time_s:
-        sections.append(page.columns([(Cell(name, "dim"), value) for name, value in list_table_rows(result)]))
+        sections.append(page.columns([(TableCell(name, "dim"), value) for name, value in list_table_rows(result)]))
     return "\n\n".join("\n".join(lines) for lines in sections if lines)
 
 
-def format_ending(result: TaskResult, page: Page) -> str:
+def format_ending(result: TaskResult, page: TerminalPage) -> str:
     """Return how a task ended, and why if it did not succeed."""
     return "\n".join(_list_ending(result, page, verbose=False))
 
 
-def _list_ending(result: TaskResult, page: Page, verbose: bool) -> Iterator[str]:
+def _list_ending(result: TaskResult, page: TerminalPage, verbose: bool) -> Iterator[str]:
     words = format_status(result.status, result.verified)
     yield f"{page.paint(result.task, 'strong')}  {page.paint(words, END_STYLES.get(words, 'warning'))}"
     for fact in unverified_facts(result.facts):
@@ -44,7 +44,7 @@ def _list_ending(result: TaskResult, page: Page, verbose: bool) -> Iterator[str]
         yield from page.wrap(text, "dim", margin, f"{margin}  ")
 
 
-def _list_steps(result: TaskResult, page: Page, verbose: bool) -> list[str]:
+def _list_steps(result: TaskResult, page: TerminalPage, verbose: bool) -> list[str]:
     rows = [row for number, step in enumerate(result.plan, 1) for row in _step_rows(number, step, verbose)]
     choices = result.choices if verbose else ()
     rows += [("", each.skill, "", f"{each.implementation}: {format_choice_reason(each)}") for each in choices]
@@ -56,7 +56,7 @@ def _step_rows(number: int, step: StepResult, verbose: bool) -> Iterator[Row]:
     how = step.implementation or ("achieved already" if step.status == "skipped" else "did not start")
     if step.implementation and (verbose or step.status == "failure"):
         how = f"{how}: {format_choice_reason(step)}"
-    yield f"{number:2}", step.skill, Cell(step.status, STEP_STYLES.get(step.status, "")), how
+    yield f"{number:2}", step.skill, TableCell(step.status, STEP_STYLES.get(step.status, "")), how
     arguments = ", ".join(f"{name}: {format_value(value)}" for name, value in step.arguments.items())
     if arguments:
-        yield "", "", "", Cell(arguments, "dim")
+        yield "", "", "", TableCell(arguments, "dim")

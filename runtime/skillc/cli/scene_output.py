@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from skillc.cli.layout import Page
+from skillc.cli.layout import TerminalPage
 from skillc.services.scene_show import PlacedThing
 from skillc.services.scenes import IndividualFacts, OpenScene, SceneDiff
 from skillc_runtime.scene.query import QueryResult, QueryValue
@@ -29,7 +29,7 @@ def format_individuals(individuals: Iterable[IndividualFacts], scene: OpenScene,
     return "\n\n".join(_individual_text(each, scene) for each in individuals)
 
 
-def format_answer(answer: QueryResult, as_json: bool, page: Page) -> str:
+def format_answer(answer: QueryResult, as_json: bool, page: TerminalPage) -> str:
     """Return the answer of a query, as a table or as a list of objects."""
     if as_json:
         return _json([dict(zip(answer.columns, row, strict=True)) for row in answer.rows])
@@ -44,7 +44,7 @@ def format_diff(diff: SceneDiff, as_json: bool) -> str:
     return "\n".join(f"{'-+'[sign]} {s} {p} {value}" for s, p, sign, value in sorted(lines)) or "no differences"
 
 
-def format_placed(things: Sequence[PlacedThing], as_json: bool, page: Page) -> str:
+def format_placed(things: Sequence[PlacedThing], as_json: bool, page: TerminalPage) -> str:
     """Return things with their poses in the world: as text a table, as JSON a list of objects."""
     if as_json:
         return _json([asdict(each) for each in things])

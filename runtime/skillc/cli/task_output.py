@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from skillc.cli.console import page_of, print_lines
-from skillc.cli.layout import Cell
+from skillc.cli.layout import TableCell
 from skillc.services.task_list import TaskEntry
 
 _ORIGINS = {"dependency": "a dependency", "shipped": "shipped with skillc"}
@@ -19,7 +19,7 @@ def print_tasks(tasks: Sequence[TaskEntry]) -> None:
     longest = max(len(_signature(each)) for each in tasks)
     for (library, origin), members in groupby(tasks, key=lambda each: (each.library, each.origin)):
         title = library if origin == "project" else f"{library}, {_ORIGINS[origin]}"
-        rows = [(Cell(f"{_mark(each)} {_signature(each):{longest}}", "name"), _describe(each)) for each in members]
+        rows = [(TableCell(f"{_mark(each)} {_signature(each):{longest}}", "name"), _describe(each)) for each in members]
         print_lines([page.paint(title, "strong"), *page.columns(rows)])
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from skillc.cli.layout import Cell, Page, Row
+from skillc.cli.layout import Row, TableCell, TerminalPage
 from skillc_runtime.evaluation.trials.confidence import LEVEL, Interval
 from skillc_runtime.evaluation.trials.series import FailedSeed, Series, Spread
 from skillc_runtime.evaluation.trials.summary import format_false_successes, format_unverified
@@ -21,7 +21,7 @@ NARROW = (0, 1, 3, 5, 6, 7, 9)
 """The columns that are shown if there is no room for all."""
 
 
-def format_series(series: Series, page: Page, is_unicode: bool) -> str:
+def format_series(series: Series, page: TerminalPage, is_unicode: bool) -> str:
     """Return how many trials passed, the spread of each metric, each failed seed with its reasons, and the time."""
     sections = [
         list(_list_headline(series, page)),
@@ -42,7 +42,7 @@ def draw_histogram(values: Sequence[float], low: float, high: float, is_unicode:
     return "".join(blocks[(count * len(blocks) - 1) // most] if count else " " for count in counts)
 
 
-def _list_headline(series: Series, page: Page) -> Iterator[str]:
+def _list_headline(series: Series, page: TerminalPage) -> Iterator[str]:
     disturbed = "" if series.disturbance == "none" else f"  disturbed: {series.disturbance}"
     done = "" if series.done == series.wanted else f", {series.wanted - series.done} not done"
     passed = f"{series.passed} of {series.wanted} trials passed{done}"
@@ -56,7 +56,7 @@ def _list_headline(series: Series, page: Page) -> Iterator[str]:
     yield from page.wrap(format_unverified(series), "warning", hanging="  ") if series.unverified else ()
 
 
-def _list_spreads(spreads: Sequence[Spread], page: Page, is_unicode: bool) -> list[str]:
+def _list_spreads(spreads: Sequence[Spread], page: TerminalPage, is_unicode: bool) -> list[str]:
     several = len({spread.subject for spread in spreads if spread.subject}) > 1
     rows = [_spread_row(spread, several, is_unicode) for spread in spreads]
     missed = [f"{spread.metric}: {spread.median_missed}" for spread in spreads if spread.median_missed]
@@ -64,7 +64,7 @@ def _list_spreads(spreads: Sequence[Spread], page: Page, is_unicode: bool) -> li
     return [*table, *(line for text in missed for line in page.wrap(text, "bad", hanging="  "))]
 
 
-def _tabulate(rows: Sequence[Row], page: Page) -> list[str]:
+def _tabulate(rows: Sequence[Row], page: TerminalPage) -> list[str]:
     """Return the table with all columns, or with those that fit; empty if there is no room for it."""
     for columns in (range(len(HEADER)), NARROW):
         header, shown = [HEADER[column] for column in columns], [[row[column] for column in columns] for row in rows]
@@ -74,10 +74,10 @@ def _tabulate(rows: Sequence[Row], page: Page) -> list[str]:
     return []
 
 
-def _spread_paragraph(row: Row, page: Page) -> Iterator[str]:
+def _spread_paragraph(row: Row, page: TerminalPage) -> Iterator[str]:
     """Yield a row below the name of its metric, without the histogram."""
     metric, least, low, middle, high, greatest, mean, _, target, met = (
-        cell.text if isinstance(cell, Cell) else cell for cell in row
+        cell.text if isinstance(cell, TableCell) else cell for cell in row
     )
     yield from page.wrap(f"{metric}: {target}, {met}" if target else metric, hanging="  ")
     yield from page.wrap(f"{least} to {greatest}, quartiles {low}, {middle}, {high}; mean {mean}", "dim", "    ")
@@ -93,7 +93,7 @@ def _spread_row(spread: Spread, named: bool, is_unicode: bool) -> Row:
         _format_mean(spread.mean, spread.mean_interval),
         draw_histogram(spread.values, spread.least, spread.greatest, is_unicode),
         spread.target.removesuffix(f" {spread.unit}") if bound else "",
-        Cell(f"{spread.met} of {len(spread.values)}", "" if is_met else "bad") if bound else "",
+        TableCell(f"{spread.met} of {len(spread.values)}", "" if is_met else "bad") if bound else "",
     )
 
 
@@ -101,7 +101,7 @@ def _format_mean(mean: float, interval: Interval | None) -> str:
     return f"{mean:.3g}" if interval is None else f"{mean:.3g} +- {(interval.high - interval.low) / 2:.2g}"
 
 
-def _list_failed(failed: FailedSeed, page: Page) -> Iterator[str]:
+def _list_failed(failed: FailedSeed, page: TerminalPage) -> Iterator[str]:
     yield from page.wrap(f"seed {failed.seed}: {'; '.join(failed.reasons)}", "bad", hanging="  ")
     yield from page.wrap(failed.variation, "dim", "  ") if failed.variation else ()
 

@@ -17,13 +17,13 @@ from skillc.cells.database import DatabaseError
 from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
 from skillc.server.context import ServerContext
-from skillc.server.endpoint import Call, Endpoint
+from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.endpoints import ENDPOINTS, PREFIX
 from skillc.server.event_stream import stream_events
 from skillc.server.guard import Guard
 from skillc.server.openapi import make_openapi
-from skillc.server.problems import MEDIA_TYPE, RequestRefused
-from skillc.server.rates import RateLimit
+from skillc.server.problems import MEDIA_TYPE, ApiRefusal
+from skillc.server.rates import TokenBuckets
 from skillc.server.requests import decode_body, find_client, read_body, read_key, read_query
 
 REQUESTS_PER_S, BURST = 200.0, 400.0
@@ -41,10 +41,10 @@ class Application:
     def __init__(self, server: ServerContext, hosts: frozenset[str]) -> None:
         """Serve requests that name one of `hosts`, with port if it is not the default one."""
         self._server = server
-        self._requests = RateLimit(REQUESTS_PER_S, BURST)
-        self._failures = RateLimit(FAILURES_PER_S, FAILURES)
+        self._requests = TokenBuckets(REQUESTS_PER_S, BURST)
+        self._failures = TokenBuckets(FAILURES_PER_S, FAILURES)
         document = msgspec.json.encode(make_openapi(ENDPOINTS, PREFIX))
-        by_path: dict[str, dict[str, Endpoint]] = {}
+        by_path: dict[str, dict[str, ApiEndpoint]] = {}
         for each in ENDPOINTS:
             by_path.setdefault(each.path, {})[each.method] = each
         routes = [
@@ -62,43 +62,43 @@ class Application:
         )
         self.asgi = Guard(app, hosts)
 
-    async def _answer(self, methods: dict[str, Endpoint], request: Request) -> Response:
+    async def _answer(self, methods: dict[str, ApiEndpoint], request: Request) -> Response:
         """Answer a request; what changes something, or is refused for who made it, is written to the audit log."""
         endpoint = methods["GET" if request.method == "HEAD" else request.method]
         client, detail = None, ""
         try:
             client = self._authenticate(request)
             response = await self._carry_out(endpoint, client, request)
-        except RequestRefused as refused:
+        except ApiRefusal as refused:
             response, detail = refuse(refused), refused.problem.detail
         except DatabaseError as error:
-            response, detail = refuse(RequestRefused(HTTPStatus.SERVICE_UNAVAILABLE, str(error))), str(error)
+            response, detail = refuse(ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error))), str(error)
         if endpoint.method != "GET" or response.status_code in AUDITED_REFUSALS:
             who, origin = client.name if client else "", request.client.host if request.client else ""
             self._server.audit.add(who, origin, f"{request.method} {request.url.path}", response.status_code, detail)
         return response
 
     def _authenticate(self, request: Request) -> Client:
-        """Return who makes a request; RequestRefused (401, 429) without a valid token."""
+        """Return who makes a request; ApiRefusal (401, 429) without a valid token."""
         address = request.client.host if request.client else ""
         client = find_client(request, self._server.state.tokens)
         if client is not None:
             return client
         if not self._failures.take(address):
-            raise RequestRefused(HTTPStatus.TOO_MANY_REQUESTS, "too many requests without a valid token")
-        raise RequestRefused(HTTPStatus.UNAUTHORIZED, "send a token: `Authorization: Bearer TOKEN`")
+            raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, "too many requests without a valid token")
+        raise ApiRefusal(HTTPStatus.UNAUTHORIZED, "send a token: `Authorization: Bearer TOKEN`")
 
-    async def _carry_out(self, endpoint: Endpoint, client: Client, request: Request) -> Response:
+    async def _carry_out(self, endpoint: ApiEndpoint, client: Client, request: Request) -> Response:
         if not includes(client.role, endpoint.role):
             needed = f"this needs the role `{endpoint.role}`, and `{client.name}` has `{client.role}`"
-            raise RequestRefused(HTTPStatus.FORBIDDEN, needed)
+            raise ApiRefusal(HTTPStatus.FORBIDDEN, needed)
         if not endpoint.unlimited and not self._requests.take(client.name):
-            raise RequestRefused(HTTPStatus.TOO_MANY_REQUESTS, f"at most {REQUESTS_PER_S:g} requests a second")
+            raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"at most {REQUESTS_PER_S:g} requests a second")
         query = read_query(request, endpoint.query)
         content = b"" if endpoint.body is None else await read_body(request)
         body = None if endpoint.body is None else decode_body(content, endpoint.body)
         key = read_key(request) if endpoint.takes_key else None
-        answer = await endpoint.handle(Call(self._server, client, request.path_params, query, body, content, key))
+        answer = await endpoint.handle(ApiCall(self._server, client, request.path_params, query, body, content, key))
         if endpoint.answer is None:
             return Response(status_code=endpoint.status)
         return make_response(endpoint.status, answer, "application/json")
@@ -110,7 +110,7 @@ def make_response(status: HTTPStatus, value: object, media_type: str) -> Respons
     return Response(msgspec.json.encode(value), status, headers, media_type)
 
 
-def refuse(refused: RequestRefused) -> Response:
+def refuse(refused: ApiRefusal) -> Response:
     """Return the answer of a refusal."""
     response = make_response(refused.status, refused.problem, MEDIA_TYPE)
     if refused.status is HTTPStatus.UNAUTHORIZED:
@@ -123,7 +123,7 @@ def refuse(refused: RequestRefused) -> Response:
 async def _refuse_unknown(_: Request, error: Exception) -> Response:
     """Return the answer for a path or a method that does not exist."""
     assert isinstance(error, HTTPException)
-    response = refuse(RequestRefused(HTTPStatus(error.status_code), DETAILS.get(error.status_code, error.detail)))
+    response = refuse(ApiRefusal(HTTPStatus(error.status_code), DETAILS.get(error.status_code, error.detail)))
     response.headers.update(error.headers or {})
     return response
 

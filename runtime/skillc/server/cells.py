@@ -9,6 +9,7 @@ from skillc.cells.host import CellSettings
 from skillc.server.state import CELLS
 from skillc.services.backends import BackendName
 from skillc.services.errors import RequestError
+from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.task_scenes import default_scene
 
@@ -18,9 +19,10 @@ def choose_cells(
 ) -> tuple[CellSettings, ...]:
     """Return a cell for each scene, named like its file, or for the default scene of the library's project.
 
-    RequestError if there is no scene, or two have the same name.
+    RequestError if there is no scene, or two have the same name; DiagnosticsError if the library has errors.
     """
     files = find_library(library)
+    compile_valid(files)
     if not scenes:
         scene = default_scene(files.project) if files.project else None
         if scene is None:

@@ -6,18 +6,15 @@ from collections.abc import Iterable
 from contextlib import closing
 from dataclasses import dataclass, field
 from http import HTTPStatus
-from pathlib import Path
 
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import Operation
+from skillc.cells.operation import OperationStatus
 from skillc.server.audit import AuditLog
 from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
-from skillc.server.problems import RequestRefused
+from skillc.server.problems import ApiRefusal
 from skillc.server.state import ServerState
 from skillc.server.supervisor import CellSupervisor
-
-JOURNAL = "journal.sqlite"
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,26 +32,26 @@ class ServerContext:
         object.__setattr__(self, "keys", RequestKeys(self.state.database))
 
     def find_cell(self, name: str) -> CellSupervisor:
-        """Return a cell; RequestRefused (404) if there is none of this name."""
+        """Return a cell; ApiRefusal (404) if there is none of this name."""
         if name not in self.cells:
-            raise RequestRefused(HTTPStatus.NOT_FOUND, f"there is no cell `{name}`; there is {_join(self.cells)}")
+            raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no cell `{name}`; there is {_join(self.cells)}")
         return self.cells[name]
 
-    def find_operation(self, name: str) -> tuple[CellSupervisor, Operation]:
-        """Return an operation as it is, with its cell; RequestRefused (404) if there is none of this id."""
+    def find_operation(self, name: str) -> tuple[CellSupervisor, OperationStatus]:
+        """Return an operation as it is, with its cell; ApiRefusal (404) if there is none of this id."""
         for cell in self.cells.values():
             if (operation := cell.operations.get(name) or _find_ended(cell, name)) is not None:
                 return cell, operation
-        raise RequestRefused(HTTPStatus.NOT_FOUND, f"there is no operation `{name}`")
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no operation `{name}`")
 
 
 def open_journal(cell: CellSupervisor) -> JournalReader:
     """Open the journal of a cell; DatabaseError if it cannot be read, because the cell has never been ready."""
-    return JournalReader(Path(cell.settings.folder) / JOURNAL)
+    return JournalReader(cell.settings.journal)
 
 
-def _find_ended(cell: CellSupervisor, name: str) -> Operation | None:
-    if not (Path(cell.settings.folder) / JOURNAL).exists():
+def _find_ended(cell: CellSupervisor, name: str) -> OperationStatus | None:
+    if not cell.settings.journal.exists():
         return None
     with closing(open_journal(cell)) as reader:
         found = reader.find(name)

@@ -23,7 +23,7 @@ class Empty(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
+class ApiCall:
     """A request whose sender may make it; `body` and `query` are of the types of its endpoint.
 
     `key` is the Idempotency-Key, `content` the body as it was sent.
@@ -39,10 +39,10 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
-class Endpoint:
+class ApiEndpoint:
     """A method of a path below /api/v1, for clients with a role.
 
-    `handle` returns a value of the type `answer`, or raises RequestRefused with one of `refusals`. Only endpoints that
+    `handle` returns a value of the type `answer`, or raises ApiRefusal with one of `refusals`. Only endpoints that
     are `unlimited` are answered whatever the rate of requests is.
     """
 
@@ -50,7 +50,7 @@ class Endpoint:
     path: str
     role: Role
     summary: str
-    handle: Callable[[Call], Awaitable[object]]
+    handle: Callable[[ApiCall], Awaitable[object]]
     answer: Any = None
     body: Any = None
     query: type[msgspec.Struct] = Empty

@@ -11,10 +11,10 @@ import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from skillc.cells.database import DatabaseError
-from skillc.cells.messages import Happened, Status
+from skillc.cells.messages import Happened, StatusChanged
 from skillc.server.context import ServerContext, open_journal
 from skillc.server.hub import News
-from skillc.server.problems import RequestRefused
+from skillc.server.problems import ApiRefusal
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.envelope import Envelope
 
@@ -51,7 +51,7 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
         return None
     except (TimeoutError, msgspec.DecodeError, KeyError):
         await socket.close(REFUSED, "the first message is no valid hello")
-    except RequestRefused as refused:
+    except ApiRefusal as refused:
         await socket.close(REFUSED, refused.problem.detail[:120])
     except DatabaseError:
         await socket.close(BROKEN, "the journal cannot be read")
@@ -61,7 +61,7 @@ async def _stream_states(server: ServerContext, socket: WebSocket) -> None:
     """Send how everything is, and then what changes."""
     with server.hub.listening() as listener:
         for cell in server.cells.values():
-            await _send(socket, [Status(status=cell.status)])
+            await _send(socket, [StatusChanged(status=cell.status)])
             await _send(socket, [Happened(operation=each) for each in cell.operations.values()])
         while True:
             await _send(socket, await _take_or_leave(socket, listener.take()))

@@ -10,7 +10,7 @@ from starlette.datastructures import Headers
 from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from skillc.server.problems import MEDIA_TYPE, RequestRefused
+from skillc.server.problems import MEDIA_TYPE, ApiRefusal
 
 
 class Guard:
@@ -33,11 +33,11 @@ class Guard:
             content = msgspec.json.encode(refused.problem)
             await Response(content, refused.status, media_type=MEDIA_TYPE)(scope, receive, send)
 
-    def _find_refusal(self, headers: Headers) -> RequestRefused | None:
+    def _find_refusal(self, headers: Headers) -> ApiRefusal | None:
         hosts = headers.getlist("host")
         if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
-            return RequestRefused(HTTPStatus.MISDIRECTED_REQUEST, "this server has another name; see --host")
+            return ApiRefusal(HTTPStatus.MISDIRECTED_REQUEST, "this server has another name; see --host")
         origin = headers.get("origin")
         if origin is not None and urlsplit(origin).netloc.lower() != hosts[0].lower():
-            return RequestRefused(HTTPStatus.FORBIDDEN, "requests of pages from elsewhere are refused")
+            return ApiRefusal(HTTPStatus.FORBIDDEN, "requests of pages from elsewhere are refused")
         return None

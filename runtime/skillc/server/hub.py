@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TypeAlias
 
-from skillc.cells.messages import Happened, Status
+from skillc.cells.messages import Happened, StatusChanged
 
 MAX_WAITING = 256
 """How many news may wait for one listener. They say how far an operation is: events are read from the journal."""
 
-News: TypeAlias = Happened | Status
+News: TypeAlias = Happened | StatusChanged
 
 
 class Listener:

@@ -8,8 +8,8 @@ from typing import Any
 
 import msgspec
 
-from skillc.server.endpoint import Endpoint
-from skillc.server.problems import MEDIA_TYPE, Problem
+from skillc.server.endpoint import ApiEndpoint
+from skillc.server.problems import MEDIA_TYPE, ProblemDetails
 
 VERSION = "1"
 ALWAYS = (
@@ -29,12 +29,12 @@ REF = "#/components/schemas/{name}"
 _JSON = "application/json"
 
 
-def make_openapi(endpoints: Iterable[Endpoint], prefix: str) -> dict[str, Any]:
+def make_openapi(endpoints: Iterable[ApiEndpoint], prefix: str) -> dict[str, Any]:
     """Return the document of endpoints below a prefix."""
     endpoints = tuple(endpoints)
     types = [each for endpoint in endpoints for each in (endpoint.answer, endpoint.body) if each is not None]
-    schemas, components = msgspec.json.schema_components([*types, Problem], ref_template=REF)
-    schema_of = {id(kind): schema for kind, schema in zip([*types, Problem], schemas, strict=True)}
+    schemas, components = msgspec.json.schema_components([*types, ProblemDetails], ref_template=REF)
+    schema_of = {id(kind): schema for kind, schema in zip([*types, ProblemDetails], schemas, strict=True)}
     paths: dict[str, dict[str, Any]] = {}
     for each in endpoints:
         paths.setdefault(prefix + each.path, {})[each.method.lower()] = _describe(each, schema_of)
@@ -50,7 +50,7 @@ def make_openapi(endpoints: Iterable[Endpoint], prefix: str) -> dict[str, Any]:
     }
 
 
-def _describe(endpoint: Endpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
+def _describe(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
     described: dict[str, Any] = {
         "operationId": endpoint.handle.__name__,
         "summary": endpoint.summary,
@@ -63,30 +63,30 @@ def _describe(endpoint: Endpoint, schema_of: dict[int, dict[str, Any]]) -> dict[
     return described
 
 
-def _responses(endpoint: Endpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
+def _responses(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
     success: dict[str, Any] = {"description": endpoint.status.phrase}
     if endpoint.answer is not None:
         success["content"] = {_JSON: {"schema": schema_of[id(endpoint.answer)]}}
     refused = {*ALWAYS, *endpoint.refusals, *(WITH_BODY if endpoint.body is not None else ())}
     if endpoint.takes_key:
         refused.add(HTTPStatus.BAD_REQUEST)
-    problem = {MEDIA_TYPE: {"schema": schema_of[id(Problem)]}}
+    problem = {MEDIA_TYPE: {"schema": schema_of[id(ProblemDetails)]}}
     problems = {str(each.value): {"description": each.phrase, "content": problem} for each in sorted(refused)}
     return {str(endpoint.status.value): success, **problems}
 
 
-def _path_parameters(endpoint: Endpoint) -> list[dict[str, Any]]:
+def _path_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
     names = [part[1:-1] for part in endpoint.path.split("/") if part.startswith("{")]
     return [{"name": name, "in": "path", "required": True, "schema": {"type": "string"}} for name in names]
 
 
-def _query_parameters(endpoint: Endpoint) -> list[dict[str, Any]]:
+def _query_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
     _, components = msgspec.json.schema_components([endpoint.query], ref_template=REF)
     properties = components[endpoint.query.__name__].get("properties", {})
     return [{"name": name, "in": "query", "required": False, "schema": each} for name, each in properties.items()]
 
 
-def _header_parameters(endpoint: Endpoint) -> list[dict[str, Any]]:
+def _header_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
     if not endpoint.takes_key:
         return []
     schema = {"type": "string", "minLength": 1, "maxLength": 200, "pattern": "^[ -~]+$"}

@@ -10,16 +10,16 @@ from http import HTTPStatus
 from typing import assert_never
 
 from skillc.cells.messages import Refused
-from skillc.server.problems import RequestRefused
+from skillc.server.problems import ApiRefusal
 
 UNAVAILABLE = (HTTPStatus.TOO_MANY_REQUESTS, HTTPStatus.SERVICE_UNAVAILABLE)
 """The statuses with which a cell that is busy or off refuses everything."""
 
 
 def raise_refused(refused: Refused | None) -> None:
-    """Raise RequestRefused if a cell has refused a request."""
+    """Raise ApiRefusal if a cell has refused a request."""
     if refused is not None:
-        raise RequestRefused(_find_status(refused), refused.reason, refused.allowed or None)
+        raise ApiRefusal(_find_status(refused), refused.reason, refused.allowed or None)
 
 
 def _find_status(refused: Refused) -> HTTPStatus:

@@ -9,7 +9,7 @@ import msgspec
 MEDIA_TYPE = "application/problem+json"
 
 
-class Problem(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class ProblemDetails(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Why a request was refused; nothing has changed. `title` is the phrase of the status, `detail` says what to do.
 
     `allowed` are the commands that the state of an operation allows.
@@ -22,10 +22,10 @@ class Problem(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     allowed: tuple[str, ...] | None = None
 
 
-class RequestRefused(Exception):
+class ApiRefusal(Exception):
     """A request is refused with a status."""
 
     def __init__(self, status: HTTPStatus, detail: str, allowed: tuple[str, ...] | None = None) -> None:
         super().__init__(detail)
         self.status = status
-        self.problem = Problem(title=status.phrase, status=status.value, detail=detail, allowed=allowed)
+        self.problem = ProblemDetails(title=status.phrase, status=status.value, detail=detail, allowed=allowed)

@@ -11,7 +11,7 @@ MAX_BUCKETS = 10_000
 
 
 @dataclass(slots=True)
-class RateLimit:
+class TokenBuckets:
     """Each key may do `burst` things at once, and `per_s` things a second in the long run.
 
     Keys that were not seen for longest are forgotten when there are more than MAX_BUCKETS.
@@ -32,8 +32,3 @@ class RateLimit:
         if len(self._buckets) > MAX_BUCKETS:
             self._buckets.popitem(last=False)
         return taken
-
-    def is_empty(self, key: str) -> bool:
-        """Whether a key's bucket has none left."""
-        left, at = self._buckets.get(key, (self.burst, self.clock()))
-        return left + (self.clock() - at) * self.per_s < 1.0

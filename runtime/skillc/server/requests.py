@@ -10,7 +10,7 @@ import msgspec
 from starlette.requests import ClientDisconnect, Request
 
 from skillc.server.access.tokens import Client, Tokens
-from skillc.server.problems import RequestRefused
+from skillc.server.problems import ApiRefusal
 
 MAX_BODY_BYTES = 2**20
 BODY_S = 10.0
@@ -26,26 +26,26 @@ def find_client(request: Request, tokens: Tokens) -> Client | None:
 
 
 def read_query(request: Request, kind: type[msgspec.Struct]) -> msgspec.Struct:
-    """Return the parameters of the query; RequestRefused if they are not of this type."""
+    """Return the parameters of the query; ApiRefusal if they are not of this type."""
     names = [name for name, _ in request.query_params.multi_items()]
     if len(set(names)) < len(names):
-        raise RequestRefused(INVALID, "a parameter of the query is given twice")
+        raise ApiRefusal(INVALID, "a parameter of the query is given twice")
     try:
         return msgspec.convert(dict(request.query_params), kind, strict=False)
     except msgspec.ValidationError as error:
-        raise RequestRefused(INVALID, f"query: {error}") from error
+        raise ApiRefusal(INVALID, f"query: {error}") from error
 
 
 async def read_body(request: Request) -> bytes:
-    """Return the body; RequestRefused if it is not JSON by its type, too large, or does not arrive in time."""
+    """Return the body; ApiRefusal if it is not JSON by its type, too large, or does not arrive in time."""
     if request.headers.get("content-type", "").partition(";")[0].strip().lower() != "application/json":
-        raise RequestRefused(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, "send application/json")
+        raise ApiRefusal(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, "send application/json")
     try:
         return await asyncio.wait_for(_receive(request), BODY_S)
     except TimeoutError as error:
-        raise RequestRefused(HTTPStatus.REQUEST_TIMEOUT, f"the body did not arrive within {BODY_S:g} s") from error
+        raise ApiRefusal(HTTPStatus.REQUEST_TIMEOUT, f"the body did not arrive within {BODY_S:g} s") from error
     except ClientDisconnect as error:
-        raise RequestRefused(BAD_REQUEST, "the body is incomplete") from error
+        raise ApiRefusal(BAD_REQUEST, "the body is incomplete") from error
 
 
 async def _receive(request: Request) -> bytes:
@@ -53,24 +53,24 @@ async def _receive(request: Request) -> bytes:
     async for part in request.stream():
         size += len(part)
         if size > MAX_BODY_BYTES:
-            raise RequestRefused(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"at most {MAX_BODY_BYTES} bytes are read")
+            raise ApiRefusal(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"at most {MAX_BODY_BYTES} bytes are read")
         parts.append(part)
     return b"".join(parts)
 
 
 def decode_body(content: bytes, kind: Any) -> Any:
-    """Return the value of a body; RequestRefused if it is no JSON, or not of this type."""
+    """Return the value of a body; ApiRefusal if it is no JSON, or not of this type."""
     try:
         return msgspec.json.decode(content, type=kind)
     except msgspec.ValidationError as error:
-        raise RequestRefused(INVALID, str(error)) from error
+        raise ApiRefusal(INVALID, str(error)) from error
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise RequestRefused(BAD_REQUEST, f"the body is no JSON: {error}") from error
+        raise ApiRefusal(BAD_REQUEST, f"the body is no JSON: {error}") from error
 
 
 def read_key(request: Request) -> str | None:
-    """Return the Idempotency-Key; None without one. RequestRefused if it is too long, or not printable ASCII."""
+    """Return the Idempotency-Key; None without one. ApiRefusal if it is too long, or not printable ASCII."""
     key = request.headers.get("idempotency-key")
     if key is not None and not (0 < len(key) <= MAX_KEY and key.isascii() and key.isprintable()):
-        raise RequestRefused(BAD_REQUEST, f"an Idempotency-Key has 1 to {MAX_KEY} printable ASCII characters")
+        raise ApiRefusal(BAD_REQUEST, f"an Idempotency-Key has 1 to {MAX_KEY} printable ASCII characters")
     return key

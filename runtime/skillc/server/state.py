@@ -35,10 +35,6 @@ class ServerState:
         """The tokens of clients."""
         return Tokens(self.database)
 
-    def cell_folder(self, name: str) -> Path:
-        """Return the folder of a cell, which may not exist yet."""
-        return self.folder / CELLS / name
-
 
 @contextmanager
 def open_state(folder: Path) -> Iterator[ServerState]:

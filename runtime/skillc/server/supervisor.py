@@ -11,17 +11,16 @@ from typing import assert_never
 from msgspec import structs
 
 from skillc.cells.host import CellSettings
-from skillc.cells.messages import Alive, Answer, Happened, Message, NotStarted, Refused, Report, Status
-from skillc.cells.operation import CellStatus, Operation
+from skillc.cells.messages import Alive, CellAnswer, Happened, Message, Refused, Report, StartFailed, StatusChanged
+from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
 from skillc_runtime.execution.task_state import ENDS
 
 SILENCE_S = 30.0
 """How long the loop of a cell may stand still before its process is ended, in s of wall time."""
 FIRST_DELAY_S, MAX_DELAY_S = 0.5, 60.0
-"""How long to wait before a cell is started again: the delay doubles with each start that fails at once."""
+"""How long to wait before a cell is started again: the delay doubles each time until a cell has run for SETTLED_S."""
 SETTLED_S = 60.0
-"""A cell that has run for so long in s is started again without delay."""
 END_S = 20.0
 """How long a cell may take to come to rest and end, in s."""
 LOG = "log"
@@ -30,10 +29,10 @@ LOG = "log"
 class CellSupervisor:
     """One cell of a server. `status` is how it is, `operations` are those that go on; `publish` hears what happens."""
 
-    def __init__(self, settings: CellSettings, publish: Callable[[Happened | Status], None]) -> None:
+    def __init__(self, settings: CellSettings, publish: Callable[[Happened | StatusChanged], None]) -> None:
         self.settings = settings
         self.status = _off(settings, "it has not been started")
-        self.operations: dict[str, Operation] = {}
+        self.operations: dict[str, OperationStatus] = {}
         self._publish = publish
         self._cell: RemoteCell | None = None
         self._rounds, self._heard_at = 0, time.monotonic()
@@ -51,8 +50,9 @@ class CellSupervisor:
             while True:
                 began = time.monotonic()
                 await self._live()
-                delay_s = FIRST_DELAY_S if time.monotonic() - began > SETTLED_S else min(2.0 * delay_s, MAX_DELAY_S)
+                delay_s = FIRST_DELAY_S if time.monotonic() - began > SETTLED_S else delay_s
                 await asyncio.sleep(delay_s)
+                delay_s = min(2.0 * delay_s, MAX_DELAY_S)
         finally:
             await self._end()
 
@@ -119,14 +119,14 @@ class CellSupervisor:
                 else:
                     self.operations[operation.id] = operation
                 self._publish(report)
-            case Status(status=status):
+            case StatusChanged(status=status):
                 self._set_status(status)
             case Alive(rounds=rounds):
                 if rounds != self._rounds:
                     self._rounds, self._heard_at = rounds, time.monotonic()
-            case NotStarted(reason=reason):
+            case StartFailed(reason=reason):
                 self._problem = reason
-            case Answer():
+            case CellAnswer():
                 raise AssertionError("answers go to who waits for them")
             case _:
                 assert_never(report)
@@ -134,7 +134,7 @@ class CellSupervisor:
     def _set_status(self, status: CellStatus) -> None:
         if status != self.status:
             self.status = status
-            self._publish(Status(status=status))
+            self._publish(StatusChanged(status=status))
 
 
 def _off(settings: CellSettings, reason: str) -> CellStatus:

@@ -36,7 +36,7 @@ class Caption:
 
 
 @dataclass(frozen=True, slots=True)
-class Ending:
+class FilmEnding:
     """How a run ended: its colour, and what is said."""
 
     kind: EndKind

@@ -15,7 +15,7 @@ import numpy as np
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.film.annotations import Annotations
 from skillc_runtime.film.camera import CameraView
-from skillc_runtime.film.captions import STRIP_PIXELS, Caption, Ending, StripText, caption_at, draw_strip
+from skillc_runtime.film.captions import STRIP_PIXELS, Caption, FilmEnding, StripText, caption_at, draw_strip
 from skillc_runtime.film.force_marks import ForceMarks
 from skillc_runtime.film.frames import FRAMES_PER_S, Frame, FrameSampler
 from skillc_runtime.film.framing import Framing, posed
@@ -61,7 +61,7 @@ class Story:
 
     moments: Sequence[Moment] = ()
     captions: Sequence[Caption] = ()
-    ending: Ending | None = None
+    ending: FilmEnding | None = None
 
 
 NO_STORY = Story()

@@ -11,7 +11,7 @@ import msgspec
 
 from skillc.cells.database import describe_error, open_for_writing
 from skillc.cells.journal.schema import SCHEMA
-from skillc.cells.operation import Operation, OperationRequest
+from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import encode_changes
@@ -71,7 +71,7 @@ class CellJournal:
         """Record that an operation was submitted."""
         self._pending.operations.append((operation, time.time_ns(), self._encoder.encode(request)))
 
-    def end_operation(self, operation: Operation) -> None:
+    def end_operation(self, operation: OperationStatus) -> None:
         """Record how an operation has ended, after its last event."""
         self._pending.ended.append((self._encoder.encode(operation), operation.id))
 

@@ -12,7 +12,7 @@ import msgspec
 
 from skillc.cells.database import DatabaseError, describe_error, open_for_reading
 from skillc.cells.journal.schema import SCHEMA
-from skillc.cells.operation import Operation, OperationRequest
+from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import decode_changes
 from skillc_runtime.world.state.changes import Change
@@ -30,7 +30,7 @@ class RecordedOperation:
     id: str
     submitted_ns: int
     request: OperationRequest
-    ended: Operation | None
+    ended: OperationStatus | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,20 +81,11 @@ class JournalReader:
         with self._reading() as connection:
             return int(connection.execute(query, (operation,)).fetchone()[0])
 
-    @property
-    def last_write(self) -> int:
-        """The number of the last write to the world; 0 if there is none."""
+    def writes(self) -> tuple[JournalledWrite, ...]:
+        """Return the writes to the world, in order."""
+        query = "SELECT sequence, origin, changes, evidence, undo FROM transactions ORDER BY sequence"
         with self._reading() as connection:
-            return int(connection.execute("SELECT coalesce(max(sequence), 0) FROM transactions").fetchone()[0])
-
-    def writes(self, after: int) -> tuple[JournalledWrite, ...]:
-        """Return the writes to the world after number `after`, in order."""
-        query = (
-            "SELECT sequence, origin, changes, evidence, undo FROM transactions WHERE sequence > ? ORDER BY sequence"
-        )
-        with self._reading() as connection:
-            rows = connection.execute(query, (after,)).fetchall()
-            return tuple(_make_write(*row) for row in rows)
+            return tuple(_make_write(*row) for row in connection.execute(query).fetchall())
 
     def _select(self, which: str, *values: object) -> tuple[RecordedOperation, ...]:
         with self._reading() as connection:
@@ -112,7 +103,7 @@ class JournalReader:
 
 
 def _make_operation(name: str, submitted_ns: int, request: bytes, ended: bytes | None) -> RecordedOperation:
-    end = None if ended is None else msgspec.json.decode(ended, type=Operation)
+    end = None if ended is None else msgspec.json.decode(ended, type=OperationStatus)
     return RecordedOperation(name, submitted_ns, msgspec.json.decode(request, type=OperationRequest), end)
 
 

@@ -11,7 +11,7 @@ CREATE TABLE operations (
     id           TEXT PRIMARY KEY,
     submitted_ns INTEGER NOT NULL,              -- wall time, ns since 1970-01-01 UTC
     request      BLOB NOT NULL,                 -- OperationRequest as JSON
-    ended        BLOB                           -- Operation as JSON at its end; NULL before
+    ended        BLOB                           -- OperationStatus as JSON at its end; NULL before
 ) WITHOUT ROWID;
 CREATE INDEX operations_by_time ON operations (submitted_ns);
 CREATE TABLE events (

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.layout import Cell, Row
+from skillc.cli.layout import Row, TableCell
 from skillc.cli.options import json_option
 
 if TYPE_CHECKING:
@@ -37,5 +37,5 @@ def command(as_json: bool) -> int:
 
 
 def _row(finding: Finding) -> Row:
-    mark = Cell("ok", "good") if finding.found else Cell("--", "bad" if finding.required else "warning")
+    mark = TableCell("ok", "good") if finding.found else TableCell("--", "bad" if finding.required else "warning")
     return mark, finding.name, finding.version, finding.meaning

@@ -14,7 +14,7 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_template
 from skillc.cli.console import page_of, print_lines, print_remark
-from skillc.cli.layout import Cell
+from skillc.cli.layout import TableCell
 from skillc.cli.options import PATH
 
 EXAMPLES = """
@@ -44,7 +44,7 @@ def command(name: Path | None, template: str, list_: bool) -> None:
     from skillc.services.project_templates import TEMPLATES
 
     if list_:
-        print_lines(page_of(sys.stdout).columns([(Cell(each.name, "strong"), each.summary) for each in TEMPLATES]))
+        print_lines(page_of(sys.stdout).columns([(TableCell(each.name, "strong"), each.summary) for each in TEMPLATES]))
         return
     if name is None:
         raise click.UsageError("name the folder of the new project; --list lists the templates")

@@ -19,9 +19,13 @@ if TYPE_CHECKING:
     from skillc.services.backends import BackendName
 
 DEFAULT_BIND = "127.0.0.1:8421"
+EXAMPLES = """
+skillc serve my_project --cell cell.ttl
+skillc serve wiping --cell iiwa_table.ttl --backend kinematic
+"""
 
 
-@click.command(cls=Command)
+@click.command(cls=Command, examples=EXAMPLES)
 @click.argument("library", type=PATH, default=Path())
 @click.option("--cell", "scenes", type=PATH, multiple=True, help="A scene to run as a cell. Can be repeated.")
 @click.option("--bind", default=DEFAULT_BIND, show_default=True, metavar="HOST:PORT", help="Listen to this address.")
@@ -40,6 +44,7 @@ def command(library: Path, scenes: tuple[Path, ...], bind: str, state: Path, bac
     """Serve the cells with the skills of LIBRARY, by default the project here."""
     if find_spec("uvicorn") is None:
         raise click.UsageError("the server needs uvicorn and starlette: pip install 'skillc[server]'")
+    from skillc.cli.console import Terminal
     from skillc_runtime.platforms.processes import INHERITS_SOCKETS
 
     if not INHERITS_SOCKETS:
@@ -50,4 +55,5 @@ def command(library: Path, scenes: tuple[Path, ...], bind: str, state: Path, bac
     host, _, port = bind.rpartition(":")
     if not host or not port.isdecimal() or int(port) > 65535:
         raise click.UsageError(f"--bind {bind}: write HOST:PORT, such as {DEFAULT_BIND}")
-    serve(choose_cells(library, scenes, state, backend, seed), host.strip("[]"), int(port), state)
+    cells = choose_cells(library, scenes, state, backend, seed)
+    serve(cells, host.strip("[]"), int(port), state, Terminal())

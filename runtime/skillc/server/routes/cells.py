@@ -9,7 +9,7 @@ import msgspec
 
 from skillc.cells.messages import Acknowledge, Message, SetPace
 from skillc.cells.operation import CellStatus
-from skillc.server.endpoint import Call, Endpoint
+from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.values import Reason
 
@@ -28,29 +28,29 @@ class StopAll(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     reason: Reason = "stopped"
 
 
-async def list_cells(call: Call) -> tuple[CellStatus, ...]:
+async def list_cells(call: ApiCall) -> tuple[CellStatus, ...]:
     return tuple(cell.status for cell in call.server.cells.values())
 
 
-async def show_cell(call: Call) -> CellStatus:
+async def show_cell(call: ApiCall) -> CellStatus:
     return call.server.find_cell(call.path["cell"]).status
 
 
-async def set_pace(call: Call) -> CellStatus:
+async def set_pace(call: ApiCall) -> CellStatus:
     return await _request(call, SetPace(factor=call.body.factor))
 
 
-async def acknowledge_fault(call: Call) -> CellStatus:
+async def acknowledge_fault(call: ApiCall) -> CellStatus:
     return await _request(call, Acknowledge())
 
 
-async def stop_cell(call: Call) -> CellStatus:
+async def stop_cell(call: ApiCall) -> CellStatus:
     cell = call.server.find_cell(call.path["cell"])
     cell.stop(f"{call.client.name}: {call.body.reason}")
     return cell.status
 
 
-async def _request(call: Call, message: Message) -> CellStatus:
+async def _request(call: ApiCall, message: Message) -> CellStatus:
     cell = call.server.find_cell(call.path["cell"])
     raise_refused(await cell.request(message))
     return cell.status
@@ -58,9 +58,9 @@ async def _request(call: Call, message: Message) -> CellStatus:
 
 NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
 ENDPOINTS = (
-    Endpoint("GET", "/cells", "view", "List the cells", list_cells, tuple[CellStatus, ...]),
-    Endpoint("GET", "/cells/{cell}", "view", "Show a cell", show_cell, CellStatus, refusals=(NOT_FOUND,)),
-    Endpoint(
+    ApiEndpoint("GET", "/cells", "view", "List the cells", list_cells, tuple[CellStatus, ...]),
+    ApiEndpoint("GET", "/cells/{cell}", "view", "Show a cell", show_cell, CellStatus, refusals=(NOT_FOUND,)),
+    ApiEndpoint(
         "PUT",
         "/cells/{cell}/pace",
         "operate",
@@ -70,7 +70,7 @@ ENDPOINTS = (
         body=PaceSetting,
         refusals=(NOT_FOUND, *UNAVAILABLE),
     ),
-    Endpoint(
+    ApiEndpoint(
         "POST",
         "/cells/{cell}/acknowledge",
         "operate",
@@ -79,7 +79,7 @@ ENDPOINTS = (
         CellStatus,
         refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
     ),
-    Endpoint(
+    ApiEndpoint(
         "POST",
         "/cells/{cell}/stop",
         "view",

@@ -6,19 +6,18 @@ import time
 from collections.abc import Iterable
 from contextlib import closing
 from http import HTTPStatus
-from pathlib import Path
 from typing import Annotated
 
 import msgspec
 from msgspec import structs
 
 from skillc.cells.messages import Give, Submit
-from skillc.cells.operation import Operation, OperationRequest
+from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.server.context import open_journal
-from skillc.server.endpoint import Call, Endpoint
+from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
 from skillc.server.outcome import UNAVAILABLE, raise_refused
-from skillc.server.problems import RequestRefused
+from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording import commands
@@ -39,7 +38,7 @@ Command = (
 """The commands that need the role `operate`; who gives one is its client, whatever it says."""
 
 
-class Page(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class HistoryPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Which part of a history: what was submitted before a wall time, in ns since 1970, and how much at most."""
 
     before_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] | None = None
@@ -59,12 +58,12 @@ class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     reason: Annotated[str, msgspec.Meta(max_length=500)] = "stopped"
 
 
-async def list_operations(call: Call) -> tuple[Operation, ...]:
+async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:
     cell = call.server.find_cell(call.path["cell"])
     return tuple(_read_history(cell, call.query))
 
 
-async def submit_operation(call: Call) -> Operation:
+async def submit_operation(call: ApiCall) -> OperationStatus:
     cell = call.server.find_cell(call.path["cell"])
     request: OperationRequest = structs.replace(call.body, owner=call.client.name)
     operation = make_run_id(request.task or "operation")
@@ -78,40 +77,40 @@ async def submit_operation(call: Call) -> Operation:
     return call.server.find_operation(operation)[1]
 
 
-async def show_operation(call: Call) -> Operation:
+async def show_operation(call: ApiCall) -> OperationStatus:
     return call.server.find_operation(call.path["operation"])[1]
 
 
-async def give_command(call: Call) -> Operation:
+async def give_command(call: ApiCall) -> OperationStatus:
     cell, operation = _find_running(call)
     raise_refused(await cell.request(Give(operation=operation.id, command=_sign(call.body, call.client.name))))
     return call.server.find_operation(operation.id)[1]
 
 
-async def stop_operation(call: Call) -> Operation:
+async def stop_operation(call: ApiCall) -> OperationStatus:
     cell, operation = call.server.find_operation(call.path["operation"])
     if operation.state not in ENDS:
         cell.stop(f"{call.client.name}: {call.body.reason}", operation.id)
     return operation
 
 
-async def list_events(call: Call) -> tuple[Envelope, ...]:
+async def list_events(call: ApiCall) -> tuple[Envelope, ...]:
     cell, operation = call.server.find_operation(call.path["operation"])
     with closing(open_journal(cell)) as reader:
         return reader.envelopes(operation.id, call.query.after, call.query.limit)
 
 
-def _claim(call: Call, content: bytes, operation: str) -> str:
+def _claim(call: ApiCall, content: bytes, operation: str) -> str:
     assert call.key is not None
     try:
         return call.server.keys.claim(call.client.name, call.key, content, operation)
     except KeyReused as error:
-        raise RequestRefused(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
 
 
-def _read_history(cell: CellSupervisor, page: Page) -> Iterable[Operation]:
+def _read_history(cell: CellSupervisor, page: HistoryPage) -> Iterable[OperationStatus]:
     """Return operations, the last one first; those that go on are as they are now."""
-    if not (Path(cell.settings.folder) / "journal.sqlite").exists():
+    if not cell.settings.journal.exists():
         return
     with closing(open_journal(cell)) as reader:
         before_ns = time.time_ns() + 1 if page.before_ns is None else page.before_ns
@@ -121,10 +120,10 @@ def _read_history(cell: CellSupervisor, page: Page) -> Iterable[Operation]:
                 yield found
 
 
-def _find_running(call: Call) -> tuple[CellSupervisor, Operation]:
+def _find_running(call: ApiCall) -> tuple[CellSupervisor, OperationStatus]:
     cell, operation = call.server.find_operation(call.path["operation"])
     if operation.state in ENDS:
-        raise RequestRefused(HTTPStatus.CONFLICT, f"the operation has {operation.state}; it takes no commands", ())
+        raise ApiRefusal(HTTPStatus.CONFLICT, f"the operation has {operation.state}; it takes no commands", ())
     return cell, operation
 
 
@@ -135,53 +134,59 @@ def _sign(command: commands.Command, who: str) -> commands.Command:
 
 NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
 ENDPOINTS = (
-    Endpoint(
+    ApiEndpoint(
         "GET",
         "/cells/{cell}/operations",
         "view",
         "List the operations of a cell, the last one first",
         list_operations,
-        tuple[Operation, ...],
-        query=Page,
+        tuple[OperationStatus, ...],
+        query=HistoryPage,
         refusals=(NOT_FOUND,),
     ),
-    Endpoint(
+    ApiEndpoint(
         "POST",
         "/cells/{cell}/operations",
         "operate",
         "Submit an operation",
         submit_operation,
-        Operation,
+        OperationStatus,
         body=OperationRequest,
         status=HTTPStatus.CREATED,
         refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
         takes_key=True,
     ),
-    Endpoint(
-        "GET", "/operations/{operation}", "view", "Show an operation", show_operation, Operation, refusals=(NOT_FOUND,)
+    ApiEndpoint(
+        "GET",
+        "/operations/{operation}",
+        "view",
+        "Show an operation",
+        show_operation,
+        OperationStatus,
+        refusals=(NOT_FOUND,),
     ),
-    Endpoint(
+    ApiEndpoint(
         "POST",
         "/operations/{operation}/commands",
         "operate",
         "Give a command to an operation",
         give_command,
-        Operation,
+        OperationStatus,
         body=Command,
         refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
     ),
-    Endpoint(
+    ApiEndpoint(
         "POST",
         "/operations/{operation}/stop",
         "view",
         "Stop an operation; nothing happens if it has ended",
         stop_operation,
-        Operation,
+        OperationStatus,
         body=StopReason,
         refusals=(NOT_FOUND,),
         unlimited=True,
     ),
-    Endpoint(
+    ApiEndpoint(
         "GET",
         "/operations/{operation}/events",
         "view",

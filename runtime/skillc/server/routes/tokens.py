@@ -8,8 +8,8 @@ import msgspec
 
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenExists, TokenInfo
-from skillc.server.endpoint import Call, Endpoint
-from skillc.server.problems import RequestRefused
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.problems import ApiRefusal
 from skillc.server.values import Name
 
 
@@ -28,28 +28,28 @@ class MadeToken(msgspec.Struct, frozen=True):
     token: str
 
 
-async def list_tokens(call: Call) -> tuple[TokenInfo, ...]:
+async def list_tokens(call: ApiCall) -> tuple[TokenInfo, ...]:
     return call.server.state.tokens.list()
 
 
-async def add_token(call: Call) -> MadeToken:
+async def add_token(call: ApiCall) -> MadeToken:
     try:
         token = call.server.state.tokens.add(call.body.name, call.body.role)
     except TokenExists as error:
-        raise RequestRefused(HTTPStatus.CONFLICT, str(error)) from error
+        raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
     return MadeToken(call.body.name, call.body.role, token)
 
 
-async def revoke_token(call: Call) -> None:
+async def revoke_token(call: ApiCall) -> None:
     if call.path["token"] == call.client.name:
-        raise RequestRefused(HTTPStatus.CONFLICT, "a token cannot revoke itself; use another one")
+        raise ApiRefusal(HTTPStatus.CONFLICT, "a token cannot revoke itself; use another one")
     if not call.server.state.tokens.revoke(call.path["token"]):
-        raise RequestRefused(HTTPStatus.NOT_FOUND, f"there is no token `{call.path['token']}`")
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no token `{call.path['token']}`")
 
 
 ENDPOINTS = (
-    Endpoint("GET", "/tokens", "admin", "List the tokens", list_tokens, tuple[TokenInfo, ...]),
-    Endpoint(
+    ApiEndpoint("GET", "/tokens", "admin", "List the tokens", list_tokens, tuple[TokenInfo, ...]),
+    ApiEndpoint(
         "POST",
         "/tokens",
         "admin",
@@ -60,7 +60,7 @@ ENDPOINTS = (
         status=HTTPStatus.CREATED,
         refusals=(HTTPStatus.CONFLICT,),
     ),
-    Endpoint(
+    ApiEndpoint(
         "DELETE",
         "/tokens/{token}",
         "admin",

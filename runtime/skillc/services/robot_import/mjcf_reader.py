@@ -14,7 +14,7 @@ from skillc.services.robot_import.chain import check_count
 from skillc.services.robot_import.mechanism import MujocoMechanism
 from skillc.services.robot_import.mjcf_chain import MjcfChain, choose_chain, cut_to_chain
 from skillc.services.robot_import.reading import Reading, ReadOptions
-from skillc.services.robot_import.robot_model import Base, Inertia, Joint, Link, RobotModel, Shape, ShapeKind
+from skillc.services.robot_import.robot_model import Base, Inertia, Joint, RobotLink, RobotModel, Shape, ShapeKind
 from skillc.services.robot_import.shape_fitting import fit_shape
 from skillc.services.robot_import.urdf_shapes import stand_in
 from skillc_runtime.motion.pose import Array, Pose
@@ -94,7 +94,7 @@ class _Arm:
         self._frames = [self.base, *(self._body(body) @ at for body, at in zip(moved, anchors, strict=True))]
         self._owner = self._owners(root, moved)
 
-    def links(self) -> Iterator[Link]:
+    def links(self) -> Iterator[RobotLink]:
         """Yield the links from the base on; one without a shape has a capsule to the next joint."""
         for number, joint in enumerate(self.joints, 1):
             here, before = self._frames[number], self._frames[number - 1]
@@ -102,7 +102,7 @@ class _Arm:
             if not shapes and number < len(self.joints):
                 shapes = stand_in((here.inverse() @ self._frames[number + 1]).position)
             body = self._model.body(self._model.jnt_bodyid[joint]).name or f"link{number}"
-            yield Link(body, before.inverse() @ here, self._joint(joint), self._inertia(number), shapes)
+            yield RobotLink(body, before.inverse() @ here, self._joint(joint), self._inertia(number), shapes)
 
     def flange(self, turn: Array) -> Pose:
         """Return the flange in the frame of the last link."""

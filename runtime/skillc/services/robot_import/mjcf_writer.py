@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from skillc.services.robot_import.robot_model import Base, Inertia, Joint, Link, RobotModel, Shape
+from skillc.services.robot_import.robot_model import Base, Inertia, Joint, RobotLink, RobotModel, Shape
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
 ControlKind: TypeAlias = Literal["torque", "position", "velocity"]
@@ -66,7 +66,7 @@ def _base(base: Base) -> Iterator[str]:
     yield from _indented(3, [_geom(shape) for shape in base.shapes])
 
 
-def _link(link: Link) -> Iterator[str]:
+def _link(link: RobotLink) -> Iterator[str]:
     joint = link.joint
     kind = ' type="slide"' if joint.slides else ""
     yield f"<body name={quoteattr(_body_name(link.name))}{_pose(link.placement)}>"

@@ -48,7 +48,7 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Link:
+class RobotLink:
     """A link with all that is fixed to it; `placement` is its frame in that of the link before, at joint position 0."""
 
     name: str
@@ -74,7 +74,7 @@ class RobotModel:
     """
 
     base: Base
-    links: tuple[Link, ...]
+    links: tuple[RobotLink, ...]
     flange: Pose
     tip: str
     armature: float | None = None

@@ -15,7 +15,7 @@ from skillc.services.robot_import.comparison import compare
 from skillc.services.robot_import.mechanism import PinocchioMechanism
 from skillc.services.robot_import.possible_inertia import is_possible, nearest_possible
 from skillc.services.robot_import.reading import Reading, ReadOptions
-from skillc.services.robot_import.robot_model import Base, Inertia, Joint, Link, RobotModel, Shape
+from skillc.services.robot_import.robot_model import Base, Inertia, Joint, RobotLink, RobotModel, Shape
 from skillc.services.robot_import.urdf_shapes import read_shapes, stand_in
 from skillc.services.robot_import.urdf_text import JOINT, LINK, arm_text
 from skillc.services.robot_import.urdf_tree import UrdfJoint, UrdfTree, numbers, read_tree
@@ -109,7 +109,7 @@ class _Arm:
         """Return the shapes of all links that are fixed to a link of the chain, or to the base (0)."""
         return tuple(each for link in self.links if self._frames[link].parentJoint == index for each in shapes[link])
 
-    def link(self, index: int, name: str, joint: Joint, shapes: dict[str, tuple[Shape, ...]]) -> Link:
+    def link(self, index: int, name: str, joint: Joint, shapes: dict[str, tuple[Shape, ...]]) -> RobotLink:
         """Return the link `name` that a joint moves. RequestError without inertia."""
         inertia = self.inertia(index)
         if inertia is None:
@@ -118,7 +118,7 @@ class _Arm:
                 "with the mass, its centre and the inertia, from the maker's data or a CAD model"
             )
         placement = _pose(self.model.jointPlacements[index])
-        return Link(name, placement, joint, inertia, self.shapes_of(index, shapes))
+        return RobotLink(name, placement, joint, inertia, self.shapes_of(index, shapes))
 
 
 def _rest(pin: Any, model: Any) -> Array:
@@ -155,7 +155,7 @@ def _joint(tree: UrdfTree, joint: UrdfJoint) -> Joint:
     return Joint(joint.name, joint.kind == "prismatic", axis / length, low, high, effort or None, speed or None)
 
 
-def _with_stand_ins(links: tuple[Link, ...], notes: list[str]) -> Iterator[Link]:
+def _with_stand_ins(links: tuple[RobotLink, ...], notes: list[str]) -> Iterator[RobotLink]:
     """Yield the links, those without a shape with a capsule that leads to the next joint."""
     bare = []
     for link, following in zip(links, (*links[1:], None), strict=True):
@@ -163,7 +163,7 @@ def _with_stand_ins(links: tuple[Link, ...], notes: list[str]) -> Iterator[Link]
         if not shapes:
             bare.append(f"`{link.name}`")
             shapes = stand_in(following.placement.position) if following else ()
-        yield Link(link.name, link.placement, link.joint, link.inertia, shapes)
+        yield RobotLink(link.name, link.placement, link.joint, link.inertia, shapes)
     if bare:
         notes.append(f"{_some(bare)}: no shape in the file that can be read; a capsule to the next joint is taken")
 

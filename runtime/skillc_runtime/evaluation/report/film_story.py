@@ -7,7 +7,7 @@ from math import inf
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.film.captions import Caption, Ending
+from skillc_runtime.film.captions import Caption, FilmEnding
 from skillc_runtime.film.film import Moment, Story
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.known_facts import format_status
@@ -66,12 +66,12 @@ def _is_device(individual: str, state: WorldState) -> bool:
     return devices or bool(state.objects(individual, HAS_ARM))
 
 
-def _describe_end(result: TaskResult) -> Ending | None:
+def _describe_end(result: TaskResult) -> FilmEnding | None:
     status = format_status(result.status, result.verified)
     match result.status:
         case "succeeded":
-            return Ending("unverified" if result.verified is False else "succeeded", status)
+            return FilmEnding("unverified" if result.verified is False else "succeeded", status)
         case "failed":
-            return Ending("failed", f"{status}: {result.failure}" if result.failure else status)
+            return FilmEnding("failed", f"{status}: {result.failure}" if result.failure else status)
         case _:
-            return Ending("stopped", f"{status}: {result.failure}" if result.failure else status)
+            return FilmEnding("stopped", f"{status}: {result.failure}" if result.failure else status)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from skillc_runtime.evaluation.report.figure_style import DIM, SHADE, WIDTH_IN, add_legend, plot_curve
-from skillc_runtime.evaluation.report.pushes import Push, find_force_source
+from skillc_runtime.evaluation.report.pushes import PushRecord, find_force_source
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import ForceSource
 from skillc_runtime.motion.pose import Array
@@ -27,12 +27,12 @@ ROOM = 1.08
 class PushDrawing:
     """A push to draw: where the arm knows its force from, and when a button in it switched, None if none did."""
 
-    push: Push
+    push: PushRecord
     source: ForceSource
     switched_s: float | None
 
 
-def make_push_drawing(push: Push, record: RunRecord) -> PushDrawing:
+def make_push_drawing(push: PushRecord, record: RunRecord) -> PushDrawing:
     """Return what is drawn of a push."""
     return PushDrawing(push, find_force_source(push.arm, record), _find_switching(push, record))
 
@@ -80,7 +80,7 @@ def _ends(values: Array) -> Array:
     return np.array([values.min(initial=0.0), values.max(initial=0.0)])
 
 
-def _find_switching(push: Push, record: RunRecord) -> float | None:
+def _find_switching(push: PushRecord, record: RunRecord) -> float | None:
     for button in (each for each in push.on if record.state.is_a(each, BUTTON)):
         rows = record.truth.pressing(button)
         switched = rows[(rows[:, 2] > 0) & (rows[:, 0] >= push.start_s) & (rows[:, 0] <= push.end_s), 0]

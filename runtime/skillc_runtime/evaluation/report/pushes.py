@@ -32,7 +32,7 @@ DEVICES = (ARM_DEVICE, END_EFFECTOR, ROBOT)
 
 
 @dataclass(frozen=True, slots=True)
-class Push:
+class PushRecord:
     """A scope in which an arm pressed its tool opposite to `along`, a unit vector (3,) in the world, with `force_n`.
 
     `within` is the call of the skill around it, `on` are the individuals it names besides devices, by IRI; `body` is
@@ -66,13 +66,13 @@ class Push:
         return np.asarray(down - down[min(int(np.searchsorted(self.samples.time, zero)), len(down) - 1)])
 
 
-def find_pushes(record: RunRecord) -> tuple[Push, ...]:
+def find_pushes(record: RunRecord) -> tuple[PushRecord, ...]:
     """Return all pushes of a run in order of time, also those that failed or were halted."""
     found = [push for tree in record.trees for push in _find_below(tree, (), record)]
     return tuple(sorted(found, key=lambda push: (push.start_s, push.arm)))
 
 
-def measure_push(push: Push, record: RunRecord) -> PushResult:
+def measure_push(push: PushRecord, record: RunRecord) -> PushResult:
     """Return the numbers of a push."""
     short, truth, contact = record.state.vocabulary.short, push.truth, push.contact_s
     known = push.force[push.samples.time >= contact] if contact is not None else np.zeros(0)
@@ -128,7 +128,7 @@ def _recording(tool: str, record: RunRecord) -> Recording:
         return Recording(np.empty((0, 25)))
 
 
-def _find_below(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[Push]:
+def _find_below(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[PushRecord]:
     """Yield the pushes below a node, which is within these calls, the outermost first."""
     choice = record.choices.get(node.id)
     inside = calls if choice is None or choice.activity else (*calls, choice)
@@ -138,7 +138,7 @@ def _find_below(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], reco
         yield from _find_below(child, inside, record)
 
 
-def _read_scope(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[Push]:
+def _read_scope(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[PushRecord]:
     """Yield the pushes that last as long as a scope: one for each run of it."""
     opening, *body = node.children
     pressing = (record.choices.get(each.id) for each in opening.nodes())
@@ -154,7 +154,7 @@ def _read_scope(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], reco
             on, axis = _find_objects(calls, record), np.array(along.components)
             truth = _find_true_force(on, arm.iri, (start, end), record)
             contact_s = _find_contact(samples, axis, force.value, truth, start)
-            yield Push(
+            yield PushRecord(
                 calls[-1], on, arm.iri, axis, force.value, start, end, tuple(body), samples, truth, contact_s
             )  # fmt: skip
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.evaluation.report.arm_trace import ArmPath
-from skillc_runtime.evaluation.report.pushes import Push, find_pushes
+from skillc_runtime.evaluation.report.pushes import PushRecord, find_pushes
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import SearchResult
 from skillc_runtime.motion.pose import Array
@@ -25,7 +25,7 @@ class Search:
     across (2, 3): two perpendicular unit vectors in the world, across the push; `names` of these directions.
     """
 
-    push: Push
+    push: PushRecord
     start_s: float
     end_s: float
     found: bool
@@ -65,7 +65,7 @@ def measure_search(search: Search, record: RunRecord) -> SearchResult:
     )
 
 
-def _find_in(push: Push, record: RunRecord) -> Iterator[Search]:
+def _find_in(push: PushRecord, record: RunRecord) -> Iterator[Search]:
     names, across = _find_plane(push.along)
     for node in (node for part in push.body for node in part.nodes()):
         choice = record.choices.get(node.id)

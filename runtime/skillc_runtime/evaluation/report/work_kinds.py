@@ -19,7 +19,7 @@ from skillc_runtime.evaluation.report.guidances import find_free_periods, measur
 from skillc_runtime.evaluation.report.handling_drawing import make_handling_drawings
 from skillc_runtime.evaluation.report.path_figure import choose_axes, draw_path
 from skillc_runtime.evaluation.report.push_figure import draw_push, make_push_drawing
-from skillc_runtime.evaluation.report.pushes import Push, find_pushes, measure_push
+from skillc_runtime.evaluation.report.pushes import PushRecord, find_pushes, measure_push
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.search_figure import draw_search, make_search_drawing
 from skillc_runtime.evaluation.report.searches import find_searches, measure_search
@@ -72,7 +72,7 @@ def _draw_wipings(record: RunRecord) -> Iterator[WorkFigure]:
         )  # fmt: skip
 
 
-def _pushes(record: RunRecord) -> Iterator[Push]:
+def _pushes(record: RunRecord) -> Iterator[PushRecord]:
     """Yield the pushes besides those on surfaces that were wiped, whose numbers say more."""
     wiped = {each.surface for each in record.wipings}
     yield from (push for push in find_pushes(record) if not wiped.intersection(push.on))
@@ -135,7 +135,7 @@ def _draw_drives(record: RunRecord) -> Iterator[WorkFigure]:
         )  # fmt: skip
 
 
-def _describe(push: Push) -> str:
+def _describe(push: PushRecord) -> str:
     """Return which skill pressed, and on what: `PressButton on Button 1`."""
     on = " and ".join(map(display_name, push.on))
     return f"{push.within.skill} on {on}" if on else f"{push.within.skill} by {display_name(push.arm)}"
