@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from itertools import count
+from operator import is_
 from typing import Any, TypeVar, assert_never
 
 import msgspec
@@ -48,19 +49,23 @@ def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
     changes: dict[str, object] = {}
     for name in item.__struct_fields__:
         value = getattr(item, name)
-        if isinstance(value, msgspec.Struct):
-            new = change(value)
-            if new is not value:
-                changes[name] = new
-        elif isinstance(value, tuple):
-            parts = tuple(change(each) if isinstance(each, msgspec.Struct) else each for each in value)
-            if any(one is not other for one, other in zip(parts, value, strict=True)):
-                changes[name] = parts
-        elif isinstance(value, dict):
-            values = {key: change(each) if isinstance(each, msgspec.Struct) else each for key, each in value.items()}
-            if any(values[key] is not each for key, each in value.items()):
-                changes[name] = values
+        new = _map_value(value, change)
+        if new is not value:
+            changes[name] = new
     return msgspec.structs.replace(item, **changes) if changes else item
+
+
+def _map_value(value: object, change: Callable[[Any], msgspec.Struct]) -> object:
+    """Return the value of a field with `change` applied to the structs in it; the same object if nothing changes."""
+    if isinstance(value, msgspec.Struct):
+        return change(value)
+    if isinstance(value, tuple):
+        parts = tuple(_map_value(each, change) for each in value)
+        return value if all(map(is_, parts, value)) else parts
+    if isinstance(value, dict):
+        entries = {key: _map_value(each, change) for key, each in value.items()}
+        return value if all(map(is_, entries.values(), value.values())) else entries
+    return value
 
 
 def contains_kind(item: Condition, *kinds: type[msgspec.Struct]) -> bool:

@@ -48,6 +48,8 @@ class RemoteCell:
 
         CellGone if the process ends before it answers.
         """
+        if self.gone.done():
+            raise CellGone(_describe_end(self.gone.result()))
         number = next(self._numbers)
         answer: asyncio.Future[CellAnswer] = asyncio.get_running_loop().create_future()
         self._unanswered[number] = answer
@@ -76,18 +78,20 @@ class RemoteCell:
         decoder = msgspec.msgpack.Decoder(Report)
         with suppress(asyncio.IncompleteReadError, ConnectionError):
             while True:
-                match decoder.decode(await self._requests.receive()):
-                    case CellAnswer(number=number) as answer:
-                        if number in self._unanswered and not self._unanswered[number].done():
-                            self._unanswered[number].set_result(answer)
-                    case report:
-                        self._report(report)
+                self._take(decoder.decode(await self._requests.receive()))
         code = await self._process.wait()  # wait ends: with the process, whose supervisor kills it if it falls silent
         self.abandon()
         for waiting in self._unanswered.values():
             if not waiting.done():
-                waiting.set_exception(CellGone(f"the process of the cell ended with {_describe(code)}"))
+                waiting.set_exception(CellGone(_describe_end(code)))
         return code
+
+    def _take(self, report: Report) -> None:
+        """Pass an answer to whoever waits for it, and other reports on."""
+        if not isinstance(report, CellAnswer):
+            self._report(report)
+        elif (waiting := self._unanswered.get(report.number)) is not None and not waiting.done():
+            waiting.set_result(report)
 
 
 class FrameStream:
@@ -140,5 +144,5 @@ async def start_cell(settings: CellSettings, log: TextIO, report: Callable[[Repo
     return RemoteCell(process, requests, stops, report)
 
 
-def _describe(code: int) -> str:
-    return f"signal {-code}" if code < 0 else f"code {code}"
+def _describe_end(code: int) -> str:
+    return f"the process of the cell ended with {f'signal {-code}' if code < 0 else f'code {code}'}"

@@ -88,15 +88,19 @@ def _incomplete(scene: Scene, arm: str, sheet: DataSheet, span: Span) -> Diagnos
 
 def check_project_sheets(project: Project) -> Iterator[Diagnostic]:
     """Yield the data sheets of a project that say that properties are still to be stated."""
-    for folder in project.ontologies:
-        for file in sorted((folder / "robots").glob("*.ttl")):
-            text = file.read_text("utf-8", errors="replace")
-            for each in parse(str(file), text, BASE).statements:
-                if each.predicate == TO_BE_STATED and isinstance(each.object, ox.Literal) and each.object.value.strip():
-                    names = ", ".join(f"skillc:{name}" for name in each.object.value.split())
-                    message = f"this data sheet does not state {names} yet, so that no scene can use its arm"
-                    hint = "write them, with their source, and remove them here"
-                    yield Diagnostic(INCOMPLETE, with_shown_path(each.object_place), message, hint, "warning")
+    files = (file for folder in project.ontologies for file in sorted((folder / "robots").glob("*.ttl")))
+    for file in files:
+        statements = parse(str(file), file.read_text("utf-8", errors="replace"), BASE).statements
+        for each in statements:
+            if each.predicate == TO_BE_STATED and isinstance(each.object, ox.Literal) and each.object.value.strip():
+                yield _unstated(each.object.value, with_shown_path(each.object_place))
+
+
+def _unstated(properties: str, span: Span) -> Diagnostic:
+    """Return the diagnostic of a data sheet that lists properties, separated by spaces, as still to be stated."""
+    names = ", ".join(f"skillc:{name}" for name in properties.split())
+    message = f"this data sheet does not state {names} yet, so that no scene can use its arm"
+    return Diagnostic(INCOMPLETE, span, message, "write them, with their source, and remove them here", "warning")
 
 
 def _misspelt_home(scene: Scene, path: str, sheet: DataSheet, message: str) -> Diagnostic | None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 model_option = partial(click.option, cls=GroupedOption, group="Model file")
 MODELS = (".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
-"""Suffixes by which a file with a model is told from a name."""
+"""An argument with one of these suffixes is a file with a model, any other one a name."""
 
 
 @click.command(

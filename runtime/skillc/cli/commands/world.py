@@ -73,7 +73,7 @@ def command(
 ) -> None:
     """Show SCENE, a file or the name of a shipped scene, or the world that a store holds.
 
-    A scene is Turtle, RDF/XML, JSON-LD, N-Triples or TriG; the format is told by its content. `--export` writes it in
+    A scene is Turtle, RDF/XML, JSON-LD, N-Triples or TriG; its content determines the format. `--export` writes it in
     one of them, without the facts of data sheets, which are part of every world (with `--all`, with them).
 
     In a project, SCENE may be left out if the manifest names one, and is also looked up in the project's folder.
@@ -85,7 +85,7 @@ def command(
     `skillc scene` writes scenes.
     """
     from skillc.cli.console import Terminal, print_result, print_text
-    from skillc.services import scene_export, scenes
+    from skillc.services import scenes
     from skillc.services.stores import StoreChoice
 
     choice = StoreChoice(store, reset)
@@ -100,14 +100,22 @@ def command(
         if graph:
             scenes.draw_scene(opened, graph)
             click.echo(graph)
-        elif form and output:
-            scene_export.write_export(opened, form, output, everything)
-            click.echo(output)
         elif form:
-            click.echo(scene_export.export_scene(opened, form, everything), nl=False)
+            _export(opened, form, output, everything)
         else:
             view = _format_view(opened, sparql, other, names, words, as_json)
             (print_result if as_json or sparql is not None else print_text)(view)
+
+
+def _export(opened: OpenScene, form: str, output: Path | None, everything: bool) -> None:
+    """Write a scene in an RDF format to a file, whose path is printed, or to the standard output."""
+    from skillc.services import scene_export
+
+    if output is None:
+        click.echo(scene_export.export_scene(opened, form, everything), nl=False)
+    else:
+        scene_export.write_export(opened, form, output, everything)
+        click.echo(output)
 
 
 def _format_view(

@@ -27,7 +27,7 @@ class Chain:
 def choose_chain(tree: UrdfTree, base: str | None, tip: str | None) -> Chain:
     """Return the chain between two links, which are found if they are not named.
 
-    RequestError if they do not exist, cannot be told, or are not joined by an arm.
+    RequestError if they do not exist, are ambiguous, or are not joined by an arm.
     """
     for option, link in (("--base", base), ("--tip", tip)):
         if link is not None and link not in tree.links:

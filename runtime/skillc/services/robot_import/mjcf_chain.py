@@ -31,7 +31,7 @@ class MjcfChain:
 def choose_chain(path: Path, model: Any, base: str | None, tip: str | None) -> MjcfChain:
     """Return the chain between a body and a body or site, which are found if not named.
 
-    RequestError if they do not exist, cannot be told, or joints between them are not those of an arm.
+    RequestError if they do not exist, are ambiguous, or joints between them are not those of an arm.
     """
     sites = [name for each in range(model.nsite) if (name := model.site(each).name)]
     bodies = [name for each in range(1, model.nbody) if (name := model.body(each).name)]

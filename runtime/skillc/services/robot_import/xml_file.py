@@ -1,4 +1,4 @@
-"""Reads the XML of a robot's model, and refuses in words what cannot be one."""
+"""Reads the XML of a robot's model; what cannot be one is a RequestError."""
 
 from __future__ import annotations
 

@@ -130,7 +130,7 @@ class ModelledGripper(ABC):
     def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
         """Count an object as held; it becomes the arm's payload and tool centre point, at `in_tool_centre`.
 
-        The arm carries the mass that it is told, not that of the body, which nobody has weighed. What really is between
+        `mass_kg` is the arm's payload, whatever the body really weighs. What really is between
         the fingers, if anything is, moves with the palm from now on, at its true pose.
         RuntimeError if the fingers are not blocked, or the cell has no body of the object.
         """

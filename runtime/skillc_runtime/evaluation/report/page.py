@@ -25,7 +25,7 @@ SYMBOLS = {
     "success": "✓", "succeeded": "✓", "failure": "✗", "failed": "✗", "refused": "✗", "halted": "■", "stopped": "■",
     "interrupted": "■", "running": "…", "idle": "·", "skipped": "·", "assumed": "?",
 }  # fmt: skip
-"""The symbol of each status: it is not told by colour alone."""
+"""The symbol of each status, so that colour is not needed to see it."""
 
 
 def render_page(

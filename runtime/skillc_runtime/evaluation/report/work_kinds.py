@@ -65,11 +65,12 @@ def _draw_wipings(record: RunRecord) -> Iterator[WorkFigure]:
     if drawings:
         overlaid = any(each.overlay_period_s is not None for each in drawings)
         yield WorkFigure(
-            "wiping", "Path, contact time, speed and force on the surface",
+            "wiping",
+            "Path, contact time, speed and force on the surface",
             "The shade of a cell is how long it lay under the pressed tool." + (SWINGING if overlaid else ""),
             "Path of the tool over the contact time of each cell, speed along the lanes, normal force",
             lambda: draw_figure(drawings),
-        )  # fmt: skip
+        )
 
 
 def _pushes(record: RunRecord) -> Iterator[PushRecord]:
@@ -84,29 +85,35 @@ def _draw_pushes(record: RunRecord) -> Iterator[WorkFigure]:
     for push in (each for each in _pushes(record) if (each.arm, each.start_s) not in searching):
         drawing = make_push_drawing(push, record)
         yield WorkFigure(
-            "push", f"Force of {_describe(push)}",
+            "push",
+            f"Force of {_describe(push)}",
             "Forces against the push. The arm measures or estimates them; its travel follows from its joints.",
-            "Force of the tool over time and over its travel", partial(draw_push, drawing),
-        )  # fmt: skip
+            "Force of the tool over time and over its travel",
+            partial(draw_push, drawing),
+        )
 
 
 def _draw_searches(record: RunRecord) -> Iterator[WorkFigure]:
     for search in find_searches(record):
         drawing = make_search_drawing(search, record)
         yield WorkFigure(
-            "search", f"Search of {_describe(search.push)}",
+            "search",
+            f"Search of {_describe(search.push)}",
             "The path is to scale, seen against the push.",
-            "Path of the tool while it searched, force and depth over time", partial(draw_search, drawing),
-        )  # fmt: skip
+            "Path of the tool while it searched, force and depth over time",
+            partial(draw_search, drawing),
+        )
 
 
 def _draw_guidances(record: RunRecord) -> Iterator[WorkFigure]:
     for period in find_free_periods(record):
         yield WorkFigure(
-            "guidance", f"{display_name(period.arm)} guided by hand",
+            "guidance",
+            f"{display_name(period.arm)} guided by hand",
             "While the arm yields in all directions, whoever leads its tool decides where it goes.",
-            "Path of the tool from above and from the side, force of the person, speed", partial(draw_guidance, period),
-        )  # fmt: skip
+            "Path of the tool from above and from the side, force of the person, speed",
+            partial(draw_guidance, period),
+        )
 
 
 def _draw_handlings(record: RunRecord) -> Iterator[WorkFigure]:
@@ -114,25 +121,31 @@ def _draw_handlings(record: RunRecord) -> Iterator[WorkFigure]:
     across = choose_axes(drawings)
     for drawing in drawings:
         yield WorkFigure(
-            "path", f"Path of {drawing.hand}",
+            "path",
+            f"Path of {drawing.hand}",
             "A dashed outline is where a thing was believed to be, if that is more than 5 mm off.",
             "Path of the hand from above and from the side, and the things it moved",
             partial(draw_path, drawing, across),
-        )  # fmt: skip
+        )
         yield WorkFigure(
-            "grips", f"Grip of {drawing.hand}",
+            "grips",
+            f"Grip of {drawing.hand}",
             "Skills see only what the sensor of the fingers measures. A gripper has no sensor of force: the force is "
             "that of its motor in the simulator, and while a thing is held, that with which it was grasped.",
-            "Opening and force of the fingers during each pick", partial(draw_grips, drawing),
-        )  # fmt: skip
+            "Opening and force of the fingers during each pick",
+            partial(draw_grips, drawing),
+        )
 
 
 def _draw_drives(record: RunRecord) -> Iterator[WorkFigure]:
     for robot, path in find_drives(record).items():
         yield WorkFigure(
-            "drive", f"Path of {display_name(robot)}", "Where the base says it is.",
-            "Path of the mobile base from above", partial(draw_drive, path, record),
-        )  # fmt: skip
+            "drive",
+            f"Path of {display_name(robot)}",
+            "Where the base says it is.",
+            "Path of the mobile base from above",
+            partial(draw_drive, path, record),
+        )
 
 
 def _describe(push: PushRecord) -> str:

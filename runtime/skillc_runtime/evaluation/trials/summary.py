@@ -1,4 +1,4 @@
-"""What is said of a series of trials in words, in the terminal and on its page."""
+"""The sentences about a series of trials, for the terminal and for its page."""
 
 from __future__ import annotations
 
