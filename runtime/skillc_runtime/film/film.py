@@ -139,7 +139,7 @@ class Film:
                 marked = Annotations(frame.annotations.ghosts, (), marks.arrows(at), marks.trails(at))
                 picture = scene.picture(frame, view, marked)
                 text = StripText(
-                    caption_at(story.captions, frame.time), self._legend(), _force_text(marks, at), self._time(frame)
+                    caption_at(story.captions, frame.time), self._legend(frame), _force_text(marks, at), self._time(frame)
                 )
                 yield np.concatenate([picture, draw_strip(text, WIDTH)])
         if story.ending is not None:
@@ -183,8 +183,9 @@ class Film:
             corners = [np.array([x, y, 0.0]) for x, y in product((-half[0], half[0]), (-half[1], half[1]))]
             yield each, np.array([self._truth.surface_pose(each).apply(corner) for corner in corners])
 
-    def _legend(self) -> str:
-        return WORKED if self._worked() else ""
+    @staticmethod
+    def _legend(frame: Frame) -> str:
+        return WORKED if any(shades.any() for shades in frame.shades.values()) else ""
 
     def _time(self, frame: Frame) -> str:
         return f"{frame.time:.1f} s, film {self.speed_up} x faster"
