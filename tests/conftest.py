@@ -17,12 +17,13 @@ if sys.platform == "win32":
 
 
 def pytest_configure() -> None:
-    """Let output have no edge, caches be where tests put them, and processes that tests start listen to Ctrl-C.
+    """Let output and caches depend on tests alone, and processes that tests start listen to Ctrl-C.
 
     In the background, where tests may run, they would not.
     """
-    os.environ.pop("COLUMNS", None)
-    os.environ.pop("SKILLC_CACHE", None)
+    for name in ("CI", "COLUMNS", "FORCE_COLOR", "NO_COLOR", "SKILLC_CACHE", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
+        os.environ.pop(name, None)
+    os.environ["TERM"] = "xterm"
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 

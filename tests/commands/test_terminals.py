@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from skillc.cli.layout import Page, TableCell
+from skillc.cli.layout import TableCell, TerminalPage
 from skillc.cli.main import skillc
 
 IRI = "http://example.org/a/very/long/path/that/has/no/place/to/break/at#Thing-With-A-Name"
@@ -29,7 +29,7 @@ def test_no_line_is_wider_than_the_terminal_or_ends_with_blanks(
 
 @pytest.mark.parametrize("width", [60, 80])
 def test_a_name_that_is_too_long_is_not_broken(width: int) -> None:
-    page = Page(width)
+    page = TerminalPage(width)
     assert page.wrap(f"see {IRI} there", hanging="  ") == ["see", f"  {IRI}", "  there"]
     assert page.columns([("a", "b"), (TableCell("thing", "name"), IRI)])[-1] == f"    {IRI}"
 

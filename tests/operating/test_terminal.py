@@ -136,11 +136,22 @@ def test_a_run_in_the_background_takes_no_keys_from_the_shell(tmp_path: Path) ->
 def test_without_a_terminal_nothing_may_pause(tmp_path: Path, option: tuple[str, ...]) -> None:
     done = subprocess.run(command(tmp_path, *option), env=ENVIRONMENT, capture_output=True, text=True, check=False)
     assert done.returncode == 2
-    assert f"{option[0]} requires a terminal as standard input and stderr" in done.stderr
+    assert f"{option[0]} requires a terminal that shows the run and takes keys" in done.stderr
+    assert "stderr is not a terminal" in done.stderr
     assert not (tmp_path / "out").exists()
 
 
-def test_nothing_may_pause_without_a_display(tmp_path: Path) -> None:
-    with Terminal(command(tmp_path, "--step", "--json"), ENVIRONMENT) as terminal:
+@pytest.mark.parametrize(
+    ("option", "environment", "said"),
+    [
+        ("--json", {}, "--step cannot be used with --json, which shows no run and takes no keys"),
+        ("--quiet", {}, "--quiet is given: nobody could let the task go on after a pause"),
+        ("--step", {"CI": "true"}, "the environment variable CI is set: nobody could let the task go on after a pause"),
+    ],
+)
+def test_nothing_may_pause_without_a_display(
+    tmp_path: Path, option: str, environment: dict[str, str], said: str
+) -> None:
+    with Terminal(command(tmp_path, "--step", option), {**ENVIRONMENT, **environment}) as terminal:
         assert terminal.wait() == 2
-        assert "--step cannot be used with --json, which shows no run and takes no keys" in terminal.shown
+        assert said in " ".join(terminal.shown.split())

@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 from msgspec.structs import replace
 
-from skillc.cli.layout import Page
+from skillc.cli.layout import TerminalPage
 from skillc.cli.trials_output import format_series
 from skillc_runtime.evaluation.trials import page
 from skillc_runtime.evaluation.trials.series import judge_series
@@ -141,7 +141,7 @@ def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> N
 
 
 def shown(disturbance: Disturbance, *trials: Trial) -> str:
-    return format_series(judge_series("clean", disturbance, len(trials), trials), Page(200), is_unicode=True)
+    return format_series(judge_series("clean", disturbance, len(trials), trials), TerminalPage(200), is_unicode=True)
 
 
 def test_the_table_has_every_metric_and_every_failed_seed() -> None:
@@ -184,7 +184,7 @@ def test_a_success_with_a_false_claim_fails_and_is_named(disturbance: Disturbanc
     series = judge_series("sort", disturbance, 2, trials)
     assert series.false_successes == 1
     assert f"false success: {claim}" in series.failed[0].reasons
-    for text in (format_series(series, Page(200), is_unicode=True), page.render_page(series)):
+    for text in (format_series(series, TerminalPage(200), is_unicode=True), page.render_page(series)):
         assert "1 of 2 succeeded with a false claim" in text
         assert claim in text
 

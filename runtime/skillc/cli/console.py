@@ -136,11 +136,15 @@ def has_colours(stream: TextIO) -> bool:
     return bool(os.environ.get("FORCE_COLOR")) or (stream.isatty() and os.environ.get("TERM") != "dumb")
 
 
-def shows_progress() -> bool:
-    """Whether to show displays that change: on a terminal that can do it, unless quiet or on a CI server."""
-    if output_settings().quiet or os.environ.get("TERM") == "dumb" or os.environ.get("CI"):
-        return False
-    return sys.stderr.isatty()
+def find_display_obstacle() -> str | None:
+    """Return why stderr shows no display that changes; None if it shows one."""
+    if output_settings().quiet:
+        return "--quiet is given"
+    if os.environ.get("CI"):
+        return "the environment variable CI is set"
+    if not sys.stderr.isatty():
+        return "stderr is not a terminal"
+    return "the terminal is dumb (TERM)" if os.environ.get("TERM") == "dumb" else None
 
 
 def is_unicode(stream: TextIO) -> bool:

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from skillc.cli.console import Terminal, page_of, print_result
+from skillc.cli.console import Terminal, find_display_obstacle, page_of, print_result
 from skillc.cli.result_output import format_ending, format_result
 from skillc.cli.run_progress import RunProgress
 from skillc.cli.settings import output_settings
@@ -26,9 +26,11 @@ def check_operable(options: RunOptions) -> None:
         return
     if options.prints_json:
         raise RequestError(f"{wanted} cannot be used with --json, which shows no run and takes no keys")
-    if not is_operable():
+    obstacle = find_display_obstacle() or (None if is_operable() else "no keys can be read from the standard input")
+    if obstacle is not None:
         raise RequestError(
-            f"{wanted} requires a terminal as standard input and stderr: nobody could let the task go on after a pause"
+            f"{wanted} requires a terminal that shows the run and takes keys, but {obstacle}: "
+            "nobody could let the task go on after a pause"
         )
 
 

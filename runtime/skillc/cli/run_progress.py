@@ -15,7 +15,7 @@ from rich.spinner import Spinner
 from rich.table import Table
 from rich.text import Text
 
-from skillc.cli.console import is_unicode, page_of, rich_console, shows_progress
+from skillc.cli.console import find_display_obstacle, is_unicode, page_of, rich_console
 from skillc.cli.interrupts import Interrupted, noting_signals
 from skillc.cli.layout import Style
 from skillc.cli.run_display import compose_display, format_estimate
@@ -66,7 +66,7 @@ class RunProgress:
         self._stopped = False
 
     def __enter__(self) -> RunProgress:
-        if not self._quiet and shows_progress():
+        if not self._quiet and find_display_obstacle() is None:
             self._live = Live(self._spinner, console=self._console, refresh_per_second=REFRESHES_PER_S, transient=True)
             self._live.start()
         return self

@@ -7,7 +7,7 @@ from types import TracebackType
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from skillc.cli.console import rich_console, shows_progress
+from skillc.cli.console import find_display_obstacle, rich_console
 from skillc.cli.settings import output_settings
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
@@ -26,7 +26,7 @@ class TrialProgress:
             TimeRemainingColumn(),
         )
         self._is_quiet = quiet or output_settings().quiet
-        hidden = self._is_quiet or not shows_progress()
+        hidden = self._is_quiet or find_display_obstacle() is not None
         self._bar = Progress(*columns, console=self._console, disable=hidden, transient=True)
         self._row = self._bar.add_task(task, total=self._count, completed=done)
 

@@ -139,7 +139,10 @@ class Film:
                 marked = Annotations(frame.annotations.ghosts, (), marks.arrows(at), marks.trails(at))
                 picture = scene.picture(frame, view, marked)
                 text = StripText(
-                    caption_at(story.captions, frame.time), self._legend(frame), _force_text(marks, at), self._time(frame)
+                    caption_at(story.captions, frame.time),
+                    self._legend(frame),
+                    _force_text(marks, at),
+                    self._time(frame),
                 )
                 yield np.concatenate([picture, draw_strip(text, WIDTH)])
         if story.ending is not None:
