@@ -51,7 +51,7 @@ impl gently of LeanOn {{
         ActuateGripper(gripper, opening: 0 mm)
         MoveTo(arm, target: before)
         with Compliance(arm, along: button.axis, stiffness: 0 N/m) {{
-            with PushRecord(arm, along: button.axis, force: 4 N, travel: 3 cm) {{
+            with Push(arm, along: button.axis, force: 4 N, travel: 3 cm) {{
                 ActuateGripper(gripper, opening: 0 mm)
             }}
         }}
