@@ -46,6 +46,13 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "no recording": (lambda: skillc.open_run("."), "has no events.jsonl"),
     "no trials": (lambda: skillc.trials("contact:press_button", 0), "a whole number of at least 1"),
     "no plan": (lambda: skillc.plan(goal="lab:Dock contain lab:Whiteboard-1", scene="ur5e_whiteboard"), "no plan"),
+    "arguments": (lambda: skillc.plan("contact:press_button", arguments={"a": "1"}), "takes no arguments"),
+    "arguments of a goal": (
+        lambda: skillc.plan(goal="x", scene="ur5e_whiteboard", arguments={"a": "1"}),
+        "the values of the parameters of a TASK",
+    ),
+    "arguments in a list": (lambda: skillc.run("x", arguments=["a"]), "a mapping of names to values"),  # type: ignore[arg-type]
+    "no value": (lambda: skillc.run("x", arguments={"a": None}), "`a` must be a text, not None"),
     "minimise": (lambda: skillc.plan("contact:press_button", minimise="time"), '"work" or "makespan"'),  # type: ignore[arg-type]
 }
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+import skillc as api
 from running_cells.yard import write_yard
 from skillc.cli.main import skillc
 
@@ -29,6 +30,19 @@ def test_a_task_is_planned_and_run_with_its_arguments(yard: Path) -> None:
     assert "crate: lab:crate-2, to: lab:Goal" in planned.stdout and "2 steps" in planned.stdout
     ran = invoke("run", *task, "--backend", "kinematic", "--json")
     assert ran.exit_code == 0 and '"task": "carry(crate: lab:crate-2, to: lab:Goal)"' in ran.stdout, ran.output
+
+
+def test_python_plans_and_runs_a_task_with_arguments(yard: Path) -> None:
+    task, arguments = f"{yard}:carry", {"crate": "lab:crate-2", "to": "lab:Goal"}
+    steps = api.plan(task, arguments=arguments).steps
+    assert [step.arguments["crate"] for step in steps] == ["lab:crate-2"] * 2
+    run = api.run(task, arguments=arguments, backend="kinematic")
+    assert run.result.task == "carry(crate: lab:crate-2, to: lab:Goal)" and run.status == "succeeded"
+
+
+def test_python_repeats_a_task_with_arguments(yard: Path) -> None:
+    series = api.trials(f"{yard}:carry", 1, arguments={"crate": "lab:crate-2", "to": "lab:Goal"}, jobs=1).series
+    assert (series.passed, series.wanted) == (1, 1)
 
 
 @pytest.mark.parametrize(

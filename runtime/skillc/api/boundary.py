@@ -89,6 +89,20 @@ def optional_text(value: object, what: str) -> str | None:
     return None if value is None else require_text(value, what)
 
 
+def read_arguments(value: object) -> dict[str, str]:
+    """Return the values of a task's parameters by name, as texts; RequestError for anything but a mapping of such."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise _wrong_type(value, "`arguments`", "a mapping of names to values")
+    return {
+        require_text(name, "the name of an argument"): require_text(
+            str(each) if isinstance(each, int | float) and not isinstance(each, bool) else each, f"`{name}`"
+        )
+        for name, each in value.items()
+    }
+
+
 def require_choice(value: T, choices: object, what: str) -> T:
     """Return a value that is one of a Literal's; RequestError lists them otherwise."""
     known = get_args(choices)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, Literal
@@ -13,6 +14,7 @@ from skillc.api.boundary import (
     optional_path,
     optional_seconds,
     optional_text,
+    read_arguments,
     require_choice,
 )
 from skillc.api.frames import make_frame, make_table
@@ -112,6 +114,7 @@ class Plan:
 def plan(
     task: str | None = None,
     *,
+    arguments: Mapping[str, Any] | None = None,
     goal: str | None = None,
     scene: AnyPath | None = None,
     library: AnyPath | None = None,
@@ -122,7 +125,8 @@ def plan(
     """Plan for a task, or for a goal in a scene, without running it.
 
     `task` is `LIBRARY:NAME`, or the name of a task of the project here or of a shipped one; without it and without a
-    goal, it is the default task of the project. `goal` is a condition or PDDL, `scene` a file or the name of a shipped
+    goal, it is the default task of the project. `arguments` are the values of its parameters by name, such as
+    `{"surface": "lab:Table-1"}`. `goal` is a condition or PDDL, `scene` a file or the name of a shipped
     scene, `library` the folder, file or name of the skills. `minimise` is total work or the makespan; `prove` plans
     with more of a large scene until the least work is proved. The search ends after `deadline_s` s.
 
@@ -130,14 +134,19 @@ def plan(
     has errors, RequestError if what is named does not exist or cannot be planned for.
     """
     with api_call():
-        request = make_request(task, goal, None, scene, library)
+        request = make_request(task, goal, None, scene, library, arguments)
         request.check(calls=False)
         with load_task(request, NoticeList()) as loaded:
             return make_plan(loaded, minimise, prove, deadline_s)
 
 
 def make_request(
-    task: str | None, goal: str | None, skill: str | None, scene: AnyPath | None, library: AnyPath | None
+    task: str | None,
+    goal: str | None,
+    skill: str | None,
+    scene: AnyPath | None,
+    library: AnyPath | None,
+    arguments: Mapping[str, Any] | None,
 ) -> TaskRequest:
     """Return the request for a task, or for a goal or call in a scene. RequestError for a value of a wrong type."""
     return TaskRequest(
@@ -146,6 +155,7 @@ def make_request(
         optional_text(goal, "the goal"),
         optional_text(skill, "the skill call"),
         optional_path(library, "the library"),
+        arguments=read_arguments(arguments),
     ).with_defaults()
 
 

@@ -6,11 +6,12 @@ import atexit
 import logging
 import threading
 import weakref
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import copy_context
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from skillc.api.boundary import (
     AnyPath,
@@ -45,6 +46,7 @@ logging.getLogger("skillc").addHandler(logging.NullHandler())
 def run(
     task: str | None = None,
     *,
+    arguments: Mapping[str, Any] | None = None,
     goal: str | None = None,
     skill: str | None = None,
     scene: AnyPath | None = None,
@@ -58,7 +60,7 @@ def run(
 ) -> Run:
     """Run a task, a goal or a skill call in simulation, and return how it ended; a failure is a result, not an error.
 
-    `task`, `goal`, `scene`, `library` and `minimise` are as in `plan`; `skill` is a call such as
+    `task`, `arguments`, `goal`, `scene`, `library` and `minimise` are as in `plan`; `skill` is a call such as
     `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and a film. `seed`
     determines how the simulation differs from the world model; the backend `kinematic` is faster, without physics. The
     task fails when it takes longer than `deadline_s` s of the cell's time.
@@ -67,6 +69,7 @@ def run(
     """
     operation = start(
         task,
+        arguments=arguments,
         goal=goal,
         skill=skill,
         scene=scene,
@@ -84,6 +87,7 @@ def run(
 def start(
     task: str | None = None,
     *,
+    arguments: Mapping[str, Any] | None = None,
     goal: str | None = None,
     skill: str | None = None,
     scene: AnyPath | None = None,
@@ -108,7 +112,7 @@ def start(
     exist, SkillcError if the folder cannot be written to.
     """
     with api_call():
-        request = make_request(task, goal, skill, scene, library)
+        request = make_request(task, goal, skill, scene, library, arguments)
         request.check()
         options = make_options(out, seed, backend, deadline_s, looks, step, pause_at)
 

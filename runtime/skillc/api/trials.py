@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from html import escape
@@ -18,6 +18,7 @@ from skillc.api.boundary import (
     optional_path,
     optional_seconds,
     optional_text,
+    read_arguments,
     require_choice,
     require_count,
 )
@@ -82,6 +83,7 @@ def trials(
     task: str | None = None,
     number: int = 50,
     *,
+    arguments: Mapping[str, Any] | None = None,
     seed: int = 0,
     disturb: Disturbance = "none",
     jobs: int | None = None,
@@ -106,6 +108,7 @@ def trials(
             min(count, require_count(jobs or os.cpu_count() or 1, "`jobs`", 1)),
             folder,
             optional_seconds(deadline_s, "`deadline_s`") or TRIAL_LIMIT_S,
+            read_arguments(arguments),
         )
         series = run_trials(request, _ignore_progress, NoticeList())
         if folder is not None:

@@ -52,6 +52,8 @@ class TaskRequest:
 
     def check(self, calls: bool = True) -> None:
         """Raise RequestError if options conflict or are missing; `calls`: whether a call is possible too."""
+        if self.task is None and self.arguments:
+            raise RequestError("arguments are the values of the parameters of a TASK; none is named")
         if self.task is not None and (self.scene or self.goal or self.call or self.library):
             raise RequestError("a TASK cannot be used with --scene, --goal, --skill or --library")
         nothing = (self.goal is None) == (self.call is None)
