@@ -135,7 +135,8 @@ class _Run:
             operate(loop, run, self.monitor, lambda: recorded.watchdog.count_tick(cell.clock.now))
             recorded.watchdog.disarm()
             execution = describe_execution(run, cell, perf_counter() - began)
-            self.monitor.say("writing the report" if options.out is not None else "finished")
+            if options.out is not None:
+                self.monitor.say("writing the report")
             return report_run(execution, choices, task.library, self.samples, options.out, self.reporter)
 
     def _make_loop(self, planning: PlanningJob, recording: tuple[Callable[[], None], ...]) -> CellLoop:
