@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import sys
@@ -12,14 +13,18 @@ from pathlib import Path
 from skillc_site.commands import command_page
 from skillc_site.layout import prepare_page
 from skillc_site.navigation import OVERVIEW, Section, find_pages, read_sections, toml_of
+from skillc_site.python_modules import MODULE_PAGES
 from skillc_site.repository import ROOT, Links
 from skillc_site.vocabulary import vocabulary_page
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent
-MADE = {"commands.md": command_page, "vocabulary.md": vocabulary_page}
+MADE = {"commands.md": command_page, "vocabulary.md": vocabulary_page, **MODULE_PAGES}
 """Pages that are made from the code, each with the function that returns its Markdown."""
 MADE_TITLES = (("The command line", "commands.md"), ("The vocabulary", "vocabulary.md"))
+MODULE_TITLES = tuple((name.removesuffix(".md"), name) for name in MODULE_PAGES)
+SOURCES = ("dsl", "ontology", "compiler", "runtime")
+"""The folders of the packages that the reference of the Python API is made from."""
 SEARCH = "search-in-folder.js"
 FOREIGN_SEARCH = "https://unpkg.com/iframe-worker/shim"
 """The script that Zensical names for pages that are opened from a folder; it would be loaded from elsewhere."""
@@ -31,7 +36,7 @@ ALSO |= {"changelog.md": "CHANGELOG.md"}
 
 def build_site(out: Path) -> int:
     """Build the site into the folder `out`, which is emptied first; return 0, or 1 if anything was reported."""
-    sections = read_sections(DOCS / "README.md", {"Reference": MADE_TITLES})
+    sections = read_sections(DOCS / "README.md", {"Reference": (*MADE_TITLES, *MODULE_TITLES)})
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder)
         missing = write_pages(project / "docs")
@@ -85,8 +90,9 @@ def use_own_search(site: Path) -> None:
 
 
 def _settings(sections: tuple[Section, ...]) -> str:
-    """Return zensical.toml with the navigation."""
-    return (HERE / "zensical.toml").read_text("utf-8").replace("nav = []", f"nav = {toml_of(sections)}")
+    """Return zensical.toml with the navigation and the folders of the packages."""
+    text = (HERE / "zensical.toml").read_text("utf-8").replace("nav = []", f"nav = {toml_of(sections)}")
+    return text.replace("paths = []", f"paths = {json.dumps([str(ROOT / each) for each in SOURCES])}")
 
 
 def _write(pages: Mapping[str, str], folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from skillc_site.build import build_site, run_zensical
 from skillc_site.diagrams import draw_flowchart
 from skillc_site.layout import prepare_page
 from skillc_site.navigation import find_pages, read_sections
+from skillc_site.python_modules import MODULES
 from skillc_site.repository import Links
 
 LOADED = re.compile(r"""<(?:script|img|link rel="stylesheet"|iframe|source)[^>]*?(?:src|href)="(https?:[^"]*)""")
@@ -49,6 +51,14 @@ def test_the_command_line_and_the_vocabulary_are_complete(site: Path) -> None:
     assert len(names) > 20
     assert [name for name in names if f'id="skillc-{name}"' not in commands] == []
     assert "<code>isClean</code>" in (site / "vocabulary.html").read_text("utf-8")
+
+
+def test_every_public_name_of_python_has_its_place(site: Path) -> None:
+    for name in MODULES:
+        page = (site / f"{name}.html").read_text("utf-8")
+        exported = importlib.import_module(name).__all__
+        assert [each for each in exported if f'id="{name}.{each}"' not in page] == []
+    assert "Plan for a task, or for a goal in a scene, without running it." in (site / "skillc.html").read_text("utf-8")
 
 
 @pytest.mark.parametrize(
