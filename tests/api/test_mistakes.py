@@ -53,6 +53,12 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "arguments in a list": (lambda: skillc.run("x", arguments=["a"]), "a mapping of names to values"),  # type: ignore[arg-type]
     "no value": (lambda: skillc.run("x", arguments={"a": None}), "`a` must be a text, not None"),
+    "signals without a folder": (lambda: skillc.run("contact:press_button", signals="csv"), "require `out`"),
+    "gif without a folder": (lambda: skillc.run("contact:press_button", gif=True), "require `out`"),
+    "format of signals": (
+        lambda: skillc.run("contact:press_button", signals="xml", out="o"),  # type: ignore[arg-type]
+        '`signals` must be "csv" or "parquet"',
+    ),
     "minimise": (lambda: skillc.plan("contact:press_button", minimise="time"), '"work" or "makespan"'),  # type: ignore[arg-type]
 }
 

@@ -27,11 +27,12 @@ from skillc.api.operation_state import Monitor, OperationState, read_pace
 from skillc.api.planning import Minimise, make_request
 from skillc.api.run import Run
 from skillc.services.backends import BackendName
-from skillc.services.errors import ServiceError
+from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import check_writable
 from skillc.services.planning import prepare_planners, with_minimal_makespan
 from skillc.services.run_report import PRIMITIVE_LOOKS
 from skillc.services.running import RunOptions, run_task
+from skillc.services.signal_files import SignalFormat
 from skillc.services.task_loading import LoadedTask, load_task
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.recording.envelope import make_run_id
@@ -52,6 +53,8 @@ def run(
     scene: AnyPath | None = None,
     library: AnyPath | None = None,
     out: AnyPath | None = None,
+    signals: SignalFormat | None = None,
+    gif: bool = False,
     seed: int = 0,
     backend: BackendName = "mujoco",
     minimise: Minimise = "work",
@@ -61,9 +64,10 @@ def run(
     """Run a task, a goal or a skill call in simulation, and return how it ended; a failure is a result, not an error.
 
     `task`, `arguments`, `goal`, `scene`, `library` and `minimise` are as in `plan`; `skill` is a call such as
-    `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and a film. `seed`
-    determines how the simulation differs from the world model; the backend `kinematic` is faster, without physics. The
-    task fails when it takes longer than `deadline_s` s of the cell's time.
+    `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and a film; `signals`
+    adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats. `seed` determines how the
+    simulation differs from the world model; the backend `kinematic` is faster, without physics. The task fails when
+    it takes longer than `deadline_s` s of the cell's time.
 
     An interrupt from the keyboard stops the task safely, and is raised again. Errors as of `start`.
     """
@@ -75,6 +79,8 @@ def run(
         scene=scene,
         library=library,
         out=out,
+        signals=signals,
+        gif=gif,
         seed=seed,
         backend=backend,
         minimise=minimise,
@@ -93,6 +99,8 @@ def start(
     scene: AnyPath | None = None,
     library: AnyPath | None = None,
     out: AnyPath | None = None,
+    signals: SignalFormat | None = None,
+    gif: bool = False,
     seed: int = 0,
     backend: BackendName = "mujoco",
     minimise: Minimise = "work",
@@ -114,7 +122,7 @@ def start(
     with api_call():
         request = make_request(task, goal, skill, scene, library, arguments)
         request.check()
-        options = make_options(out, seed, backend, deadline_s, looks, step, pause_at)
+        options = make_options(out, seed, backend, deadline_s, looks, step, pause_at, signals, gif)
 
         @contextmanager
         def load(notes: NoticeList) -> Iterator[LoadedTask]:
@@ -136,9 +144,13 @@ def make_options(
     looks: str = PRIMITIVE_LOOKS,
     step: bool = False,
     pause_at: Sequence[str] = (),
+    signals: SignalFormat | None = None,
+    gif: bool = False,
 ) -> RunOptions:
     """Return the options of a run in this process, which no other process watches. RequestError for wrong ones."""
     folder = optional_path(out, "`out`")
+    if folder is None and (signals is not None or gif):
+        raise RequestError("`signals` and `gif` are files, which require `out`")
     options = RunOptions(
         out=None if folder is None else Path(folder).absolute(),
         seed=require_count(seed, "the seed", 0),
@@ -149,6 +161,8 @@ def make_options(
         step=step,
         pause_at=tuple(pause_at),
         backend=require_choice(backend, BackendName, "the backend"),
+        signals=None if signals is None else require_choice(signals, SignalFormat, "`signals`"),
+        gif=gif,
     )
     check_writable(options.out)
     return options
