@@ -54,13 +54,18 @@ def test_each_endpoint_needs_its_role(server: RunningServer, endpoint: object) -
     for role in ROLES:
         name = f"{role}-{ENDPOINTS.index(endpoint)}"
         token = server.client.post("/tokens", json={"name": name, "role": role}).json()["token"]
-        path = endpoint.path.format(cell="nowhere", operation="none", token="none")
+        path = endpoint.path.format(cell="nowhere", operation="none", name="none")
         with server.client_of(token) as client:
             answer = client.request(endpoint.method, path, json={})
         assert (answer.status_code == 403) == (not includes(role, endpoint.role)), (role, answer.text)
         assert server.client.delete(f"/tokens/{name}").status_code == 204
     with server.client_of(token) as client:
         assert client.request(endpoint.method, path, json={}).status_code == 401
+
+
+def test_a_token_that_does_not_exist_is_named(server: RunningServer) -> None:
+    refused = server.client.delete("/tokens/ada")
+    assert (refused.status_code, refused.json()["detail"]) == (404, "there is no token `ada`")
 
 
 def test_pages_from_elsewhere_and_other_names_are_refused(server: RunningServer) -> None:

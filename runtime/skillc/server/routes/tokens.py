@@ -41,10 +41,10 @@ async def add_token(call: ApiCall) -> MadeToken:
 
 
 async def revoke_token(call: ApiCall) -> None:
-    if call.path["token"] == call.client.name:
+    if call.path["name"] == call.client.name:
         raise ApiRefusal(HTTPStatus.CONFLICT, "a token cannot revoke itself; use another one")
-    if not call.server.state.tokens.revoke(call.path["token"]):
-        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no token `{call.path['token']}`")
+    if not call.server.state.tokens.revoke(call.path["name"]):
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no token `{call.path['name']}`")
 
 
 ENDPOINTS = (
@@ -62,7 +62,7 @@ ENDPOINTS = (
     ),
     ApiEndpoint(
         "DELETE",
-        "/tokens/{token}",
+        "/tokens/{name}",
         "admin",
         "Revoke a token",
         revoke_token,
