@@ -53,6 +53,11 @@ def test_the_command_line_and_the_vocabulary_are_complete(site: Path) -> None:
     assert "<code>isClean</code>" in (site / "vocabulary.html").read_text("utf-8")
 
 
+def test_the_public_modules_are_those_that_the_page_on_python_lists() -> None:
+    listed = re.findall(r"^\| `(skillc\.\w+)` \|", (ROOT / "docs/python.md").read_text("utf-8"), re.MULTILINE)
+    assert sorted(["skillc", *listed]) == sorted(MODULES)
+
+
 def test_every_public_name_of_python_has_its_place(site: Path) -> None:
     for name in MODULES:
         page = (site / f"{name}.html").read_text("utf-8")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.query import QueryError, QueryResult, run_query
+from skillc_runtime.scene.query import QueryAnswer, QueryError, run_query
 from world.lab import NS, VOCABULARY
 
 SCENE = Document(
@@ -17,7 +17,7 @@ SCENE = Document(
 )
 
 
-def ask(sparql: str) -> QueryResult:
+def ask(sparql: str) -> QueryAnswer:
     return run_query([SCENE], sparql, VOCABULARY)
 
 
@@ -27,7 +27,7 @@ def test_answers_are_typed_and_individuals_are_short() -> None:
     assert answer.rows == (("t:Box", 3, "red"), ("t:Rod", 1.5, None))
     assert [type(row[1]) for row in answer.rows] == [int, float]
     assert ask("SELECT ?c { t:Board t:isClean ?c }").rows == ((False,),)
-    assert ask("ASK { ?x a t:Robot }") == QueryResult(("answer",), ((False,),))
+    assert ask("ASK { ?x a t:Robot }") == QueryAnswer(("answer",), ((False,),))
 
 
 def test_what_json_cannot_say_stays_text() -> None:
@@ -71,4 +71,4 @@ def test_a_failure_of_the_evaluation_is_an_error_of_the_query() -> None:
 
 def test_words_in_texts_comments_and_names_are_no_keywords() -> None:
     text = 'SELECT ?service { ?service t:label "SERVICE"@en-service } # SERVICE <http://a.b/> {}'
-    assert ask(text) == QueryResult(("service",), ())
+    assert ask(text) == QueryAnswer(("service",), ())

@@ -92,14 +92,12 @@ def _depth(text: str) -> int:
 
 def _contexts(node: Any) -> Iterator[Any]:
     """Yield all contexts of a document, each of a list of contexts on its own."""
-    if isinstance(node, list):
-        for each in node:
-            yield from _contexts(each)
-    elif isinstance(node, dict):
-        for key, value in node.items():
-            if key == "@context":
-                yield from value if isinstance(value, list) else [value]
-            yield from _contexts(value)
+    if isinstance(node, dict) and "@context" in node:
+        stated = node["@context"]
+        yield from stated if isinstance(stated, list) else [stated]
+    parts = node.values() if isinstance(node, dict) else node if isinstance(node, list) else ()
+    for each in parts:
+        yield from _contexts(each)
 
 
 def _remote_contexts(node: Any) -> Iterator[str]:

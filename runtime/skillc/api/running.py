@@ -122,7 +122,12 @@ def start(
     with api_call():
         request = make_request(task, goal, skill, scene, library, arguments)
         request.check()
-        options = make_options(out, seed, backend, deadline_s, looks, step, pause_at, signals, gif)
+        options = make_options(out, seed, backend, deadline_s)
+        if options.out is None and (signals is not None or gif):
+            raise RequestError("`signals` and `gif` are files, which require `out`")
+        if signals is not None:
+            require_choice(signals, SignalFormat, "`signals`")
+        options = replace(options, looks=looks, step=step, pause_at=tuple(pause_at), signals=signals, gif=gif)
 
         @contextmanager
         def load(notes: NoticeList) -> Iterator[LoadedTask]:
@@ -141,28 +146,16 @@ def make_options(
     seed: int,
     backend: BackendName,
     deadline_s: float | None,
-    looks: str = PRIMITIVE_LOOKS,
-    step: bool = False,
-    pause_at: Sequence[str] = (),
-    signals: SignalFormat | None = None,
-    gif: bool = False,
 ) -> RunOptions:
     """Return the options of a run in this process, which no other process watches. RequestError for wrong ones."""
     folder = optional_path(out, "`out`")
-    if folder is None and (signals is not None or gif):
-        raise RequestError("`signals` and `gif` are files, which require `out`")
     options = RunOptions(
         out=None if folder is None else Path(folder).absolute(),
         seed=require_count(seed, "the seed", 0),
         planners=prepare_planners(True),
-        looks=looks,
         tick_timeout_s=None,
         deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
-        step=step,
-        pause_at=tuple(pause_at),
         backend=require_choice(backend, BackendName, "the backend"),
-        signals=None if signals is None else require_choice(signals, SignalFormat, "`signals`"),
-        gif=gif,
     )
     check_writable(options.out)
     return options

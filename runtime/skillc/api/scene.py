@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
@@ -203,7 +203,7 @@ class Scene:
 
         with api_call(self._folders):
             loaded = self._load(goal, skill)
-            options = make_options(out, seed, backend, deadline_s, step=step)
+            options = replace(make_options(out, seed, backend, deadline_s), step=step)
             operation = begin_loaded(loaded, options, pace)
         if step:
             operation.wait_for_pause()

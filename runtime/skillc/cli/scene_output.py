@@ -10,7 +10,7 @@ from typing import Any
 from skillc.cli.layout import TerminalPage
 from skillc.services.scene_show import PlacedThing
 from skillc.services.scenes import IndividualFacts, OpenScene, SceneDiff
-from skillc_runtime.scene.query import QueryResult, QueryValue
+from skillc_runtime.scene.query import QueryAnswer, QueryValue
 from skillc_runtime.world.state.elements import Element
 from skillc_runtime.world.state.values import show, to_json
 
@@ -29,7 +29,7 @@ def format_individuals(individuals: Iterable[IndividualFacts], scene: OpenScene,
     return "\n\n".join(_individual_text(each, scene) for each in individuals)
 
 
-def format_answer(answer: QueryResult, as_json: bool, page: TerminalPage) -> str:
+def format_answer(answer: QueryAnswer, as_json: bool, page: TerminalPage) -> str:
     """Return the answer of a query, as a table or as a list of objects."""
     if as_json:
         return _json([dict(zip(answer.columns, row, strict=True)) for row in answer.rows])

@@ -15,6 +15,7 @@ from skillc.cells.messages import Happened, StatusChanged
 from skillc.server.context import ServerContext, open_journal
 from skillc.server.hub import News
 from skillc.server.problems import ApiRefusal
+from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.envelope import Envelope
 
@@ -72,8 +73,7 @@ async def _stream_operation(server: ServerContext, socket: WebSocket, operation:
     with server.hub.listening() as listener:
         while True:
             cell, found = server.find_operation(operation)
-            with closing(open_journal(cell)) as reader:
-                envelopes = await asyncio.to_thread(reader.envelopes, operation, after, BATCH)
+            envelopes = await _read_envelopes(cell, operation, after)
             if envelopes:
                 after = envelopes[-1].sequence
                 await _send(socket, envelopes)
@@ -81,6 +81,11 @@ async def _stream_operation(server: ServerContext, socket: WebSocket, operation:
                 return await socket.close(ENDED, "the operation has ended")
             else:
                 await _take_or_leave(socket, listener.take())
+
+
+async def _read_envelopes(cell: CellSupervisor, operation: str, after: int) -> Sequence[Envelope]:
+    with closing(open_journal(cell)) as reader:
+        return await asyncio.to_thread(reader.envelopes, operation, after, BATCH)
 
 
 async def _send(socket: WebSocket, items: Sequence[News | Envelope]) -> None:

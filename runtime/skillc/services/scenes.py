@@ -31,7 +31,7 @@ from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_documents, sheet_documents
-from skillc_runtime.scene.query import QueryError, QueryResult, run_query
+from skillc_runtime.scene.query import QueryAnswer, QueryError, run_query
 from skillc_runtime.scene.statements import read_contents
 from skillc_runtime.store.triples import all_triples
 from skillc_runtime.world.eval.conditions import evaluate
@@ -145,7 +145,7 @@ def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individ
     return [_describe(each) for each in elements_of(scene.state, chosen)]
 
 
-def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
+def query_scene(scene: OpenScene, sparql: str) -> QueryAnswer:
     """Answer a query over the scene and the shipped ontology, in a process that can be killed.
 
     ServiceError if it is not valid SPARQL, cannot be answered, or takes longer than QUERY_LIMIT_S.
@@ -157,7 +157,7 @@ def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
     finally:
         worker.kill()
     match result:
-        case Returned(QueryResult() as answer):
+        case Returned(QueryAnswer() as answer):
             return answer
         case Returned(why) | Raised(why) | Died(why):
             raise ServiceError(str(why))
@@ -165,7 +165,7 @@ def query_scene(scene: OpenScene, sparql: str) -> QueryResult:
             raise ServiceError(f"the query was ended after {QUERY_LIMIT_S:g} s; ask for less")
 
 
-def _run_query(scene: OpenScene, sparql: str) -> QueryResult | str:
+def _run_query(scene: OpenScene, sparql: str) -> QueryAnswer | str:
     """Return the answer to a query, or why there is none."""
     try:
         return run_query([scene.document, *sheet_documents()], sparql, scene.state.vocabulary)

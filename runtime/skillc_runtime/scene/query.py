@@ -27,14 +27,14 @@ class QueryError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class QueryResult:
+class QueryAnswer:
     """The result of a query: column names and rows of values; individuals are shortened by prefixes."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[QueryValue, ...], ...]
 
 
-def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> QueryResult:
+def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> QueryAnswer:
     """Return the result of a query over documents; the vocabulary's prefixes need no declaration.
 
     QueryError for a syntax error, an update, a query to another server or a failed evaluation; SceneError for a
@@ -64,15 +64,15 @@ def _store(documents: Iterable[Document]) -> ox.Store:
     return store
 
 
-def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> QueryResult:
+def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> QueryAnswer:
     """Return the complete result; solutions are computed while they are read."""
     if isinstance(result, ox.QueryBoolean):
-        return QueryResult(("answer",), ((bool(result),),))
+        return QueryAnswer(("answer",), ((bool(result),),))
     if isinstance(result, ox.QueryTriples):
         triples = [tuple(_cell(node, vocabulary) for node in triple) for triple in result]
-        return QueryResult(("subject", "predicate", "object"), tuple(triples))
+        return QueryAnswer(("subject", "predicate", "object"), tuple(triples))
     columns = tuple(variable.value for variable in result.variables)
-    return QueryResult(columns, tuple(tuple(_cell(row[name], vocabulary) for name in columns) for row in result))
+    return QueryAnswer(columns, tuple(tuple(_cell(row[name], vocabulary) for name in columns) for row in result))
 
 
 def _cell(node: object, vocabulary: Vocabulary) -> QueryValue:
