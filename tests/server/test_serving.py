@@ -6,7 +6,6 @@ import asyncio
 import json
 import os
 import signal
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,12 +15,6 @@ from websockets.exceptions import ConnectionClosed
 from server.running import RunningServer, serving, start_server, wait_until
 from skillc.server.access.roles import ROLES, includes
 from skillc.server.endpoints import ENDPOINTS
-
-
-@pytest.fixture(scope="module")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    with serving(tmp_path_factory.mktemp("server")) as running:
-        yield running
 
 
 def test_an_operation_is_paused_resumed_and_stopped(server: RunningServer) -> None:

@@ -99,9 +99,11 @@ class Application:
         body = None if endpoint.body is None else decode_body(content, endpoint.body)
         key = read_key(request) if endpoint.takes_key else None
         answer = await endpoint.handle(ApiCall(self._server, client, request.path_params, query, body, content, key))
+        if isinstance(answer, Response):
+            return answer
         if endpoint.answer is None:
             return Response(status_code=endpoint.status)
-        return make_response(endpoint.status, answer, "application/json")
+        return make_response(endpoint.status, answer, endpoint.media_type)
 
 
 def make_response(status: HTTPStatus, value: object, media_type: str) -> Response:

@@ -9,6 +9,7 @@ from http import HTTPStatus
 
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import OperationStatus
+from skillc.server.access.leases import Leases
 from skillc.server.audit import AuditLog
 from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
@@ -24,6 +25,7 @@ class ServerContext:
     state: ServerState
     cells: dict[str, CellSupervisor]
     hub: EventHub
+    leases: Leases = field(default_factory=Leases)
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
 

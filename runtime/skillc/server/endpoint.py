@@ -15,6 +15,7 @@ from skillc.server.access.tokens import Client
 if TYPE_CHECKING:
     from skillc.server.context import ServerContext
 
+JSON = "application/json"
 Method = Literal["GET", "POST", "PUT", "DELETE"]
 
 
@@ -42,8 +43,9 @@ class ApiCall:
 class ApiEndpoint:
     """A method of a path below /api/v1, for clients with a role.
 
-    `handle` returns a value of the type `answer`, or raises ApiRefusal with one of `refusals`. Only endpoints that
-    are `unlimited` are answered whatever the rate of requests is.
+    `handle` returns a value of the type `answer`, or raises ApiRefusal with one of `refusals`. With another media type
+    than JSON it returns the Response itself. Only endpoints that are `unlimited` are answered whatever the rate of
+    requests is.
     """
 
     method: Method
@@ -58,3 +60,4 @@ class ApiEndpoint:
     refusals: tuple[HTTPStatus, ...] = ()
     takes_key: bool = False
     unlimited: bool = False
+    media_type: str = JSON

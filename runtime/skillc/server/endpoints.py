@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from skillc.server.endpoint import ApiEndpoint
-from skillc.server.routes import cells, operations, tokens
+from skillc.server.routes import audit, cells, leases, operations, tokens
 
 PREFIX = "/api/v1"
-ENDPOINTS: tuple[ApiEndpoint, ...] = (*cells.ENDPOINTS, *operations.ENDPOINTS, *tokens.ENDPOINTS)
+ENDPOINTS: tuple[ApiEndpoint, ...] = (
+    *cells.ENDPOINTS,
+    *leases.ENDPOINTS,
+    *operations.ENDPOINTS,
+    *tokens.ENDPOINTS,
+    *audit.ENDPOINTS,
+)

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from skillc.server.endpoint import ApiEndpoint
+from skillc.server.endpoint import JSON, ApiEndpoint
 from skillc.server.problems import MEDIA_TYPE, ProblemDetails
 
 VERSION = "1"
@@ -26,7 +26,6 @@ WITH_BODY = (
     HTTPStatus.UNSUPPORTED_MEDIA_TYPE,
 )
 REF = "#/components/schemas/{name}"
-_JSON = "application/json"
 
 
 def make_openapi(endpoints: Iterable[ApiEndpoint], prefix: str) -> dict[str, Any]:
@@ -59,14 +58,16 @@ def _describe(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> di
         "responses": _responses(endpoint, schema_of),
     }
     if endpoint.body is not None:
-        described["requestBody"] = {"required": True, "content": {_JSON: {"schema": schema_of[id(endpoint.body)]}}}
+        described["requestBody"] = {"required": True, "content": {JSON: {"schema": schema_of[id(endpoint.body)]}}}
     return described
 
 
 def _responses(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
     success: dict[str, Any] = {"description": endpoint.status.phrase}
     if endpoint.answer is not None:
-        success["content"] = {_JSON: {"schema": schema_of[id(endpoint.answer)]}}
+        success["content"] = {JSON: {"schema": schema_of[id(endpoint.answer)]}}
+    elif endpoint.media_type != JSON:
+        success["content"] = {endpoint.media_type: {}}
     refused = {*ALWAYS, *endpoint.refusals, *(WITH_BODY if endpoint.body is not None else ())}
     if endpoint.takes_key:
         refused.add(HTTPStatus.BAD_REQUEST)

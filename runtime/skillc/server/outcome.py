@@ -1,4 +1,4 @@
-"""Turns what a cell answers into what the API answers.
+"""Gives commands of clients to cells, and turns what a cell answers into what the API answers.
 
 A body that does not fit its type is 422. What fits, but cannot be done with the library and the world that the cell has
 now, such as a task that it does not have, is 409.
@@ -9,11 +9,28 @@ from __future__ import annotations
 from http import HTTPStatus
 from typing import assert_never
 
-from skillc.cells.messages import Refused
+from skillc.cells.messages import Message, Refused
+from skillc.server.access.leases import LeaseHeld
+from skillc.server.endpoint import ApiCall
 from skillc.server.problems import ApiRefusal
+from skillc.server.supervisor import CellSupervisor
 
 UNAVAILABLE = (HTTPStatus.TOO_MANY_REQUESTS, HTTPStatus.SERVICE_UNAVAILABLE)
 """The statuses with which a cell that is busy or off refuses everything."""
+
+
+def check_lease(call: ApiCall, cell: CellSupervisor) -> None:
+    """Raise ApiRefusal if another client has the lease of a cell."""
+    try:
+        call.server.leases.check(cell.settings.name, call.client.name)
+    except LeaseHeld as error:
+        raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
+
+
+async def command_cell(call: ApiCall, cell: CellSupervisor, message: Message) -> None:
+    """Give a command of a client to a cell, and wait until it is done and durable; ApiRefusal if it is refused."""
+    check_lease(call, cell)
+    raise_refused(await cell.request(message))
 
 
 def raise_refused(refused: Refused | None) -> None:

@@ -10,7 +10,7 @@ import msgspec
 from skillc.cells.messages import Acknowledge, Message, SetPace
 from skillc.cells.operation import CellStatus
 from skillc.server.endpoint import ApiCall, ApiEndpoint
-from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.outcome import UNAVAILABLE, command_cell
 from skillc.server.values import Reason
 
 MAX_PACE = 1000.0
@@ -52,7 +52,7 @@ async def stop_cell(call: ApiCall) -> CellStatus:
 
 async def _request(call: ApiCall, message: Message) -> CellStatus:
     cell = call.server.find_cell(call.path["cell"])
-    raise_refused(await cell.request(message))
+    await command_cell(call, cell, message)
     return cell.status
 
 
@@ -68,7 +68,7 @@ ENDPOINTS = (
         set_pace,
         CellStatus,
         body=PaceSetting,
-        refusals=(NOT_FOUND, *UNAVAILABLE),
+        refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
     ),
     ApiEndpoint(
         "POST",

@@ -16,7 +16,7 @@ from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.server.context import open_journal
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
-from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.execution.task_state import ENDS
@@ -65,6 +65,7 @@ async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:
 
 async def submit_operation(call: ApiCall) -> OperationStatus:
     cell = call.server.find_cell(call.path["cell"])
+    check_lease(call, cell)
     request: OperationRequest = structs.replace(call.body, owner=call.client.name)
     operation = make_run_id(request.task or "operation")
     content = b"\0".join((cell.settings.name.encode(), call.content))
@@ -83,7 +84,7 @@ async def show_operation(call: ApiCall) -> OperationStatus:
 
 async def give_command(call: ApiCall) -> OperationStatus:
     cell, operation = _find_running(call)
-    raise_refused(await cell.request(Give(operation=operation.id, command=_sign(call.body, call.client.name))))
+    await command_cell(call, cell, Give(operation=operation.id, command=_sign(call.body, call.client.name)))
     return call.server.find_operation(operation.id)[1]
 
 

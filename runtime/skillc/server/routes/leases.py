@@ -1,0 +1,73 @@
+"""Leases: who alone may command a cell for some time."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from typing import Annotated
+
+import msgspec
+
+from skillc.server.access.leases import Lease, LeaseHeld
+from skillc.server.access.roles import includes
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.problems import ApiRefusal
+
+MAX_LEASE_S = 3600.0
+
+
+class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """For how long a client wants to command a cell alone, in s; `takeover` ends the lease of another client."""
+
+    duration_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_LEASE_S)] = 60.0
+    takeover: bool = False
+
+
+async def show_lease(call: ApiCall) -> Lease:
+    return call.server.leases.find(_name(call))
+
+
+async def take_lease(call: ApiCall) -> Lease:
+    wanted: LeaseRequest = call.body
+    if wanted.takeover and not includes(call.client.role, "admin"):
+        raise ApiRefusal(HTTPStatus.FORBIDDEN, "a takeover needs the role `admin`")
+    try:
+        return call.server.leases.take(_name(call), call.client.name, wanted.duration_s, wanted.takeover)
+    except LeaseHeld as error:
+        raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
+
+
+async def release_lease(call: ApiCall) -> None:
+    try:
+        call.server.leases.release(_name(call), call.client.name)
+    except LeaseHeld as error:
+        raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
+
+
+def _name(call: ApiCall) -> str:
+    return call.server.find_cell(call.path["cell"]).settings.name
+
+
+NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
+PATH = "/cells/{cell}/lease"
+ENDPOINTS = (
+    ApiEndpoint("GET", PATH, "view", "Show who has the lease of a cell", show_lease, Lease, refusals=(NOT_FOUND,)),
+    ApiEndpoint(
+        "PUT",
+        PATH,
+        "operate",
+        "Take the lease of a cell, or prolong it",
+        take_lease,
+        Lease,
+        body=LeaseRequest,
+        refusals=(NOT_FOUND, CONFLICT),
+    ),
+    ApiEndpoint(
+        "DELETE",
+        PATH,
+        "operate",
+        "Give the lease of a cell back",
+        release_lease,
+        status=HTTPStatus.NO_CONTENT,
+        refusals=(NOT_FOUND, CONFLICT),
+    ),
+)

@@ -1,0 +1,71 @@
+"""While a client has the lease of a cell only that client commands it; everybody may stop it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import httpx
+import pytest
+
+from server.running import RunningServer
+from skillc.server.access.leases import LeaseHeld, Leases
+
+
+def test_a_lease_ends_with_its_time_and_not_with_a_clock_on_the_wall() -> None:
+    now = [100.0]
+    leases = Leases(lambda: now[0])
+    leases.take("yard", "ada", 10.0, takeover=False)
+    with pytest.raises(LeaseHeld, match="`ada` has the lease of yard for 10 s yet"):
+        leases.check("yard", "eve")
+    now[0] += 5.0
+    assert leases.take("yard", "ada", 10.0, takeover=False).remaining_s == 10.0
+    assert leases.take("yard", "eve", 10.0, takeover=True).owner == "eve"
+    with pytest.raises(LeaseHeld):
+        leases.release("yard", "ada")
+    now[0] += 10.0
+    leases.check("yard", "ada")
+    assert leases.find("yard").owner is None
+
+
+def test_only_who_has_the_lease_commands_and_everybody_stops(server: RunningServer) -> None:
+    with client_of(server, "ada", "operate") as ada, client_of(server, "eve", "operate") as eve:
+        assert ada.put("/cells/yard/lease", json={"duration_s": 600}).json()["owner"] == "ada"
+        refused = eve.post("/cells/yard/operations", json={"task": "carry_all"})
+        assert refused.status_code == 409 and "`ada` has the lease of yard" in refused.json()["detail"]
+        assert eve.put("/cells/yard/pace", json={"factor": 1.0}).status_code == 409
+        assert eve.delete("/cells/yard/lease").status_code == 409
+        assert eve.put("/cells/yard/lease", json={"takeover": True}).status_code == 403
+        operation = ada.post("/cells/yard/operations", json={"task": "carry_all", "approve": True}).json()["id"]
+        assert eve.post(f"/operations/{operation}/commands", json={"type": "approve"}).status_code == 409
+        assert eve.post(f"/operations/{operation}/stop", json={}).status_code == 200
+        server.wait_for(operation, "stopped")
+        assert server.client.put("/cells/yard/lease", json={"takeover": True}).json()["owner"] == "admin"
+        assert ada.put("/cells/yard/pace", json={"factor": 1.0}).status_code == 409
+        assert server.client.delete("/cells/yard/lease").status_code == 204
+        assert eve.get("/cells/yard/lease").json() == {"cell": "yard", "owner": None, "remaining_s": 0.0}
+
+
+def test_the_audit_log_has_who_changed_what_and_what_was_refused(server: RunningServer) -> None:
+    entries = server.client.get("/audit", params={"limit": 10_000}).json()
+    after = entries[-1]["number"] if entries else 0
+    with client_of(server, "mallory", "view") as mallory:
+        assert mallory.post("/cells/yard/operations", json={"task": "carry_all"}).status_code == 403
+    found = server.client.get("/audit", params={"after": after}).json()
+    assert [(each["who"], each["action"], each["status"]) for each in found] == [
+        ("admin", "POST /api/v1/tokens", 201),
+        ("mallory", "POST /api/v1/cells/yard/operations", 403),
+        ("admin", "DELETE /api/v1/tokens/mallory", 204),
+    ]
+    assert "needs the role `operate`" in found[1]["detail"] and found[1]["origin"] == "127.0.0.1"
+
+
+@contextmanager
+def client_of(server: RunningServer, name: str, role: str) -> Iterator[httpx.Client]:
+    """Return a client with a token of its own, which is revoked at the end."""
+    token = server.client.post("/tokens", json={"name": name, "role": role}).json()["token"]
+    try:
+        with server.client_of(token) as client:
+            yield client
+    finally:
+        server.client.delete(f"/tokens/{name}")
