@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from operating.monitors import Monitor
@@ -12,8 +10,8 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import TaskRequest, load_task
 from skillc_ontology import catalogue
+from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskStarted
-from skillc_runtime.recording.reader import TraceReader
 
 PICK = "Pick(arm: lab:Iiwa-1, object: lab:Eraser-1)"
 
@@ -21,10 +19,10 @@ PICK = "Pick(arm: lab:Iiwa-1, object: lab:Eraser-1)"
 @pytest.mark.parametrize(
     ("backend", "verified"), [pytest.param("mujoco", True, marks=pytest.mark.sim), ("kinematic", False)]
 )
-def test_a_grasp_is_verified_with_physics_only(backend: BackendName, verified: bool, tmp_path: Path) -> None:
-    request = TaskRequest(None, catalogue.scene_path("iiwa_table"), None, PICK)
+def test_a_grasp_is_verified_with_physics_only(backend: BackendName, verified: bool) -> None:
+    request, envelopes = TaskRequest(None, catalogue.scene_path("iiwa_table"), None, PICK), list[Envelope]()
     with load_task(request, SilentReporter()) as task:
-        ran = run_task(task, RunOptions(tmp_path, backend=backend), Monitor(), SilentReporter())
+        options = RunOptions(backend=backend, recorders=(envelopes.append,))
+        ran = run_task(task, options, Monitor(), SilentReporter())
     assert (ran.result.status, ran.result.verified) == ("succeeded", verified)
-    (started,) = (event for event in TraceReader(tmp_path / "events.jsonl").events if isinstance(event, TaskStarted))
-    assert started.backend == backend
+    assert isinstance(started := envelopes[0].event, TaskStarted) and started.backend == backend

@@ -15,6 +15,10 @@ RESULT_FORMAT = DIAGNOSTICS_FORMAT = PROJECT_FORMAT = 1
 """Raised with every change of these documents that is not only a new field with a default."""
 
 
+MAX_NAMED = 6
+"""A union of more types than this is named after the first."""
+
+
 class SchemaOf(NamedTuple):
     """What a schema describes, the version of the format, and the type that is the document."""
 
@@ -40,7 +44,41 @@ def make_schema(name: str) -> dict[str, Any]:
         "description": about.description,
         "version": about.version,
     }
-    return {**head, **{key: value for key, value in schema.items() if key not in head}, "$defs": components}
+    body = {key: value for key, value in schema.items() if key not in head}
+    unions: dict[str, dict[str, Any]] = {}
+    document: dict[str, Any] = _select_by_tag({**head, **body, "$defs": components}, unions)
+    document["$defs"].update(unions)
+    return document
+
+
+def _select_by_tag(schema: Any, unions: dict[str, dict[str, Any]]) -> Any:
+    """Return a schema in which the tag of a union selects its alternative; the unions are added to `unions`.
+
+    With `anyOf` a validator tries every alternative at each level: its time grows exponentially with the depth of a
+    tree, and it reports a mistake for all of them.
+    """
+    if isinstance(schema, list):
+        return [_select_by_tag(each, unions) for each in schema]
+    if not isinstance(schema, dict):
+        return schema
+    if "discriminator" not in schema:
+        return {key: _select_by_tag(value, unions) for key, value in schema.items()}
+    tag, alternatives = schema["discriminator"]["propertyName"], schema["discriminator"]["mapping"]
+    name = "Or".join(reference.rpartition("/")[2] for reference in alternatives.values())
+    if len(alternatives) > MAX_NAMED:
+        name = f"{name[: name.index('Or')]}Or{len(alternatives) - 1}Others"
+    union = {
+        "type": "object",
+        "properties": {tag: {"enum": list(alternatives)}},
+        "required": [tag],
+        "allOf": [
+            {"if": {"properties": {tag: {"const": value}}, "required": [tag]}, "then": {"$ref": reference}}
+            for value, reference in alternatives.items()
+        ],
+    }
+    assert unions.setdefault(name, union) == union, f"two unions have the name {name}"
+    rest = {key: value for key, value in schema.items() if key not in ("anyOf", "discriminator")}
+    return {**rest, "$ref": f"#/$defs/{name}"}
 
 
 def format_schema(schema: Mapping[str, Any]) -> str:
