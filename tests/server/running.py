@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import ssl
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -23,15 +24,18 @@ READY_S = 60.0
 class RunningServer:
     """A server; `client` has the token of the command line."""
 
-    def __init__(self, folder: Path, process: subprocess.Popen[bytes], port: int) -> None:
-        self.folder, self.process, self.port = folder, process, port
-        self.url = f"http://127.0.0.1:{port}/api/v1"
+    def __init__(self, folder: Path, process: subprocess.Popen[bytes], port: int, authority: Path | None) -> None:
+        self.folder, self.process, self.port, self._authority = folder, process, port, authority
+        self.url = f"http{'s' if authority else ''}://127.0.0.1:{port}/api/v1"
         self.token = (folder / "served" / "admin.token").read_text().strip()
         self.client = self.client_of(self.token)
 
     def client_of(self, token: str) -> httpx.Client:
         """Return a client with a token."""
-        return httpx.Client(base_url=self.url, headers={"Authorization": f"Bearer {token}"}, timeout=30.0)
+        verify = ssl.create_default_context(cafile=self._authority) if self._authority else False
+        return httpx.Client(
+            base_url=self.url, headers={"Authorization": f"Bearer {token}"}, timeout=30.0, verify=verify
+        )
 
     def submit(self, **request: Any) -> dict[str, Any]:
         """Submit an operation, and return it."""
@@ -58,16 +62,18 @@ def wait_until(look: Any, condition: Any) -> Any:
 
 
 @contextmanager
-def serving(folder: Path, takes_ms: int = 100) -> Iterator[RunningServer]:
-    """Serve a yard in a folder, in which it may have been served before."""
+def serving(
+    folder: Path, takes_ms: int = 100, options: Sequence[str | Path] = (), authority: Path | None = None
+) -> Iterator[RunningServer]:
+    """Serve a yard in a folder, in which it may have been served before; with a certificate of `authority`, if any."""
     write_yard(folder, takes_ms)
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    process = start_server(folder, port)
+    process = start_server(folder, port, options)
     try:
         wait_until(lambda: is_listening(port) or process.poll() is not None, bool)
         assert process.poll() is None, "the server has ended"
-        server = RunningServer(folder, process, port)
+        server = RunningServer(folder, process, port, authority)
         server.wait_ready()
         yield server
     finally:
@@ -75,10 +81,10 @@ def serving(folder: Path, takes_ms: int = 100) -> Iterator[RunningServer]:
         process.wait(30.0)
 
 
-def start_server(folder: Path, port: int) -> subprocess.Popen[bytes]:
+def start_server(folder: Path, port: int, options: Sequence[str | Path] = ()) -> subprocess.Popen[bytes]:
     """Start the process of a server."""
-    options = ("--cell", "yard.ttl", "--state", "served", "--bind", f"127.0.0.1:{port}", "--backend", "kinematic")
-    command = (sys.executable, "-m", "skillc", "serve", str(folder), *options)
+    always = ("--cell", "yard.ttl", "--state", "served", "--bind", f"127.0.0.1:{port}", "--backend", "kinematic")
+    command = (sys.executable, "-m", "skillc", "serve", str(folder), *always, *map(str, options))
     paths = os.pathsep.join(filter(None, sys.path))
     return subprocess.Popen(command, cwd=folder, env={**os.environ, "PYTHONPATH": paths}, stderr=subprocess.PIPE)
 

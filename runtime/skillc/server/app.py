@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Awaitable, Callable
 from functools import partial
 from http import HTTPStatus
@@ -12,6 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
 from skillc.server.access.roles import includes
@@ -21,8 +23,10 @@ from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.endpoints import ENDPOINTS, PREFIX
 from skillc.server.event_stream import stream_events
 from skillc.server.guard import Guard
+from skillc.server.log import log
 from skillc.server.openapi import make_openapi
 from skillc.server.problems import MEDIA_TYPE, ApiRefusal
+from skillc.server.proxy import ProxiedRequests
 from skillc.server.rates import TokenBuckets
 from skillc.server.requests import decode_body, find_client, read_body, read_key, read_query
 
@@ -38,8 +42,8 @@ DETAILS = {404: "there is no such path", 405: "this path does not have this meth
 class Application:
     """Serves the endpoints of a server."""
 
-    def __init__(self, server: ServerContext, hosts: frozenset[str]) -> None:
-        """Serve requests that name one of `hosts`, with port if it is not the default one."""
+    def __init__(self, server: ServerContext, hosts: frozenset[str], proxy: str | None = None) -> None:
+        """Serve requests that name one of `hosts`, with port if it is not the default one; only those of a proxy."""
         self._server = server
         self._requests = TokenBuckets(REQUESTS_PER_S, BURST)
         self._failures = TokenBuckets(FAILURES_PER_S, FAILURES)
@@ -54,18 +58,20 @@ class Application:
         app = Starlette(
             routes=[
                 *routes,
+                Route("/metrics", partial(self._answer, by_path["/metrics"])),
                 Route(f"{PREFIX}/health", _constant(b'{"status":"ok"}')),
                 Route(f"{PREFIX}/openapi.json", _constant(document)),
                 WebSocketRoute(f"{PREFIX}/events", partial(stream_events, server)),
             ],
             exception_handlers={HTTPException: _refuse_unknown},
         )
-        self.asgi = Guard(app, hosts)
+        guarded = Guard(app, hosts)
+        self.asgi: ASGIApp = guarded if proxy is None else ProxiedRequests(guarded, proxy)
 
     async def _answer(self, methods: dict[str, ApiEndpoint], request: Request) -> Response:
         """Answer a request; what changes something, or is refused for who made it, is written to the audit log."""
         endpoint = methods["GET" if request.method == "HEAD" else request.method]
-        client, detail = None, ""
+        client, detail, began = None, "", time.monotonic()
         try:
             client = self._authenticate(request)
             response = await self._carry_out(endpoint, client, request)
@@ -76,7 +82,15 @@ class Application:
         if endpoint.method != "GET" or response.status_code in AUDITED_REFUSALS:
             who, origin = client.name if client else "", request.client.host if request.client else ""
             self._server.audit.add(who, origin, f"{request.method} {request.url.path}", response.status_code, detail)
+        self._report(endpoint, client, request, response.status_code, time.monotonic() - began)
         return response
+
+    def _report(
+        self, endpoint: ApiEndpoint, client: Client | None, request: Request, status: int, seconds: float
+    ) -> None:
+        self._server.metrics.observe(endpoint.method, endpoint.path, status, seconds)
+        who = client.name if client else ""
+        log("request", method=request.method, path=request.url.path, status=status, who=who, ms=round(seconds * 1e3, 2))
 
     def _authenticate(self, request: Request) -> Client:
         """Return who makes a request; ApiRefusal (401, 429) without a valid token."""

@@ -13,6 +13,7 @@ from skillc.server.access.leases import Leases
 from skillc.server.audit import AuditLog
 from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
+from skillc.server.metrics import Metrics
 from skillc.server.problems import ApiRefusal
 from skillc.server.state import ServerState
 from skillc.server.supervisor import CellSupervisor
@@ -28,10 +29,12 @@ class ServerContext:
     leases: Leases = field(default_factory=Leases)
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
+    metrics: Metrics = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "audit", AuditLog(self.state.database))
         object.__setattr__(self, "keys", RequestKeys(self.state.database))
+        object.__setattr__(self, "metrics", Metrics(self.cells.values(), lambda: self.hub.count))
 
     def find_cell(self, name: str) -> CellSupervisor:
         """Return a cell; ApiRefusal (404) if there is none of this name."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc.server.endpoint import ApiEndpoint
-from skillc.server.routes import audit, cells, leases, operations, tokens
+from skillc.server.routes import audit, cells, leases, metrics, operations, tokens
 
 PREFIX = "/api/v1"
 ENDPOINTS: tuple[ApiEndpoint, ...] = (
@@ -12,4 +12,5 @@ ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *operations.ENDPOINTS,
     *tokens.ENDPOINTS,
     *audit.ENDPOINTS,
+    *metrics.ENDPOINTS,
 )

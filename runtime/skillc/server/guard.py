@@ -5,12 +5,10 @@ from __future__ import annotations
 from http import HTTPStatus
 from urllib.parse import urlsplit
 
-import msgspec
 from starlette.datastructures import Headers
-from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from skillc.server.problems import MEDIA_TYPE, ApiRefusal
+from skillc.server.problems import ApiRefusal, send_refusal
 
 
 class Guard:
@@ -27,11 +25,8 @@ class Guard:
         """Serve a request (ASGI)."""
         if scope["type"] == "lifespan" or (refused := self._find_refusal(Headers(scope=scope))) is None:
             await self._app(scope, receive, send)
-        elif scope["type"] == "websocket":
-            await send({"type": "websocket.close", "code": 1008, "reason": refused.problem.title})
         else:
-            content = msgspec.json.encode(refused.problem)
-            await Response(content, refused.status, media_type=MEDIA_TYPE)(scope, receive, send)
+            await send_refusal(refused, scope, receive, send)
 
     def _find_refusal(self, headers: Headers) -> ApiRefusal | None:
         hosts = headers.getlist("host")

@@ -46,6 +46,11 @@ class EventHub:
     def __init__(self) -> None:
         self._listeners = set[Listener]()
 
+    @property
+    def count(self) -> int:
+        """How many listen."""
+        return len(self._listeners)
+
     def publish(self, news: News) -> None:
         """Pass news to all."""
         for each in self._listeners:

@@ -5,92 +5,107 @@ from __future__ import annotations
 import asyncio
 import socket
 from collections.abc import Iterable
-from contextlib import suppress
-from pathlib import Path
+from contextlib import AbstractContextManager, suppress
 
 import uvicorn
+from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.host import CellSettings
 from skillc.cells.messages import StatusChanged
 from skillc.cells.operation import CellStatus
 from skillc.server.app import Application
+from skillc.server.connections import BoundedConnection
 from skillc.server.context import ServerContext
 from skillc.server.endpoints import PREFIX
 from skillc.server.hub import EventHub, News
-from skillc.server.state import ADMIN_TOKEN, ServerState, open_state
+from skillc.server.listening import Listening
+from skillc.server.log import log
+from skillc.server.state import ServerState
 from skillc.server.supervisor import CellSupervisor
-from skillc.services.errors import RequestError, ServiceError
+from skillc.services.errors import ServiceError
 from skillc.services.reporting import Reporter
+from skillc_runtime.platforms.open_files import raise_open_files_limit
 from skillc_runtime.world.state.transactions import StoreError
 
-LOCAL = ("localhost", "127.0.0.1", "[::1]")
 KEEP_ALIVE_S = 30
 GRACE_S = 5
 """How long open requests may take when the server ends, in s."""
-MAX_CONNECTIONS = 1000
 
 
-def serve(cells: Iterable[CellSettings], host: str, port: int, folder: Path, reporter: Reporter) -> None:
+def serve(
+    cells: Iterable[CellSettings], listening: Listening, state: AbstractContextManager[ServerState], reporter: Reporter
+) -> None:
     """Serve cells until SIGINT or SIGTERM, and let them come to rest then; say how the cells are.
 
     ServiceError if the address or the state folder cannot be used.
     """
+    raise_open_files_limit()
     try:
-        with open_state(folder) as state:
-            asyncio.run(_serve(state, list(cells), _bind(host, port), host, reporter))
+        with state as opened, listening.open_socket() as listener:
+            asyncio.run(_serve(opened, list(cells), listening, listener, reporter))
     except (DatabaseError, StoreError) as error:
         raise ServiceError(str(error)) from error
     except OSError as error:
-        raise ServiceError(f"the state folder {folder} cannot be used: {error.strerror or error}") from error
-
-
-def _bind(host: str, port: int) -> socket.socket:
-    """Return a socket that listens; ServiceError if the address cannot be used."""
-    if host not in LOCAL and host != "::1":
-        raise RequestError(f"{host} is not an address of this machine alone: tokens would be sent there in the clear")
-    try:
-        return socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
-    except OSError as error:
-        raise ServiceError(f"{host}:{port} cannot be listened to: {error.strerror}") from error
+        raise ServiceError(f"the state folder cannot be used: {error}") from error
 
 
 async def _serve(
-    state: ServerState, settings: list[CellSettings], listening: socket.socket, host: str, reporter: Reporter
+    state: ServerState,
+    settings: list[CellSettings],
+    listening: Listening,
+    listener: socket.socket,
+    reporter: Reporter,
 ) -> None:
-    port = listening.getsockname()[1]
+    port = listener.getsockname()[1]
     hub = EventHub()
 
     def publish(news: News) -> None:
         hub.publish(news)
         if isinstance(news, StatusChanged):
             reporter.say(_describe(news.status))
+            log("cell", cell=news.status.name, state=news.status.state, reason=news.status.reason)
 
     cells = {each.name: CellSupervisor(each, publish) for each in settings}
-    context = ServerContext(state, cells, hub)
-    application = Application(context, frozenset(f"{name}:{port}" for name in (*LOCAL, host)))
-    config = uvicorn.Config(
-        application.asgi,
-        log_config=None,
-        server_header=False,
-        proxy_headers=False,
-        timeout_keep_alive=KEEP_ALIVE_S,
-        timeout_graceful_shutdown=GRACE_S,
-        limit_concurrency=MAX_CONNECTIONS,
-        ws="websockets-sansio",
-        ws_max_size=2**16,
-    )
-    token = (state.folder / ADMIN_TOKEN).resolve()
-    reporter.say(f"serving at http://{host}:{port}{PREFIX}; the token of the command line is in {token}")
+    application = Application(ServerContext(state, cells, hub), listening.find_hosts(port), listening.proxy)
+    server = uvicorn.Server(_configure(application.asgi, listening))
+    address = f"{listening.scheme}://{listening.host}:{port}{PREFIX}"
+    reporter.say(f"serving at {address}; the token of the command line is in {state.token_file.resolve()}")
     going = [asyncio.create_task(each.keep_going()) for each in cells.values()]
     try:
-        await uvicorn.Server(config).serve(sockets=[listening])
+        await server.serve(sockets=[listener])
     finally:
         for task in going:
             task.cancel()
         for task in going:
             with suppress(asyncio.CancelledError):
                 await task
+
+
+def _configure(application: ASGIApp, listening: Listening) -> uvicorn.Config:
+    """Return the settings of the HTTP server; ServiceError if the certificate cannot be used."""
+    certificate = listening.certificate
+    config = uvicorn.Config(
+        application,
+        http=BoundedConnection,
+        log_config=None,
+        server_header=False,
+        proxy_headers=False,
+        timeout_keep_alive=KEEP_ALIVE_S,
+        timeout_graceful_shutdown=GRACE_S,
+        ws="websockets-sansio",
+        ws_max_size=2**16,
+        ssl_certfile=certificate.chain if certificate else None,
+        ssl_keyfile=certificate.key if certificate else None,
+    )
+    try:
+        config.load()
+    except OSError as error:  # an ssl.SSLError is one, too
+        assert certificate is not None, "without a certificate nothing is read"
+        raise ServiceError(
+            f"{certificate.chain} and {certificate.key} are no certificate with its key: {error}"
+        ) from error
+    return config
 
 
 def _describe(status: CellStatus) -> str:

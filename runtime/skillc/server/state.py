@@ -25,10 +25,14 @@ ADMIN = "admin"
 
 @dataclass(frozen=True, slots=True)
 class ServerState:
-    """What a server keeps in its folder; `database` is in autocommit mode, and durable."""
+    """What a server keeps in its folder; `database` is in autocommit mode, and durable.
+
+    `token_file` has the token of the command line.
+    """
 
     folder: Path
     database: sqlite3.Connection
+    token_file: Path
 
     @property
     def tokens(self) -> Tokens:
@@ -37,11 +41,12 @@ class ServerState:
 
 
 @contextmanager
-def open_state(folder: Path) -> Iterator[ServerState]:
+def open_state(folder: Path, token_file: Path | None = None) -> Iterator[ServerState]:
     """Open or create a state folder, which no other server uses meanwhile.
 
-    At the first start it gets a token for the command line, in a file that only its owner can read. ServiceError if
-    another server uses it; DatabaseError or OSError if it cannot be used.
+    At the first start it gets a token for the command line, in a file that only its owner can read: `token_file`, by
+    default `admin.token` in the folder. ServiceError if another server uses it; DatabaseError or OSError if it cannot
+    be used.
     """
     folder.mkdir(parents=True, exist_ok=True, mode=0o700)
     (folder / LOCK).touch(mode=0o600)
@@ -50,29 +55,29 @@ def open_state(folder: Path) -> Iterator[ServerState]:
         if not lock.try_exclusive():
             raise ServiceError(f"{folder} is in use by {lock.describe_others()}; two servers cannot share it")
         with closing(open_for_writing(folder / DATABASE, SCHEMA)) as database:
-            state = ServerState(folder, database)
+            state = ServerState(folder, database, token_file or folder / ADMIN_TOKEN)
             _ensure_admin_token(state)
             yield state
     finally:
         lock.release()
 
 
-def read_admin_token(folder: Path) -> str | None:
-    """Return the token of the command line; None if there is none, or it is not for the user of this process."""
+def read_token(file: Path) -> str | None:
+    """Return the token in a file; None if there is none, or it is not for the user of this process."""
     try:
-        return (folder / ADMIN_TOKEN).read_text(encoding="ascii").strip()
-    except OSError:
+        return file.read_text(encoding="ascii").strip()
+    except (OSError, UnicodeDecodeError):
         return None
 
 
 def _ensure_admin_token(state: ServerState) -> None:
     """Make the token of the command line unless its file has the one that is known."""
-    token = read_admin_token(state.folder)
+    token = read_token(state.token_file)
     if token is not None and state.tokens.find(token) is not None:
         return
     state.tokens.revoke(ADMIN)
-    half = state.folder / f"{ADMIN_TOKEN}.half"
+    half = state.token_file.with_name(f"{state.token_file.name}.half")
     half.unlink(missing_ok=True)
     with os.fdopen(os.open(half, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="ascii") as file:
         file.write(state.tokens.add(ADMIN, "admin") + "\n")
-    half.replace(state.folder / ADMIN_TOKEN)
+    half.replace(state.token_file)

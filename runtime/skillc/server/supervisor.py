@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import assert_never
@@ -15,6 +16,7 @@ from skillc.cells.messages import Alive, CellAnswer, Happened, Message, Refused,
 from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
 from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording.states import State
 
 SILENCE_S = 30.0
 """How long the loop of a cell may stand still before its process is ended, in s of wall time."""
@@ -27,12 +29,16 @@ LOG = "log"
 
 
 class CellSupervisor:
-    """One cell of a server. `status` is how it is, `operations` are those that go on; `publish` hears what happens."""
+    """One cell of a server. `status` is how it is, `operations` are those that go on; `publish` hears what happens.
+
+    `starts` counts how often its process was started, `ended` the operations that ended, by state.
+    """
 
     def __init__(self, settings: CellSettings, publish: Callable[[Happened | StatusChanged], None]) -> None:
         self.settings = settings
         self.status = _off(settings, "it has not been started")
         self.operations: dict[str, OperationStatus] = {}
+        self.starts, self.ended = 0, Counter[State]()
         self._publish = publish
         self._cell: RemoteCell | None = None
         self._rounds, self._heard_at = 0, time.monotonic()
@@ -83,6 +89,7 @@ class CellSupervisor:
             self._set_status(_off(self.settings, f"its process cannot be started: {error.strerror or error}"))
             return
         cell = self._cell
+        self.starts += 1
         while not cell.gone.done():
             await asyncio.wait((cell.gone,), timeout=1.0)
             if time.monotonic() - self._heard_at > SILENCE_S and not cell.gone.done():
@@ -96,8 +103,7 @@ class CellSupervisor:
         reason = self._problem or f"its process ended with {f'signal {-code}' if code < 0 else f'code {code}'}"
         for operation in tuple(self.operations.values()):
             ended = structs.replace(operation, state="interrupted", reason=reason, allowed=())
-            self._publish(Happened(operation=ended))
-        self.operations.clear()
+            self._hear(Happened(operation=ended))
         self._set_status(_off(self.settings, reason))
 
     async def _end(self) -> None:
@@ -116,6 +122,7 @@ class CellSupervisor:
             case Happened(operation=operation):
                 if operation.state in ENDS:
                     self.operations.pop(operation.id, None)
+                    self.ended[operation.state] += 1
                 else:
                     self.operations[operation.id] = operation
                 self._publish(report)

@@ -13,15 +13,17 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, PATH
+from skillc.cli.options import FOLDER, PATH, grouped_option
 
 if TYPE_CHECKING:
     from skillc.services.backends import BackendName
 
+NETWORK = "Network"
 DEFAULT_BIND = "127.0.0.1:8421"
 EXAMPLES = """
 skillc serve my_project --cell cell.ttl
 skillc serve wiping --cell iiwa_table.ttl --backend kinematic
+skillc serve --bind 0.0.0.0:8421 --host cells.example.org:8421 --tls-cert chain.pem --tls-key key.pem
 """
 
 
@@ -40,7 +42,28 @@ skillc serve wiping --cell iiwa_table.ttl --backend kinematic
 @click.option(
     "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
 )
-def command(library: Path, scenes: tuple[Path, ...], bind: str, state: Path, backend: BackendName, seed: int) -> None:
+@click.option("--token-file", type=PATH, help="Keep the token of the command line in this file.")
+@click.option("--log", "log_file", type=PATH, help="Write what is requested to this file, as JSON lines.")
+@grouped_option(
+    NETWORK, "--host", "names", multiple=True, metavar="NAME", help="A name that clients use for the server."
+)
+@grouped_option(NETWORK, "--tls-cert", type=PATH, help="Encrypt with this certificate and its chain (PEM).")
+@grouped_option(NETWORK, "--tls-key", type=PATH, help="The key of the certificate (PEM).")
+@grouped_option(NETWORK, "--behind-proxy", "proxy", metavar="ADDRESS", help="Take requests from this proxy only.")
+def command(
+    library: Path,
+    scenes: tuple[Path, ...],
+    bind: str,
+    state: Path,
+    backend: BackendName,
+    seed: int,
+    token_file: Path | None,
+    log_file: Path | None,
+    names: tuple[str, ...],
+    tls_cert: Path | None,
+    tls_key: Path | None,
+    proxy: str | None,
+) -> None:
     """Serve the cells with the skills of LIBRARY, by default the project here."""
     if find_spec("uvicorn") is None:
         raise click.UsageError("the server needs uvicorn and starlette: pip install 'skillc[server]'")
@@ -50,10 +73,23 @@ def command(library: Path, scenes: tuple[Path, ...], bind: str, state: Path, bac
     if not INHERITS_SOCKETS:
         raise click.UsageError("`skillc serve` needs Linux or macOS: processes of Windows inherit no sockets")
     from skillc.server.cells import choose_cells
+    from skillc.server.listening import Certificate, Listening
+    from skillc.server.log import logging_to
     from skillc.server.serve import serve
+    from skillc.server.state import open_state
 
+    if (tls_cert is None) != (tls_key is None):
+        raise click.UsageError("give both --tls-cert and --tls-key")
+    certificate = Certificate(tls_cert, tls_key) if tls_cert is not None and tls_key is not None else None
+    listening = Listening(*_parse_address(bind), names, certificate, proxy)
+    cells = choose_cells(library, scenes, state, backend, seed)
+    with logging_to(log_file):
+        serve(cells, listening, open_state(state, token_file), Terminal())
+
+
+def _parse_address(bind: str) -> tuple[str, int]:
+    """Return host and port; UsageError if a text is no address."""
     host, _, port = bind.rpartition(":")
     if not host or not port.isdecimal() or int(port) > 65535:
         raise click.UsageError(f"--bind {bind}: write HOST:PORT, such as {DEFAULT_BIND}")
-    cells = choose_cells(library, scenes, state, backend, seed)
-    serve(cells, host.strip("[]"), int(port), state, Terminal())
+    return host.strip("[]"), int(port)

@@ -1,0 +1,68 @@
+"""What a server measures of itself, in the text format of Prometheus."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from typing import get_args
+
+from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, Histogram, generate_latest
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
+from prometheus_client.registry import Collector
+
+from skillc.cells.operation import CellState
+from skillc.server.supervisor import CellSupervisor
+
+MEDIA_TYPE = CONTENT_TYPE_LATEST.partition(";")[0]
+CONTENT_TYPE = CONTENT_TYPE_LATEST
+SECONDS = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0)
+
+
+class Metrics:
+    """The metrics of a server with some cells; `count_listeners` returns how many clients listen to events."""
+
+    def __init__(self, cells: Iterable[CellSupervisor], count_listeners: Callable[[], int]) -> None:
+        self._registry = CollectorRegistry()
+        self._registry.register(_Collector(tuple(cells), count_listeners))
+        self._requests = Histogram(
+            "skillc_request_seconds",
+            "Time from a request to its answer, by method, path and status",
+            ("method", "path", "status"),
+            buckets=SECONDS,
+            registry=self._registry,
+        )
+
+    def observe(self, method: str, path: str, status: int, seconds: float) -> None:
+        """Count a request to a path of the document, such as `/cells/{cell}`, and the time that it took."""
+        self._requests.labels(method, path, str(status)).observe(seconds)
+
+    def format(self) -> bytes:
+        """Return all metrics as text."""
+        return generate_latest(self._registry)
+
+
+class _Collector(Collector):
+    """Reads how cells are when somebody asks."""
+
+    def __init__(self, cells: tuple[CellSupervisor, ...], count_listeners: Callable[[], int]) -> None:
+        self._cells, self._count_listeners = cells, count_listeners
+
+    def collect(self) -> Iterator[Metric]:
+        """Return the metrics of cells."""
+        states = GaugeMetricFamily("skillc_cell_state", "1 for the state of a cell", labels=("cell", "state"))
+        going = GaugeMetricFamily("skillc_operations", "Operations that have not ended", labels=("cell", "state"))
+        ended = CounterMetricFamily("skillc_operations_ended", "Operations that ended", labels=("cell", "state"))
+        starts = CounterMetricFamily("skillc_cell_starts", "How often a cell was started", labels=("cell",))
+        for cell in self._cells:
+            name = cell.settings.name
+            for state in get_args(CellState):
+                states.add_metric((name, state), float(cell.status.state == state))
+            for state, count in Counter(each.state for each in cell.operations.values()).items():
+                going.add_metric((name, state), count)
+            for state, count in cell.ended.items():
+                ended.add_metric((name, state), count)
+            starts.add_metric((name,), cell.starts)
+        yield from (states, going, ended, starts)
+        listeners = GaugeMetricFamily("skillc_listeners", "Clients that listen to events")
+        listeners.add_metric((), self._count_listeners())
+        yield listeners

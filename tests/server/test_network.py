@@ -1,0 +1,114 @@
+"""A server encrypts, takes requests from its proxy only, answers to its names, and is not kept busy by connections."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import httpx
+import pytest
+import trustme
+import uvicorn
+from prometheus_client.parser import text_string_to_metric_families
+from starlette.responses import PlainTextResponse
+
+from server.running import RunningServer, serving
+from skillc.server import connections
+from skillc.server.connections import BoundedConnection
+from skillc.server.proxy import ProxiedRequests
+
+
+def test_with_a_certificate_it_encrypts_and_answers_to_its_names(tmp_path: Path) -> None:
+    authority = trustme.CA()
+    certificate = authority.issue_cert("127.0.0.1", "cells.example.org")
+    certificate.cert_chain_pems[0].write_to_path(str(tmp_path / "chain.pem"))
+    certificate.private_key_pem.write_to_path(str(tmp_path / "key.pem"))
+    authority.cert_pem.write_to_path(str(tmp_path / "ca.pem"))
+    files = ("--tls-cert", tmp_path / "chain.pem", "--tls-key", tmp_path / "key.pem")
+    with serving(tmp_path, options=(*files, "--host", "cells.example.org"), authority=tmp_path / "ca.pem") as server:
+        assert server.client.get("/cells", headers={"Host": "cells.example.org"}).status_code == 200
+        assert server.client.get("/cells", headers={"Host": "example.org"}).status_code == 421
+        with pytest.raises(httpx.ConnectError, match="verify failed"):
+            httpx.get(f"{server.url}/cells")
+        with pytest.raises(httpx.HTTPError):
+            httpx.get(f"{server.url.replace('https', 'http')}/cells")
+
+
+def test_behind_a_proxy_its_clients_are_those_that_the_proxy_names(tmp_path: Path) -> None:
+    with serving(tmp_path, options=("--behind-proxy", "127.0.0.1", "--log", tmp_path / "log")) as server:
+        for claimed in ("10.1.2.3", "6.6.6.6, 10.1.2.3"):
+            server.client.post("/cells/yard/stop", json={}, headers={"X-Forwarded-For": claimed})
+        entries = server.client.get("/audit").json()
+        assert [each["origin"] for each in entries if each["action"].endswith("/stop")] == ["10.1.2.3", "10.1.2.3"]
+        server.client.get("/cells/a%0A%7B%22event%22:%22forged%22%7D")
+    lines = [json.loads(line) for line in (tmp_path / "log").read_text().splitlines()]
+    assert {"cell", "request"} == {each["event"] for each in lines} and server.token not in (
+        tmp_path / "log"
+    ).read_text()
+    assert next(each for each in lines if each["event"] == "request")["who"] == "admin"
+
+
+@pytest.mark.parametrize(("address", "status"), [("10.0.0.9", 200), ("10.0.0.8", 403)])
+def test_behind_a_proxy_nobody_else_is_answered(address: str, status: int) -> None:
+    transport = httpx.ASGITransport(ProxiedRequests(PlainTextResponse("here"), "10.0.0.9"), client=(address, 1))
+
+    async def get() -> httpx.Response:
+        async with httpx.AsyncClient(transport=transport, base_url="http://cells") as client:
+            return await client.get("/")
+
+    answer = asyncio.run(get())
+    assert answer.status_code == status and ("from its proxy only" in answer.text) == (status == 403)
+
+
+def test_prometheus_reads_its_metrics(server: RunningServer) -> None:
+    server.client.get("/cells/nowhere")
+    text = httpx.get(server.url.replace("/api/v1", "/metrics"), headers=server.client.headers).text
+    found = {each.name: each.samples for each in text_string_to_metric_families(text)}
+    states = {sample.labels["state"]: sample.value for sample in found["skillc_cell_state"]}
+    assert states["operational"] == 1.0 and states["fault"] == 0.0
+    missing = {"method": "GET", "path": "/cells/{cell}", "status": "404"}
+    counts = [each.value for each in found["skillc_request_seconds"] if each.labels == missing and "count" in each.name]
+    assert len(counts) == 1 and counts[0] >= 1.0
+    assert httpx.get(server.url.replace("/api/v1", "/metrics")).status_code == 401
+
+
+def test_who_connects_and_says_nothing_keeps_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connections, "MAX_CONNECTIONS", 5)
+    with bounded_server() as port, ExitStack() as stack:
+        idle = [stack.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(20)]
+        assert httpx.get(f"http://127.0.0.1:{port}/").text == "here"
+        idle[0].settimeout(10.0)
+        assert idle[0].recv(1) == b"", "the one that has been idle for longest is closed"
+
+
+@pytest.mark.parametrize("sent", [b"", b"GET / HTT", b"GET / HTTP/1.1\r\nHost: a\r\n\r\nGET / HTTP/1.1\r\nX: "])
+def test_a_request_that_does_not_arrive_ends_its_connection(monkeypatch: pytest.MonkeyPatch, sent: bytes) -> None:
+    monkeypatch.setattr(connections, "REQUEST_S", 0.3)
+    with bounded_server() as port, socket.create_connection(("127.0.0.1", port)) as slow:
+        slow.settimeout(10.0)
+        slow.sendall(sent)
+        while slow.recv(4096):
+            pass
+
+
+@contextmanager
+def bounded_server() -> Iterator[int]:
+    """Serve a constant answer in a thread; yield the port."""
+    config = uvicorn.Config(PlainTextResponse("here"), http=BoundedConnection, log_config=None, lifespan="off")
+    server = uvicorn.Server(config)
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        thread = threading.Thread(target=server.run, args=([listener],))
+        thread.start()
+        while not server.started:
+            time.sleep(0.01)
+        try:
+            yield listener.getsockname()[1]
+        finally:
+            server.should_exit = True
+            thread.join(30.0)
