@@ -35,6 +35,9 @@ from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.model import WorldModel
 
+JOURNAL, WORLD = "journal.sqlite", "world"
+"""The files of a cell in its folder."""
+
 
 class CellSettings(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """A cell named `name` with the scene and the library in these files, which keeps its state in a folder.
@@ -52,7 +55,7 @@ class CellSettings(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True
     @property
     def journal(self) -> Path:
         """The file of its journal, which exists once the cell was started."""
-        return Path(self.folder) / "journal.sqlite"
+        return Path(self.folder) / JOURNAL
 
 
 class CellHost:
@@ -206,8 +209,8 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
     library, scene = compile_valid(find_library(Path(settings.library))), find_scene(Path(settings.scene))
     folder = Path(settings.folder)
     folder.mkdir(parents=True, exist_ok=True)
-    choice = StoreChoice(str(folder / "world"))
-    with closing(open_chosen_store(choice, str(folder / "world"), scene)) as store:
+    choice = StoreChoice(str(folder / WORLD))
+    with closing(open_chosen_store(choice, str(folder / WORLD), scene)) as store:
         state, sequence = read_or_fill(store, choice, scene, library.vocabulary, reporter)
         with closing(CellJournal(settings.journal, store)) as journal:
             with closing(JournalReader(settings.journal)) as reader:

@@ -165,3 +165,12 @@ def _as_text(triples: Iterable[ox.Triple]) -> str:
 
 def _triples(text: str) -> Iterable[ox.Triple]:
     return (quad.triple for quad in ox.parse(text, format=ox.RdfFormat.N_TRIPLES)) if text else ()
+
+
+def copy_store(folder: Path, target: Path) -> None:
+    """Write the present world of a store, which others may use meanwhile, as a new store; StoreError if that fails."""
+    with contextlib.closing(DiskStore(folder)) as store:
+        world = store.read()
+    with contextlib.closing(DiskStore(target)):
+        if world.sequence:
+            facts_folder.create(target / FACTS, world.triples, world.sequence, world.beginning)

@@ -1,0 +1,82 @@
+"""Back up, restore or prune the state of a server."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import click
+
+from skillc.cli.command import Command, Group
+from skillc.cli.console import print_remark
+from skillc.cli.options import FOLDER
+
+STATE = click.option(
+    "--state", type=FOLDER, default=Path(".skillc"), show_default=True, help="The state folder of the server."
+)
+DAY_NS = 86_400 * 10**9
+UNITS = {"kB": 10**3, "MB": 10**6, "GB": 10**9}
+
+
+class Size(click.ParamType[int]):
+    """A number of bytes, such as `500MB`."""
+
+    name = "size"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number of bytes; fail for anything else."""
+        number, factor = next(((value[:-2], UNITS[unit]) for unit in UNITS if str(value).endswith(unit)), (value, 1))
+        try:
+            return int(float(number) * factor)
+        except (ValueError, OverflowError):
+            self.fail(f"{value!r} is no size; write 500MB or 2GB", param, ctx)
+
+
+@click.group(cls=Group)
+def command() -> None:
+    """Back up, restore or prune what `skillc serve` keeps in its state folder."""
+
+
+@command.command(cls=Command)
+@click.argument("backup", type=FOLDER)
+@STATE
+def backup(backup: Path, state: Path) -> None:
+    """Copy the state to the new folder BACKUP, also while a server uses it."""
+    from skillc.server.backup import back_up
+
+    back_up(state, backup)
+    print_remark(f"{state} is copied to {backup}; it is a state folder itself, with the tokens of the server")
+
+
+@command.command(cls=Command)
+@click.argument("backup", type=FOLDER)
+@STATE
+def restore(backup: Path, state: Path) -> None:
+    """Put a copy of the folder BACKUP in the place of the state, which no server may use.
+
+    The former state is kept beside it.
+    """
+    from skillc.server.backup import restore as restore_state
+
+    former = restore_state(backup, state)
+    kept = f"; the former one is {former}" if former is not None else ""
+    print_remark(f"{state} is as it was when {backup} was made{kept}")
+
+
+@command.command(cls=Command)
+@STATE
+@click.option("--older-than", "days", type=click.FloatRange(min=0.0), metavar="DAYS", help="Forget older operations.")
+@click.option("--larger-than", "size", type=Size(), help="Forget the oldest operations until a cell uses this size.")
+def prune(state: Path, days: float | None, size: int | None) -> None:
+    """Forget operations that have ended, with their events and recordings, also while a server uses the state.
+
+    The worlds of the cells and the audit log stay.
+    """
+    if days is None and size is None:
+        raise click.UsageError("give --older-than DAYS or --larger-than SIZE")
+    from skillc.server.pruning import prune as prune_state
+
+    before_ns = None if days is None else time.time_ns() - int(days * DAY_NS)
+    for cell, count in prune_state(state, before_ns, size).items():
+        print_remark(f"{cell}: {count} operations are forgotten")

@@ -1,0 +1,34 @@
+"""Forgets old operations of a server, with all that is kept of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from skillc.cells.database import DatabaseError
+from skillc.cells.host import JOURNAL
+from skillc.cells.journal.pruning import prune_journal
+from skillc.server.state import CELLS, DATABASE
+from skillc.services.errors import RequestError, ServiceError
+
+
+def prune(state: Path, before_ns: int | None, max_bytes: int | None) -> dict[str, int]:
+    """Forget operations that have ended, as `prune_journal` does for each cell; return how many of each cell.
+
+    RequestError if there is no state, ServiceError if it cannot be written.
+    """
+    if not (state / DATABASE).exists():
+        raise RequestError(f"{state} is not the state of a server: it has no {DATABASE}")
+    cells = [each for each in sorted((state / CELLS).glob("*")) if (each / JOURNAL).exists()]
+    return {each.name: _prune_cell(each, before_ns, max_bytes) for each in cells}
+
+
+def _prune_cell(cell: Path, before_ns: int | None, max_bytes: int | None) -> int:
+    count = 0
+    try:
+        for operation in prune_journal(cell / JOURNAL, before_ns, max_bytes):
+            for file in cell.glob(f"*/{operation}.*"):
+                file.unlink(missing_ok=True)
+            count += 1
+    except DatabaseError as error:
+        raise ServiceError(str(error)) from error
+    return count

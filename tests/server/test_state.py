@@ -1,0 +1,127 @@
+"""The state of a server is backed up and pruned while it is used, and restored."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+
+import pytest
+from click.testing import CliRunner, Result
+from msgspec import structs
+
+from running_cells.checking import check_cell
+from running_cells.yard import CRATES, find_settings, write_yard
+from server.running import RunningServer, serving
+from skillc.cells.host import CellSettings, open_cell
+from skillc.cells.operation import OperationRequest
+from skillc.cli.main import skillc
+from skillc.services.reporting import SilentReporter
+
+
+def state(*arguments: str | Path) -> Result:
+    return CliRunner().invoke(skillc, ["state", *map(str, arguments)])
+
+
+def test_each_backup_of_a_cell_that_works_is_consistent_and_goes_on(tmp_path: Path) -> None:
+    settings = write_yard(tmp_path, takes_ms=60)
+    served = tmp_path / "served"
+    settings = structs.replace(settings, folder=str(served / "cells" / "yard"))
+    served.mkdir()
+    (served / "server.sqlite").touch()
+    chance, backups = Random(0), 0
+    for _ in carry(settings, "first"):
+        if chance.random() < 0.1:
+            backups += 1
+            assert state("backup", tmp_path / f"backup-{backups}", "--state", served).exit_code == 0
+    assert backups >= 3
+    copies = [
+        structs.replace(settings, folder=str(tmp_path / f"backup-{number}" / "cells" / "yard"))
+        for number in range(1, backups + 1)
+    ]
+    brought = [check_cell(each)["lab:Goal"] for each in copies]
+    assert brought == sorted(brought) and len(set(brought)) > 1
+    assert [*carry(copies[1], "second")] and check_cell(copies[1])["lab:Goal"] == CRATES
+
+
+def test_a_backup_is_restored_in_the_place_of_a_state_that_nobody_uses(tmp_path: Path) -> None:
+    with serving(tmp_path) as server:
+        server.wait_for(
+            server.submit(task="carry", arguments={"crate": "lab:crate-0", "to": "lab:Goal"})["id"], "succeeded"
+        )
+        done = state("backup", tmp_path / "copy", "--state", tmp_path / "served")
+        assert done.exit_code == 0, done.output
+        later = server.submit(task="carry_all")["id"]
+        server.wait_for(later, "succeeded")
+        refused = state("restore", tmp_path / "copy", "--state", tmp_path / "served")
+        assert refused.exit_code == 2 and "is in use by process" in refused.output
+    done = state("restore", tmp_path / "copy", "--state", tmp_path / "served")
+    assert done.exit_code == 0 and "the former one is" in done.output
+    assert sorted(each.name for each in tmp_path.glob("served.until-*/cells/*")) == ["yard"]
+    with serving(tmp_path) as server:
+        assert server.client.get(f"/operations/{later}").status_code == 404
+        assert len(server.client.get("/cells/yard/operations").json()) == 1
+    settings = find_settings(tmp_path)
+    assert check_cell(structs.replace(settings, folder=str(tmp_path / "served/cells/yard")))["lab:Goal"] == 1
+
+
+def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer) -> None:
+    folder = server.folder / "served"
+    first, second = (
+        (server.submit(call="Load(cart: lab:Cart-1, crate: lab:nothing)", approve=True) for _ in range(2))
+        if False
+        else (submit_and_stop(server), submit_and_stop(server))
+    )
+    going = server.submit(task="carry_all", approve=True)["id"]
+    none = state("prune", "--state", folder, "--older-than", "1")
+    assert none.exit_code == 0 and "yard: 0 operations are forgotten" in none.output
+    time.sleep(0.01)
+    assert state("prune", "--state", folder, "--older-than", "0").exit_code == 0
+    assert [server.client.get(f"/operations/{each}").status_code for each in (first, second, going)] == [404, 404, 200]
+    server.client.post("/cells/yard/stop", json={})
+    server.wait_for(going, "stopped")
+    assert state("prune", "--state", folder, "--larger-than", "1kB").exit_code == 0
+    assert server.client.get("/cells/yard/operations").json() == []
+    again = submit_and_stop(server)
+    assert server.client.get(f"/operations/{again}").json()["state"] == "stopped"
+
+
+def carry(settings: CellSettings, operation: str) -> Iterator[None]:
+    """Carry all crates of a yard, and yield after each tick."""
+    with open_cell(settings, SilentReporter()) as host:
+        host.submit(operation, OperationRequest(task="carry_all"))
+        while host.loop.runs:
+            if not host.tick():
+                host.loop.wait(0.1)
+            yield
+        host.take_changed()
+
+
+def submit_and_stop(server: RunningServer) -> str:
+    """Submit an operation that waits for its approval, and stop it; return its id."""
+    operation = str(server.submit(task="carry_all", approve=True)["id"])
+    server.client.post(f"/operations/{operation}/stop", json={})
+    server.wait_for(operation, "stopped")
+    return operation
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("backup", "copy"), ".skillc is not the state of a server"),
+        (("backup", "here", "--state", "here"), "here exists; name a new folder"),
+        (("restore", "nowhere"), "nowhere is not a backup of a server"),
+        (("prune",), "give --older-than DAYS or --larger-than SIZE"),
+        (("prune", "--larger-than", "much"), "'much' is no size"),
+        (("prune", "--older-than", "1", "--state", "nowhere"), "nowhere is not the state of a server"),
+    ],
+)
+def test_what_cannot_be_done_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], message: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "here").mkdir()
+    (tmp_path / "here" / "server.sqlite").touch()
+    refused = state(*arguments)
+    assert refused.exit_code == 2 and message in refused.output
