@@ -12,6 +12,12 @@ from projects.folders import call, checked, names
 from robot_import.arms import GEN3, six
 
 USE = ("lab:Arm-1 a cell:Six", "not lab:Arm-1 a skillc:Panda", "lab:Arm-1 skillc:hasSheet cell:six-sheet")
+POSITIONS = (
+    'lab:Arm-1 skiros:CompliantController "forward_dynamics"',
+    "lab:Arm-1 skillc:hasSensor lab:Sensor-1",
+    "lab:Sensor-1 a skillc:ForceTorqueSensor",
+)
+"""What an arm that takes positions needs besides."""
 MODEL = "ontology/robots/six.xml"
 
 
@@ -30,6 +36,7 @@ def test_an_arm_like_a_shipped_one_is_used_by_a_scene(project: Path) -> None:
     assert "agree in 200 postures" in added.stderr and "the largest difference is" in added.stderr
     sheet = (project / "ontology/robots/six.ttl").read_text("utf-8")
     assert "skillc:forceLimit 30 ;" in sheet and "skillc:reach 0.8 ;" in sheet and "toBeStated" not in sheet
+    assert "ForceTorqueSensor" not in added.stderr
     assert "As those of panda, to be checked: armature" in sheet and "user when the arm was added: forceLimit" in sheet
     assert checked(project) == []
     assert call(project, "scene", "edit", "cell.ttl", *USE).exit_code == 0
@@ -43,13 +50,14 @@ def test_what_is_still_to_be_stated_is_listed_and_nothing_runs(project: Path) ->
     home = "0 0.2 1.6 0 1.34 0"
     added = call(project, "add", "robot", "six.urdf", "--control", "position", "--home", home)
     assert added.exit_code == 0 and "still to be stated" in added.stderr, added.output
+    assert "lab:Sensor-1 a skillc:ForceTorqueSensor" in added.stderr
     (found,) = checked(project)
     assert (found["name"], found["severity"]) == ("incomplete-sheet", "warning")
     assert found["path"] == "ontology/robots/six.ttl"
     for name in ("jointSpeeds", "armature", "servoStiffness", "admittance", "forceLimit", "contactForceLimit"):
         assert f"skillc:{name}" in found["message"]
     assert "skillc:hasPosture" not in found["message"] and "skillc:dampingFloor" not in found["message"]
-    assert call(project, "scene", "edit", "cell.ttl", *USE).exit_code == 0
+    assert call(project, "scene", "edit", "cell.ttl", *USE, *POSITIONS).exit_code == 0
     assert sorted(names(checked(project)))[1][0] == "incomplete-sheet"
     assert [each["severity"] for each in checked(project)].count("error") == 1
     refused = call(project, "run")

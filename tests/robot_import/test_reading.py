@@ -123,7 +123,7 @@ def test_inertia_of_no_real_body_is_refused_with_its_link(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("old", "new", "options", "note"),
     [
-        (LAST, FINGERS + LAST, {"tip": "tool0"}, "2 link(s) beyond `tool0` are left out"),
+        (LAST, FINGERS + LAST, {"tip": "tool0"}, "what is beyond `tool0` is left out"),
         (LAST, FINGERS.replace('link="tool0"', 'link="link_6"') + LAST, {"tip": "tool0"}, "left, right do not belong"),
         ('joint_4" type="revolute"', 'joint_4" type="continuous"', {}, "joint_4 turn without end"),
         ("<axis", '<dynamics damping="0.1"/><axis', {}, "damping and friction of joints"),

@@ -92,6 +92,29 @@ def test_of_what_is_told_elsewhere_no_sheet_is_blamed(tmp_path: Path) -> None:
     assert found.name == "unknown-controller"
 
 
+@pytest.mark.parametrize(
+    ("controller", "arm", "words", "fix"),
+    [
+        ("forward_dynamics", "skillc:Iiwa14", "gives position commands, and lab:Iiwa-1 takes torque", '"impedance"'),
+        ("impedance", "skillc:PositionControlledArm", "lab:Iiwa-1 takes position commands", '"forward_dynamics"'),
+        ("forward_dynamics", "skillc:PositionControlledArm", "lab:Iiwa-1 has no skillc:ForceTorqueSensor", None),
+    ],
+)
+def test_a_controller_that_the_arm_cannot_use_is_told_and_its_sheet_is_not_blamed(
+    tmp_path: Path, controller: str, arm: str, words: str, fix: str | None
+) -> None:
+    own = OWN.replace("skillc:armature", "skillc:admittance 1 ; skillc:rotationalAdmittance 1 ; skillc:armature")
+    own = own.replace("skillc:armature", "skillc:admittanceTime 0.03 ; skillc:armature")
+    changed = SCENE.replace("lab:Iiwa-1 a skillc:Iiwa14", f"lab:Iiwa-1 a {arm}").replace(
+        '"impedance"', f'"{controller}"'
+    )
+    (tmp_path / "s.ttl").write_text(changed.replace("skillc:iiwa14-sheet", "lab:own-sheet") + own, "utf-8")
+    (tmp_path / "t.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
+    (found,) = library_checks.check_library(find_library(tmp_path), tmp_path / "s.ttl")
+    assert (found.name, found.severity) == ("unfit-controller", "error")
+    assert words in found.message and (found.fix.text if found.fix else None) == fix
+
+
 def test_what_was_found_does_not_hold_once_a_model_has_changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own, library = tmp_path / "own", tmp_path / "library"
     (own / "robots").mkdir(parents=True)

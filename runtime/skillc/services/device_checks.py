@@ -1,4 +1,4 @@
-"""Checks arms in scenes: unknown controllers, and data sheets that do not fit the controller or the model."""
+"""Checks arms in scenes: controllers that an arm cannot use, data sheets that do not fit controller or model."""
 
 from __future__ import annotations
 
@@ -13,12 +13,21 @@ from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
 from skillc_dsl.source import Span
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
-from skillc_runtime.control.gains import UnknownController, load_own_law, read_gains
+from skillc_runtime.control.gains import CONTROLLERS, UnknownController, read_gains, read_law
+from skillc_runtime.devices.arm import Mode
 from skillc_runtime.scene.documents import BASE
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError
-from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_SHEET, POSTURE_NAME, TO_BE_STATED
+from skillc_runtime.world.state.terms import (
+    ARM_DEVICE,
+    COMPLIANT_CONTROLLER,
+    FORCE_TORQUE_SENSOR,
+    HAS_SENSOR,
+    HAS_SHEET,
+    POSTURE_NAME,
+    TO_BE_STATED,
+)
 from skillc_runtime.world.state.world_state import WorldState
 
 HOME = "home"
@@ -29,36 +38,53 @@ INCOMPLETE = "incomplete-sheet"
 
 
 def check_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
-    """Yield the places in the scene file at `path` where an arm names a controller that does not exist."""
+    """Yield the places in the scene file at `path` where an arm names a controller that does not exist or fit it."""
     named = [each for each in scene.said if each.predicate == COMPLIANT_CONTROLLER and each.lines.path == path]
     if not named:
         return
-    # The controllers import the simulator, which is slow to import.
-    from skillc_runtime.control.gains import CONTROLLERS
-
     known = tuple(CONTROLLERS)
     for each in named:
         name = each.object.value if isinstance(each.object, ox.Literal) else str(each.object)
-        if ":" in name:
-            yield from _unusable_law(name, each)
-        elif name not in known:
+        if ":" in name or name in known:
+            yield from _unusable_controller(scene.state, name, each)
+        else:
             span, near = with_shown_path(each.object_place), get_close_matches(name, known, n=1)
             message = f'there is no controller "{name}"; there are: {", ".join(known)}'
             fix = Fix(span, f'"{near[0]}"', f'write "{near[0]}"', safe=False) if near else None
             yield Diagnostic("unknown-controller", span, message, did_you_mean(name, known), fix=fix)
 
 
-def _unusable_law(name: str, statement: Statement) -> Iterator[Diagnostic]:
-    """Yield why the class of a user that a statement names is no controller."""
+def _unusable_controller(state: WorldState, name: str, statement: Statement) -> Iterator[Diagnostic]:
+    """Yield why an arm cannot use the controller that a statement names: one that is shipped, or a class of a user."""
+    span, arm = with_shown_path(statement.object_place), iri_of(statement.subject)
     try:
-        load_own_law(name, lambda _: 0.0)
+        law = read_law(name, _any_number)
     except UnknownController as error:
-        yield Diagnostic(
-            "unknown-controller",
-            with_shown_path(statement.object_place),
-            str(error),
-            "name `module:Class` of a control law",
-        )
+        yield Diagnostic("unknown-controller", span, str(error), "name `module:Class` of a control law")
+        return
+    short, modes = state.vocabulary.short, _modes(state, arm)
+    if modes and law.mode not in modes:
+        message = f'"{name}" gives {law.mode} commands, and {short(arm)} takes {" and ".join(modes)} commands'
+        other = next(each for each in CONTROLLERS if read_law(each, _any_number).mode in modes)
+        fix = Fix(span, f'"{other}"', f'write "{other}"', safe=False)
+        yield Diagnostic("unfit-controller", span, message, f'"{other}" gives such commands', fix=fix)
+    elif law.needs_force and not any(state.is_a(each, FORCE_TORQUE_SENSOR) for each in state.objects(arm, HAS_SENSOR)):
+        message = f'"{name}" needs the forces at the wrist, and {short(arm)} has no {short(FORCE_TORQUE_SENSOR)}'
+        help_ = f"write `{short(HAS_SENSOR)} lab:Sensor-1` here, and `lab:Sensor-1 a {short(FORCE_TORQUE_SENSOR)} .`"
+        yield Diagnostic("unfit-controller", span, message, help_)
+
+
+def _any_number(_: str) -> float:
+    """Stand for the numbers of a data sheet where only the kind of a controller matters."""
+    return 1.0
+
+
+def _modes(state: WorldState, arm: str) -> tuple[Mode, ...]:
+    """Return the kinds of commands that an arm takes; none if its class does not say."""
+    # The simulator is slow to import.
+    from skillc_runtime.backends.simulation.scene_spec import MODES
+
+    return tuple(mode for cls, mode in MODES.items() if state.is_a(arm, cls))
 
 
 def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
@@ -116,13 +142,13 @@ def _misspelt_home(scene: Scene, path: str, sheet: DataSheet, message: str) -> D
 
 
 def _missing_from(state: WorldState, arm: str, sheet: DataSheet) -> str | None:
-    """Return what a sheet lacks for an arm, or None; unknown controllers are reported by `check_controllers`."""
+    """Return what a sheet lacks for an arm, or None; unusable controllers are reported by `check_controllers`."""
     # The simulator is slow to import.
     import mujoco
 
-    controller = state.value(arm, COMPLIANT_CONTROLLER)
+    controller, modes = state.value(arm, COMPLIANT_CONTROLLER), _modes(state, arm)
     try:
-        if controller is not None:
+        if controller is not None and (not modes or read_law(str(controller), _any_number).mode in modes):
             read_gains(str(controller), sheet.number)
         joints, home = len(mujoco.MjSpec.from_file(str(sheet.model)).joints), sheet.posture(HOME).size
     except UnknownController:

@@ -151,20 +151,23 @@ class Gains:
 
 def read_gains(controller: str, number: NumberReader) -> Gains:
     """Return the gains that a data sheet states for a controller by name; UnknownController if there is none."""
-    if ":" in controller:
-        law: LawGains = load_own_law(controller, number)
-    elif controller in CONTROLLERS:
-        law = CONTROLLERS[controller](number)
-    else:
-        raise UnknownController(f"there is no controller {controller!r}; there are: {', '.join(CONTROLLERS)}")
     return Gains(
-        law,
+        read_law(controller, number),
         number("linearStiffness"),
         number("rotationalStiffness"),
         number("dampingRatio"),
         number("commandTime"),
         TaskLimits(number("forceLimit"), number("speedLimit"), number("accelerationLimit")),
     )
+
+
+def read_law(controller: str, number: NumberReader) -> LawGains:
+    """Return the gains of a law by the name of its controller, `module:Class` for a user's; else UnknownController."""
+    if ":" in controller:
+        return load_own_law(controller, number)
+    if controller in CONTROLLERS:
+        return CONTROLLERS[controller](number)
+    raise UnknownController(f"there is no controller {controller!r}; there are: {', '.join(CONTROLLERS)}")
 
 
 def load_own_law(name: str, number: NumberReader) -> OwnGains:

@@ -130,7 +130,8 @@ def _show(added: AddedRobot, prefix: str) -> None:
             "warning",
             f"still to be stated, in the sheet, with --set or as those of --like: {', '.join(added.unstated)}",
         )
+    sensor = " ; skillc:hasSensor lab:Sensor-1 . lab:Sensor-1 a skillc:ForceTorqueSensor" * added.needs_force
     print_remark(
         f"in a scene: lab:Arm-1 a {prefix}:{added.cls} ; skillc:hasSheet {prefix}:{added.name}-sheet ; "
-        f'skiros:CompliantController "{added.controller}" .'
+        f'skiros:CompliantController "{added.controller}"{sensor} .'
     )

@@ -46,12 +46,16 @@ class RobotRequest:
 
 @dataclass(frozen=True, slots=True)
 class AddedRobot:
-    """The files of a new arm, and what its user should know: sentences without full stop."""
+    """The files of a new arm, and what its user should know: sentences without full stop.
+
+    needs_force: whether its controller needs a force/torque sensor.
+    """
 
     name: str
     cls: str
     files: tuple[Path, ...]
     controller: str
+    needs_force: bool
     summary: str
     proof: str
     home: str
@@ -164,6 +168,7 @@ def _report(
         cls=facts.cls,
         files=files,
         controller=CONTROLLERS[facts.control],
+        needs_force="forceTorqueTime" in GAINS[facts.control],
         summary=(
             f"{len(model.links)} joints ({names}) from {model.base.name} to {model.tip}; the links that move weigh "
             f"{mass:.2f} kg"

@@ -171,7 +171,7 @@ def _with_stand_ins(links: tuple[RobotLink, ...], notes: list[str]) -> Iterator[
 def _notes(tree: UrdfTree, chain: Chain) -> Iterator[str]:
     beyond, own = list(tree.below(chain.tip)), {joint.name for joint in chain.joints}
     if beyond:
-        yield f"{len(beyond)} link(s) beyond `{chain.tip}` are left out; a gripper is mounted there by the scene"
+        yield f"what is beyond `{chain.tip}` is left out ({_some(beyond)}); the scene mounts a gripper there"
     locked = [
         joint.name
         for link in tree.below(chain.base)
