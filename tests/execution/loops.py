@@ -64,6 +64,7 @@ class LatePlan:
     answer: PreparedTask | NotStarted
     looks: int
     killed: bool = False
+    waits_for: str = ""
 
     def poll(self) -> PreparedTask | NotStarted | None:
         """Return the answer once it has arrived."""

@@ -91,7 +91,7 @@ def test_the_end_of_the_program_ends_each_state_at_once(state: str) -> None:
 @pytest.mark.parametrize("state", [each for each in WAYS if each not in ("queued", "planning", "succeeded")])
 def test_the_deadline_ends_each_state_in_which_time_goes_on(state: str) -> None:
     cell, watched = WAYS[state]()
-    watched.run._settings = RunSettings(deadline_s=1.0)
+    watched.run.settings = RunSettings(deadline_s=1.0)
     ends = "stopped" if state == "stopping" else "failed"
     assert watched.until_end() == ends
     if ends == "failed":

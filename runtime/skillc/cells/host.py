@@ -24,8 +24,9 @@ from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import CellOrigin
-from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request
+from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request, TooManyRequests
 from skillc_runtime.execution.planning_job import PlanningJob
+from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.task_state import ENDS
@@ -37,6 +38,9 @@ from skillc_runtime.world.state.model import WorldModel
 
 JOURNAL, WORLD = "journal.sqlite", "world"
 """The files of a cell in its folder."""
+
+MAX_OPERATIONS = 200
+"""How many operations may go on or wait in a cell; those beyond are refused."""
 
 
 class CellSettings(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -73,7 +77,7 @@ class CellHost:
         self.world, self._journal = world, journal
         self._backend = make_backend(settings.backend, world, settings.seed)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
-        self.loop = CellLoop(self._backend, library, self._plan, origin, commit=journal.commit)
+        self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=journal.commit)
         self._operations: dict[str, _Submitted] = {}
 
     def describe(self, pace: float | None) -> CellStatus:
@@ -104,16 +108,21 @@ class CellHost:
         self.loop.fault = None
 
     def submit(self, operation: str, request: OperationRequest) -> None:
-        """Take an operation, with an id that no other has. RequestError or DiagnosticsError if it cannot be one."""
+        """Take an operation, with an id that no other has. RequestError or DiagnosticsError if it cannot be one.
+
+        TooManyRequests if as many as possible go on.
+        """
         if operation in self._operations or self._journal.has_operation(operation):
             raise RequestError(f"there is already an operation {operation}")
         if (fault := self.loop.fault or self._backend.broken) is not None:
             raise RequestError(f"{self.settings.name} takes no operations: {fault}")
+        if len(self._operations) >= MAX_OPERATIONS:
+            raise TooManyRequests(f"{MAX_OPERATIONS} operations go on or wait in {self.settings.name}; try again later")
         assignment = self._assign(request)
         gate = Gate(parse_breakpoints(request.breakpoints, self.library))
         if request.step:
             gate.step("into", ())
-        settings = RunSettings(request.approve, request.deadline_s, request.ask_after_failure)
+        settings = RunSettings(request.approve, request.deadline_s, request.ask_after_failure, request.priority)
         self._journal.add_operation(operation, request)
         publisher = Publisher(operation, (self._journal.record,))
         run = self.loop.submit(assignment, (publisher,), settings, gate, operation)
@@ -191,7 +200,7 @@ class _Submitted:
             cell=cell,
             request=self.request,
             state=run.state,
-            reason=run.reason,
+            reason=run.waits_for or run.reason,
             allowed=run.allowed,
             events=self.publisher.sequence,
             verified=run.verified,

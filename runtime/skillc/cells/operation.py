@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
@@ -15,10 +15,11 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
 
     `arguments` are the values of the task's parameters, as they are written in a call, such as `lab:Tray-1` or `8 N`.
 
-    Operations wait for devices in the order of their submission. `approve`: each plan waits for approval.
-    `ask_after_failure`: a failed step waits for a decision instead of another plan. The operation fails if it has not
-    ended `deadline_s` of the cell's time after its submission. It pauses before its first call with `step`, and at each
-    SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
+    Of those that wait for planners or devices, a higher `priority` comes first, then who was submitted first; nothing
+    that runs gives way. `approve`: each plan waits for approval. `ask_after_failure`: a failed step waits for a
+    decision instead of another plan. The operation fails if it has not ended `deadline_s` of the cell's time after its
+    submission. It pauses before its first call with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is
+    who requested it.
     """
 
     task: str | None = None
@@ -31,6 +32,7 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     deadline_s: float | None = None
     step: bool = False
     breakpoints: tuple[str, ...] = ()
+    priority: Annotated[int, msgspec.Meta(ge=-100, le=100)] = 0
 
 
 class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import insort
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -54,9 +55,10 @@ class Request:
 class CellLoop:
     """Ticks the task runs of a cell; whoever drives it calls `tick` again and again, at the pace that it wants.
 
-    `runs` are those that have not ended, in the order of their submission. `ticks` counts the ticks in which anything
-    happened: requests and plans are recorded with this number, so that a run can be repeated. `after_tick` are called
-    whenever time has passed. `request` and `stop` may be called from other threads and from signal handlers.
+    `runs` are those that have not ended; a higher priority comes first, then who was submitted first. `ticks` counts
+    the ticks in which anything happened: requests and plans are recorded with this number, so that a run can be
+    repeated. `after_tick` are called whenever time has passed. `request` and `stop` may be called from other threads
+    and from signal handlers.
 
     `commit` is called in each tick after the runs were ticked, before time passes: it makes durable what has happened,
     so that nothing moves because of what a dead process would have forgotten. If it raises NotDurable, `fault` is why,
@@ -100,8 +102,10 @@ class CellLoop:
             ClaimedLocks(self._claims, name),
             self.origin,
         )
-        run = TaskRun(name, assignment, context, self._claims, self.start_preparation, settings or RunSettings())
-        self.runs.append(run)
+        settings = settings or RunSettings()
+        self._claims.add(name, settings.priority)
+        run = TaskRun(name, assignment, context, self._claims, self.start_preparation, settings)
+        insort(self.runs, run, key=lambda each: -each.settings.priority)
         return run
 
     def request(self, run: TaskRun, command: Command) -> Request:
@@ -145,9 +149,9 @@ class CellLoop:
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for a plan; to be called after a tick in which nothing happened."""
-        waiting = next((run for run in self.runs if run.state == "planning"), None)
-        if waiting is not None:
-            waiting.wait(seconds)
+        planning = next((run for run in self.runs if run.state == "planning" and not run.waits_for), None)
+        if planning is not None:
+            planning.wait(seconds)
 
     def close(self, reason: str) -> None:
         """End all runs at once, because the program ends; requests that still wait are refused."""

@@ -2,38 +2,96 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import count
 
 from skillc_model import tree
 from skillc_model.conditions import Individual
 from skillc_model.traversal import find_calls
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, HAS_A, ROBOT
 from skillc_runtime.world.state.world_state import WorldState
 
 
+@dataclass(frozen=True, slots=True)
+class DevicesBusy:
+    """A run cannot have `devices`, None for the whole cell: `run` holds them, or waits for them and comes first."""
+
+    run: str
+    devices: frozenset[str] | None
+    held: bool
+
+    def describe(self, vocabulary: Vocabulary) -> str:
+        """Return for what is waited."""
+        names = ["the whole cell"] if self.devices is None else sorted(map(vocabulary.short, self.devices))
+        return f"waits for {', '.join(names)}, {f'which {self.run} holds' if self.held else f'after {self.run}'}"
+
+
 class DeviceClaims:
-    """The devices, by IRI, that each task run holds until its end; None stands for the whole cell."""
+    """The devices, by IRI, that each task run holds until its end; None stands for the whole cell.
+
+    Runs that wait for devices form a queue: a higher priority comes first, then who was added first.
+    """
 
     def __init__(self) -> None:
         self._held: dict[str, frozenset[str] | None] = {}
+        self._wanted: dict[str, frozenset[str] | None] = {}
+        self._places: dict[str, tuple[int, int]] = {}
+        self._numbers = count()
 
-    def claim(self, run: str, devices: frozenset[str] | None) -> str | None:
-        """Give devices to a run, or none of them if another run holds one; return that run, None on success."""
-        for other, held in self._held.items():
-            if other != run and (devices is None or held is None or not held.isdisjoint(devices)):
-                return other
-        own = self._held.get(run, frozenset())
-        self._held[run] = None if own is None or devices is None else own | devices
-        return None
+    def add(self, run: str, priority: int) -> None:
+        """Give a run its place in the queue; it waits for nothing yet."""
+        self._places[run] = (-priority, next(self._numbers))
+
+    def claim(self, run: str, devices: frozenset[str] | None) -> DevicesBusy | None:
+        """Give devices to a run that goes on, or none of them, and return why, if another run holds one."""
+        if (busy := _find_conflict(run, devices, self._held, held=True)) is None:
+            own = self._held.get(run, frozenset())
+            self._held[run] = None if own is None or devices is None else own | devices
+        return busy
+
+    def wait_for(self, run: str, devices: frozenset[str] | None) -> DevicesBusy | None:
+        """Give devices to a run that begins, or return for what it waits, and then it holds none.
+
+        It gets them if no other run holds one, and none that comes before it waits for one that it does not hold.
+        """
+        busy = _find_conflict(run, devices, self._held, held=True) or self._find_earlier(run, devices)
+        self._held.pop(run, None) if busy else self._wanted.pop(run, None)
+        if busy:
+            self._wanted[run] = devices
+            return busy
+        return self.claim(run, devices)
 
     def devices_of(self, run: str) -> frozenset[str] | None:
         """Return what a run holds; empty if nothing."""
         return self._held.get(run, frozenset())
 
-    def release(self, run: str) -> None:
-        """Give back all that a run holds."""
-        self._held.pop(run, None)
+    def withdraw(self, run: str) -> None:
+        """Let a run wait for nothing any more; it keeps what it holds."""
+        self._wanted.pop(run, None)
+
+    def remove(self, run: str) -> None:
+        """Give back all that a run holds; it waits for nothing, and has no place any more."""
+        for each in (self._held, self._wanted, self._places):
+            each.pop(run, None)
+
+    def _find_earlier(self, run: str, devices: frozenset[str] | None) -> DevicesBusy | None:
+        own, place = self.devices_of(run), self._places[run]
+        missing = frozenset() if own is None else devices if devices is None else devices - own
+        earlier = {each: wanted for each, wanted in self._wanted.items() if self._places[each] < place}
+        return _find_conflict(run, missing, earlier, held=False)
+
+
+def _find_conflict(
+    run: str, devices: frozenset[str] | None, claims: Mapping[str, frozenset[str] | None], held: bool
+) -> DevicesBusy | None:
+    for other, claimed in claims.items():
+        shared = claimed if devices is None else devices if claimed is None else devices & claimed
+        if other != run and (shared is None or shared):
+            return DevicesBusy(other, shared, held)
+    return None
 
 
 class ClaimedLocks(DeviceLocks):

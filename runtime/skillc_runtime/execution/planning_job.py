@@ -42,6 +42,8 @@ class PlanningJob:
     `NotStarted` with the reason. At the end of a `with` statement the worker is killed if it still runs.
     """
 
+    waits_for = ""
+
     def __init__(
         self,
         assignment: Assignment,

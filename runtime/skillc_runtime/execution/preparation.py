@@ -8,7 +8,7 @@ from typing import Protocol, TypeAlias
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask, replan_task
-from skillc_runtime.execution.device_claims import DeviceClaims, find_claim
+from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy, find_claim
 from skillc_runtime.execution.planning_job import find_arrival_problem
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.world.state.world_state import WorldState
@@ -16,6 +16,11 @@ from skillc_runtime.world.state.world_state import WorldState
 
 class Preparation(Protocol):
     """The planning of an assignment beside the loop, with all checks before anything moves."""
+
+    @property
+    def waits_for(self) -> str:
+        """For what it waits before it begins; empty once it goes on."""
+        ...
 
     def poll(self) -> PreparedTask | NotStarted | None:
         """Return the answer, None if there is none yet; never waits."""
@@ -39,6 +44,7 @@ class Ready:
     """The preparation of a task that is prepared already."""
 
     answer: PreparedTask | NotStarted
+    waits_for: str = ""
 
     def poll(self) -> PreparedTask | NotStarted:
         """Return the answer."""
@@ -55,13 +61,6 @@ class Ready:
 def prepare_here(library: SkillLibrary) -> StartPreparation:
     """Return what plans in this process while everything else waits: for a process that itself can be killed."""
     return lambda assignment, failures: Ready(replan_task(assignment, library, failures))
-
-
-@dataclass(frozen=True, slots=True)
-class DevicesBusy:
-    """A prepared task cannot begin before another run, `holder`, gives its devices back."""
-
-    holder: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +82,11 @@ class NextAttempt:
     def plan(self, assignment: Assignment, failures: FailedSteps) -> None:
         """Start to plan."""
         self.prepared, self.preparation = None, self._start(assignment, failures)
+
+    @property
+    def waits_for(self) -> str:
+        """For what the preparation waits before it begins; empty if for nothing."""
+        return self.preparation.waits_for if self.preparation is not None else ""
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for the answer of the preparation, if one goes on."""
@@ -111,13 +115,13 @@ class NextAttempt:
         if state is not prepared.assignment.state:
             problem = find_arrival_problem(prepared, library, state)
             if problem is not None:
+                claims.withdraw(run)
                 self.prepared, self._outdated = None, self._outdated + 1
                 return Outdated(problem, self._outdated)
             self.prepared = prepared = replace(prepared, assignment=replace(prepared.assignment, state=state))
-        holder = claims.claim(run, find_claim(prepared.body, state))
-        if holder is not None:
-            claims.release(run)
-            return DevicesBusy(holder)
+        busy = claims.wait_for(run, find_claim(prepared.body, state))
+        if busy is not None:
+            return busy
         self.prepared = None
         return prepared
 

@@ -114,6 +114,7 @@ class _RecordedPlan:
     library: SkillLibrary
     arrival: PlanArrived | None
     ticks: Callable[[], int]
+    waits_for: str = ""
 
     def poll(self) -> PreparedTask | NotStarted | None:
         """Return the answer in its tick; PlanError if the plan does not work."""

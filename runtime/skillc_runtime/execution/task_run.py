@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 from typing import Literal
 
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
+from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
     MAX_ATTEMPTS,
@@ -14,17 +14,16 @@ from skillc_runtime.execution.conclusion import (
     NeedsPlan,
     collect_facts,
     conclude,
-    continue_plan,
     no_other_plan,
-    skip_failed_step,
 )
-from skillc_runtime.execution.device_claims import DeviceClaims
+from skillc_runtime.execution.decisions import try_command
+from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy
 from skillc_runtime.execution.pausing import PauseControl
-from skillc_runtime.execution.preparation import DevicesBusy, NextAttempt, Outdated, StartPreparation
+from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, refusal
 from skillc_runtime.execution.tree.run import TreeRun
-from skillc_runtime.execution.world_edit import edit_world, recorded_changes
+from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording import commands
@@ -54,14 +53,14 @@ class TaskRun:
         settings: RunSettings,
     ) -> None:
         """Submit a task; nothing starts before the first tick."""
-        self.id, self.assignment = run_id, assignment
+        self.id, self.assignment, self.settings = run_id, assignment, settings
         self.state: State = "queued"
         self.reason = ""
         self.end: EndState | None = None
         self.attempts: list[AttemptResult] = []
         self.failure: Failure | None = None
         self.facts: tuple[KnownFact, ...] = ()
-        self._context, self._claims, self._settings = context, claims, settings
+        self._context, self._claims = context, claims
         self._next = NextAttempt(start_preparation)
         self._submitted_at = context.backend.clock.now
         self._attempt: Attempt | None = None
@@ -83,6 +82,11 @@ class TaskRun:
     def waits_for_decision(self) -> bool:
         """Whether a step failed and somebody has to decide how to go on."""
         return self.state == "paused" and self._attempt is None
+
+    @property
+    def waits_for(self) -> str:
+        """For what its planning waits before it begins; empty if for nothing. It is no event: it depends on others."""
+        return self._next.waits_for
 
     @property
     def tree(self) -> TreeRun | None:
@@ -163,23 +167,14 @@ class TaskRun:
 
     def _try(self, command: commands.Command) -> Refusal | None:
         """Do the part of a command that may turn out to be impossible; return why, and then nothing has changed."""
-        world, library = self._context.backend.cell.world, self._context.library
+        tree_runs = self._attempt is not None and self._attempt.tree.status is Status.RUNNING
+        world = self._context.backend.cell.world
         try:
-            match command:
-                case commands.EditWorld():
-                    tree_runs = self._attempt is not None and self._attempt.tree.status is Status.RUNNING
-                    with nullcontext() if tree_runs else recorded_changes(world, self._emit, self._now):
-                        edit_world(world, command)
-                case commands.Skip(who=who, why=why):
-                    with recorded_changes(world, self._emit, self._now):
-                        self._next.prepared = skip_failed_step(self.attempts[-1], library, world, f"{who}: {why}")
-                case commands.Retry():
-                    self._next.prepared = continue_plan(self.attempts[-1], library, world.snapshot())
-                    self._context.failures.forget(self.attempts[-1].steps_with_status("failure"))
-                case commands.Replan() if not isinstance(self.assignment.objective, AchieveGoal):
-                    raise PlanError("only a goal can be planned for again")
+            with nullcontext() if tree_runs else recorded_changes(world, self._emit, self._now):
+                prepared = try_command(command, self.assignment, self.attempts, self._context)
         except (PlanError, StoreError, ValueError) as error:  # refused by the plan, by the store, or by the world model
             return Refusal(command.name, self.state, self.allowed, str(error))
+        self._next.prepared = prepared or self._next.prepared
         return None
 
     def _prepare(self) -> None:
@@ -196,7 +191,7 @@ class TaskRun:
         self._emit(make_arrival_event(answer, self._context.library, self._now, tick))
         if isinstance(answer, NotStarted):
             self._finish("failed", no_other_plan(self.attempts, self._context.failures, answer))
-        elif self._settings.approve:
+        elif self.settings.approve:
             self._enter("planned", "waits for approval")
         else:
             self._begin()
@@ -208,8 +203,8 @@ class TaskRun:
         match self._next.begin(self.id, self._claims, self._context.library, state):
             case PreparedTask() as prepared:
                 self._start_attempt(prepared)
-            case DevicesBusy(holder):
-                self._enter("queued", f"waits for devices that {holder} holds")
+            case DevicesBusy() as busy:
+                self._enter("queued", busy.describe(self._context.library.vocabulary))
             case Outdated(problem, times) if times == MAX_ATTEMPTS:
                 message = f"the world changed {times} times so that a plan no longer worked: {problem}"
                 self._finish("failed", Failure(kind="plan", message=message))
@@ -246,7 +241,7 @@ class TaskRun:
             return self._finish(self._ending.state, self._ending.failure)
         backend = self._context.backend
         conclusion = conclude(self.attempts, self._context.failures, backend.cell.world.snapshot())
-        if self._settings.ask_after_failure and last.status is Status.FAILURE and backend.broken is None:
+        if self.settings.ask_after_failure and last.status is Status.FAILURE and backend.broken is None:
             self._context.gate.open()
             return self._enter("paused", last.reason)
         match conclusion:
@@ -257,7 +252,7 @@ class TaskRun:
 
     def _check_limits(self) -> None:
         """Fail if the deadline has passed, or if the cell is broken before an attempt has begun."""
-        limit, broken = self._settings.deadline_s, self._context.backend.broken
+        limit, broken = self.settings.deadline_s, self._context.backend.broken
         if limit is not None and self._now - self._submitted_at >= limit:
             self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
         elif broken is not None and self._attempt is None:
@@ -278,7 +273,7 @@ class TaskRun:
 
     def _finish(self, state: EndState, failure: Failure | None) -> None:
         world = self._context.backend.cell.world
-        self._claims.release(self.id)
+        self._claims.remove(self.id)
         self.state = self.end = state
         self.reason, self.failure = describe_failure(failure) if failure else "", failure
         self.facts = collect_facts(self.attempts[-1], world) if state == "succeeded" else ()

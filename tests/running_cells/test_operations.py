@@ -1,0 +1,54 @@
+"""Operations of a cell in this process: they wait in a queue, by priority, which has an end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from running_cells.yard import write_yard
+from skillc.cells.host import CellHost, open_cell
+from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.services.reporting import SilentReporter
+from skillc_runtime.execution.cell_loop import TooManyRequests
+from skillc_runtime.execution.task_state import ENDS
+
+CRATES = [f"lab:crate-{number}" for number in range(4)]
+
+
+@contextmanager
+def opened(folder: Path, takes_ms: int = 10) -> Iterator[CellHost]:
+    """Open the cell of a yard in which it takes some time to load a crate, and to unload it."""
+    with open_cell(write_yard(folder, takes_ms), SilentReporter()) as host:
+        yield host
+
+
+def run_all(host: CellHost) -> list[OperationStatus]:
+    """Tick until no operation goes on; return the ends in their order."""
+    ends = list[OperationStatus]()
+    while host.loop.runs:
+        if not host.tick():
+            host.loop.wait(0.01)
+        ends += [each for each in host.take_changed() if each.state in ENDS]
+    return ends
+
+
+def test_operations_wait_for_the_cell_by_priority_up_to_a_number(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("skillc.cells.host.MAX_OPERATIONS", 4)
+    with opened(tmp_path) as host:
+        for number, priority in enumerate((0, 0, 7, -1)):
+            call = f"Load(cart: lab:Cart-1, crate: {CRATES[number]})"
+            host.submit(f"op-{number}", OperationRequest(call=call, priority=priority))
+        with pytest.raises(TooManyRequests, match="4 operations go on or wait in yard; try again later"):
+            host.submit("one more", OperationRequest(task="carry_all"))
+        ends = run_all(host)
+    assert {each.id: each.state for each in ends} == {
+        "op-0": "failed",
+        "op-1": "failed",
+        "op-2": "succeeded",
+        "op-3": "failed",
+    }
