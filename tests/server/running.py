@@ -8,6 +8,7 @@ import socket
 import ssl
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import uvicorn
 
 from running_cells.yard import write_yard
 
@@ -93,3 +95,18 @@ def is_listening(port: int) -> bool:
     """Whether something listens to a port of this machine."""
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+@contextmanager
+def serving_app(config: uvicorn.Config) -> Iterator[int]:
+    """Serve an application in a thread of this process; yield the port."""
+    app = uvicorn.Server(config)
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        thread = threading.Thread(target=app.run, args=([listener],))
+        thread.start()
+        wait_until(lambda: app.started, bool)
+        try:
+            yield listener.getsockname()[1]
+        finally:
+            app.should_exit = True
+            thread.join(30.0)

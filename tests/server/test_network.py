@@ -5,10 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import socket
-import threading
-import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack
 from pathlib import Path
 
 import httpx
@@ -18,7 +15,7 @@ import uvicorn
 from prometheus_client.parser import text_string_to_metric_families
 from starlette.responses import PlainTextResponse
 
-from server.running import RunningServer, serving
+from server.running import RunningServer, serving, serving_app
 from skillc.server import connections
 from skillc.server.connections import BoundedConnection
 from skillc.server.proxy import ProxiedRequests
@@ -97,18 +94,7 @@ def test_a_request_that_does_not_arrive_ends_its_connection(monkeypatch: pytest.
             pass
 
 
-@contextmanager
-def bounded_server() -> Iterator[int]:
-    """Serve a constant answer in a thread; yield the port."""
-    config = uvicorn.Config(PlainTextResponse("here"), http=BoundedConnection, log_config=None, lifespan="off")
-    server = uvicorn.Server(config)
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        thread = threading.Thread(target=server.run, args=([listener],))
-        thread.start()
-        while not server.started:
-            time.sleep(0.01)
-        try:
-            yield listener.getsockname()[1]
-        finally:
-            server.should_exit = True
-            thread.join(30.0)
+def bounded_server() -> AbstractContextManager[int]:
+    """Serve a constant answer with bounded connections; yields the port."""
+    app = PlainTextResponse("here")
+    return serving_app(uvicorn.Config(app, http=BoundedConnection, log_config=None, lifespan="off"))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+from collections import OrderedDict
+from typing import Any, ClassVar
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
@@ -15,56 +16,58 @@ REQUEST_S = 10.0
 
 
 class BoundedConnection(H11Protocol):
-    """A connection that is closed if it keeps a request waiting, or others out."""
+    """A connection that is closed if it keeps a request waiting, or others out.
+
+    `idle` are those of this process that answer no request, the one that has been idle for longest first.
+    """
+
+    idle: ClassVar[OrderedDict[BoundedConnection, None]] = OrderedDict()
 
     def __init__(self, *arguments: Any, **settings: Any) -> None:
         super().__init__(*arguments, **settings)
-        self._idle_since = self.loop.time()
         self._expiry: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Take a connection; close another one if there are too many."""
         super().connection_made(transport)
+        self.idle[self] = None
         self._expect()
         if len(self.connections) > MAX_CONNECTIONS:
-            _close_idlest([each for each in self.connections if isinstance(each, BoundedConnection)])
+            self.idle.popitem(last=False)[0].close()
 
     def data_received(self, data: bytes) -> None:
         """Take what the client sends."""
         super().data_received(data)
-        if self.is_idle and self.conn.their_state is h11.IDLE:
-            self._expect()
-        else:
+        if self.cycle is not None and not self.cycle.response_complete:
+            self.idle.pop(self, None)
             self._cancel()
+        elif self.conn.their_state is h11.IDLE:
+            self._expect()
 
     def handle_websocket_upgrade(self, event: h11.Request) -> None:
         """Hand the connection over to a WebSocket."""
-        self._cancel()
+        self._forget()
         super().handle_websocket_upgrade(event)
 
     def on_response_complete(self) -> None:
         """Wait for the next request."""
-        self._idle_since = self.loop.time()
+        self.idle[self] = None
         super().on_response_complete()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """The connection is gone."""
-        self._cancel()
+        self._forget()
         super().connection_lost(exc)
 
-    @property
-    def is_idle(self) -> bool:
-        """Whether no request is answered now."""
-        return self.cycle is None or self.cycle.response_complete
-
-    @property
-    def idle_since(self) -> float:
-        """Since when it has been idle, in s of the event loop; infinite while a request is answered."""
-        return self._idle_since if self.is_idle else float("inf")
-
     def close(self) -> None:
-        """Close the connection."""
-        self.transport.close()
+        """Close the connection at once."""
+        self._forget()
+        self.connections.discard(self)
+        self.transport.abort()
+
+    def _forget(self) -> None:
+        self.idle.pop(self, None)
+        self._cancel()
 
     def _expect(self) -> None:
         """Close the connection unless a request arrives in time."""
@@ -75,10 +78,3 @@ class BoundedConnection(H11Protocol):
         if self._expiry is not None:
             self._expiry.cancel()
             self._expiry = None
-
-
-def _close_idlest(connections: list[BoundedConnection]) -> None:
-    """Close the connection that has been idle for longest; none if all are busy."""
-    idlest = min(connections, key=lambda each: each.idle_since)
-    if idlest.is_idle:
-        idlest.close()
