@@ -1,6 +1,7 @@
 """Skills of robots: check libraries, plan, run and explain tasks. `docs/python.md` shows how, with examples.
 
-The command line is `cli`, the language server `lsp`; `api` has what is exported here, `services` what all share.
+The command line is `cli`, the language server `lsp`; `api` and `client` have what is exported here, `services` what
+all share.
 Names are imported when they are used, so that the command line starts quickly.
 """
 
@@ -32,6 +33,16 @@ if TYPE_CHECKING:
     from skillc.api.table import QueryResult as QueryResult
     from skillc.api.trials import Trials as Trials
     from skillc.api.trials import trials as trials
+    from skillc.client.async_cell import AsyncCell as AsyncCell
+    from skillc.client.async_operation import AsyncOperation as AsyncOperation
+    from skillc.client.async_server import AsyncServer as AsyncServer
+    from skillc.client.cell import ServerCell as ServerCell
+    from skillc.client.connecting import connect as connect
+    from skillc.client.connecting import connect_async as connect_async
+    from skillc.client.errors import RefusedError as RefusedError
+    from skillc.client.errors import UnavailableError as UnavailableError
+    from skillc.client.operation import ServerOperation as ServerOperation
+    from skillc.client.server import Server as Server
     from skillc.services.errors import DiagnosticsError as DiagnosticsError
     from skillc.services.errors import RequestError as RequestError
     from skillc.services.errors import SkillcError as SkillcError
@@ -39,6 +50,9 @@ if TYPE_CHECKING:
 
 _MODULES = {
     "Answer": "skillc.api.scene",
+    "AsyncCell": "skillc.client.async_cell",
+    "AsyncOperation": "skillc.client.async_operation",
+    "AsyncServer": "skillc.client.async_server",
     "Diagnostic": "skillc_dsl.diagnostics",
     "DiagnosticsError": "skillc.services.errors",
     "EventStream": "skillc.api.event_stream",
@@ -49,13 +63,20 @@ _MODULES = {
     "Plan": "skillc.api.planning",
     "PlannedStep": "skillc.api.planning",
     "PlanningError": "skillc.api.planning",
+    "RefusedError": "skillc.client.errors",
     "RequestError": "skillc.services.errors",
     "Run": "skillc.api.run",
     "Scene": "skillc.api.scene",
+    "Server": "skillc.client.server",
+    "ServerCell": "skillc.client.cell",
+    "ServerOperation": "skillc.client.operation",
     "SkillcError": "skillc.services.errors",
     "QueryResult": "skillc.api.table",
     "Trials": "skillc.api.trials",
+    "UnavailableError": "skillc.client.errors",
     "check": "skillc.api.library",
+    "connect": "skillc.client.connecting",
+    "connect_async": "skillc.client.connecting",
     "load_library": "skillc.api.library",
     "open_run": "skillc.api.run",
     "open_scene": "skillc.api.scene",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from math import inf
 from pathlib import Path
 from typing import TypeAlias, TypeVar, get_args
 
@@ -12,6 +13,7 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
+from skillc_runtime.execution.pace import parse_pace
 from skillc_runtime.recording.question import QuestionError
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.model import WorldError
@@ -101,6 +103,15 @@ def read_arguments(value: object) -> dict[str, str]:
         )
         for name, each in value.items()
     }
+
+
+def read_pace(pace: float | str) -> float:
+    """Return the factor that `fast`, `real` or a positive number means. RequestError for anything else."""
+    text = pace if isinstance(pace, str) else "fast" if pace == inf else str(pace)
+    try:
+        return parse_pace(text)
+    except ValueError as error:
+        raise RequestError(str(error)) from error
 
 
 def require_choice(value: T, choices: object, what: str) -> T:

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from types import TracebackType
 from typing import Literal
 
-from skillc.api.boundary import api_call, refusing_values, require_choice, require_text
+from skillc.api.boundary import api_call, read_pace, refusing_values, require_choice, require_text
 from skillc.api.event_stream import EventStream
-from skillc.api.operation_state import LOOK_S, OperationState, read_pace
+from skillc.api.operation_state import LOOK_S, OperationState
 from skillc.api.run import Run
 from skillc.services.errors import RequestError, ServiceError
 from skillc_runtime.recording import commands

@@ -10,8 +10,7 @@ from dataclasses import dataclass, field
 from math import inf
 
 from skillc.api.run import Run
-from skillc.services.errors import RequestError
-from skillc_runtime.execution.pace import Pace, parse_pace
+from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Stop
 from skillc_runtime.recording.envelope import Envelope
@@ -161,12 +160,3 @@ class Monitor:
             state.waiting.clear()
             state.taken += taken
         return [each.command for each in taken]
-
-
-def read_pace(pace: float | str) -> float:
-    """Return the factor that `fast`, `real` or a positive number means. RequestError for anything else."""
-    text = pace if isinstance(pace, str) else "fast" if pace == inf else str(pace)
-    try:
-        return parse_pace(text)
-    except ValueError as error:
-        raise RequestError(str(error)) from error

@@ -19,11 +19,12 @@ from skillc.api.boundary import (
     api_call,
     optional_path,
     optional_seconds,
+    read_pace,
     require_choice,
     require_count,
 )
 from skillc.api.operation import Operation
-from skillc.api.operation_state import Monitor, OperationState, read_pace
+from skillc.api.operation_state import Monitor, OperationState
 from skillc.api.planning import Minimise, make_request
 from skillc.api.run import Run
 from skillc.services.backends import BackendName

@@ -43,7 +43,10 @@ class ServerContext:
         return self.cells[name]
 
     def find_operation(self, name: str) -> tuple[CellSupervisor, OperationStatus]:
-        """Return an operation as it is, with its cell; ApiRefusal (404) if there is none of this id."""
+        """Return an operation as it is, with its cell; ApiRefusal (404) if there is none of this id.
+
+        ApiRefusal (503) for one that was interrupted, until its cell has started again and written how it ended.
+        """
         for cell in self.cells.values():
             if (operation := cell.operations.get(name) or _find_ended(cell, name)) is not None:
                 return cell, operation
@@ -60,6 +63,10 @@ def _find_ended(cell: CellSupervisor, name: str) -> OperationStatus | None:
         return None
     with closing(open_journal(cell)) as reader:
         found = reader.find(name)
+    if found is not None and found.ended is None:
+        raise ApiRefusal(
+            HTTPStatus.SERVICE_UNAVAILABLE, f"{cell.settings.name} is {cell.status.state}: {cell.status.reason}"
+        )
     return found.ended if found else None
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Coroutine, Sequence
 from contextlib import closing
+from http import HTTPStatus
 from typing import Annotated
 
 import msgspec
@@ -53,7 +54,8 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
     except (TimeoutError, msgspec.DecodeError, KeyError):
         await socket.close(REFUSED, "the first message is no valid hello")
     except ApiRefusal as refused:
-        await socket.close(REFUSED, refused.problem.detail[:120])
+        code = BROKEN if refused.status is HTTPStatus.SERVICE_UNAVAILABLE else REFUSED
+        await socket.close(code, refused.problem.detail[:120])
     except DatabaseError:
         await socket.close(BROKEN, "the journal cannot be read")
 

@@ -39,10 +39,14 @@ Command = (
 
 
 class HistoryPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which part of a history: what was submitted before a wall time, in ns since 1970, and how much at most."""
+    """Which part of a history: what was submitted before a wall time, in ns since 1970, and how much at most.
+
+    `ongoing` for all operations that have not ended instead, in the order of their submission.
+    """
 
     before_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] | None = None
     limit: Limit = 100
+    ongoing: bool = False
 
 
 class EventPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -60,7 +64,7 @@ class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:
     cell = call.server.find_cell(call.path["cell"])
-    return tuple(_read_history(cell, call.query))
+    return tuple(cell.operations.values() if call.query.ongoing else _read_history(cell, call.query))
 
 
 async def submit_operation(call: ApiCall) -> OperationStatus:

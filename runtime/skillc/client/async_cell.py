@@ -1,0 +1,105 @@
+"""A cell of a server, for programs with asyncio."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+from uuid import uuid4
+
+from skillc.api.boundary import optional_seconds, optional_text, read_arguments, read_pace
+from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
+from skillc.client.async_operation import AsyncOperation
+from skillc.client.connection import Connection, join
+from skillc.server.access.leases import Lease
+from skillc.server.routes.cells import PaceSetting, StopAll
+from skillc.server.routes.leases import LeaseRequest
+from skillc.services.errors import RequestError
+from skillc_runtime.execution.pace import FAST
+
+OPERATIONS = 100
+
+
+class AsyncCell:
+    """A cell of a server. Errors are those of `AsyncOperation`."""
+
+    def __init__(self, connection: Connection, name: str) -> None:
+        self._connection = connection
+        self.name = name
+
+    async def status(self) -> CellStatus:
+        """Return how it is."""
+        return await self._connection.get(self._path(), CellStatus)
+
+    async def start(
+        self,
+        task: str | None = None,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        skill: str | None = None,
+        approve: bool = False,
+        ask_after_failure: bool = False,
+        deadline_s: float | None = None,
+        step: bool = False,
+        pause_at: Sequence[str] = (),
+        key: str | None = None,
+    ) -> AsyncOperation:
+        """Submit a task of the cell's library, a goal or a skill call, and return the operation.
+
+        `arguments` are the values of the task's parameters by name. With `approve` each plan waits for approval; with
+        `ask_after_failure` a failed step waits for a decision. The operation fails if it has not ended `deadline_s` s
+        of the cell's time after this. It pauses before its first call with `step`, and before each SKILL or FILE:LINE
+        of `pause_at`. The same `key` twice is one operation.
+        """
+        request = OperationRequest(
+            task=optional_text(task, "the task"),
+            goal=optional_text(goal, "the goal"),
+            call=optional_text(skill, "the skill call"),
+            arguments=read_arguments(arguments),
+            approve=approve,
+            ask_after_failure=ask_after_failure,
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
+            step=step,
+            breakpoints=tuple(pause_at),
+        )
+        if [request.task, request.goal, request.call].count(None) != 2:
+            raise RequestError("name exactly one of a task, a goal and a skill call")
+        status = await self._connection.send(
+            "POST", self._path("operations"), OperationStatus, request, key=key or str(uuid4())
+        )
+        return AsyncOperation(self._connection, status)
+
+    async def operations(self, limit: int = OPERATIONS, ongoing: bool = False) -> tuple[AsyncOperation, ...]:
+        """Return its last operations, the last one first; with `ongoing` all that have not ended, and no others."""
+        found = await self._connection.get(
+            self._path("operations"), tuple[OperationStatus, ...], limit=limit, ongoing=str(ongoing).lower()
+        )
+        return tuple(AsyncOperation(self._connection, each) for each in found)
+
+    async def set_pace(self, pace: float | str) -> CellStatus:
+        """Let its time pass `fast`, as fast as it computes, `real`, as real time, or so many times as fast."""
+        setting = PaceSetting(None if (factor := read_pace(pace)) == FAST else factor)
+        return await self._connection.send("PUT", self._path("pace"), CellStatus, setting)
+
+    async def acknowledge(self) -> CellStatus:
+        """Let it take operations again after a fault whose cause is removed."""
+        return await self._connection.send("POST", self._path("acknowledge"), CellStatus)
+
+    async def stop(self, reason: str = "stopped") -> CellStatus:
+        """Stop all its operations."""
+        return await self._connection.send("POST", self._path("stop"), CellStatus, StopAll(reason))
+
+    async def lease(self) -> Lease:
+        """Return who alone may command it now."""
+        return await self._connection.get(self._path("lease"), Lease)
+
+    async def take_lease(self, duration_s: float = 60.0, takeover: bool = False) -> Lease:
+        """Be the only client that may command it for `duration_s` s from now on; `takeover` ends another's lease."""
+        return await self._connection.send("PUT", self._path("lease"), Lease, LeaseRequest(duration_s, takeover))
+
+    async def release_lease(self) -> None:
+        """Let others command it again."""
+        await self._connection.send("DELETE", self._path("lease"), type(None))
+
+    def _path(self, *parts: str) -> str:
+        return join("cells", self.name, *parts)

@@ -1,0 +1,167 @@
+"""An operation of a server, for programs with asyncio."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncGenerator, Generator
+from contextlib import aclosing
+from typing import Any, Literal
+
+from skillc.cells.operation import OperationStatus
+from skillc.client.connection import Connection, join
+from skillc.client.errors import UnavailableError
+from skillc.client.feed import follow_operation
+from skillc.client.retries import Retries
+from skillc.server.routes.operations import StopReason
+from skillc.services.errors import RequestError
+from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording import commands
+from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.events import StateChanged, TaskEnded
+from skillc_runtime.recording.states import State
+
+Depth = Literal["into", "over", "out"]
+STEPS: dict[Depth, Command] = {
+    "into": commands.StepInto(),
+    "over": commands.StepOver(),
+    "out": commands.StepOut(),
+}
+BEFORE_PAUSE: frozenset[State] = frozenset({"queued", "planning", "running", "pausing", "stopping"})
+
+
+class AsyncOperation:
+    """An operation of a server. `status` is how it was when it was last heard of; `refresh` asks again.
+
+    A command returns when it took effect. RefusedError if the server refuses it, UnavailableError if the server does
+    not answer. It can be awaited: the value is the status with which it ended. Nothing here stops it but `stop`.
+    """
+
+    def __init__(self, connection: Connection, status: OperationStatus) -> None:
+        self._connection = connection
+        self.status = status
+
+    @property
+    def id(self) -> str:
+        """Its id, which no other has."""
+        return self.status.id
+
+    @property
+    def task(self) -> str:
+        """The name of its task, or the text of its goal or call."""
+        request = self.status.request
+        return request.task or request.goal or request.call or ""
+
+    @property
+    def state(self) -> State:
+        """Its state when it was last heard of."""
+        return self.status.state
+
+    @property
+    def reason(self) -> str:
+        """Why it is in its state, or for what it waits; empty if there is nothing to say."""
+        return self.status.reason
+
+    @property
+    def allowed(self) -> tuple[str, ...]:
+        """The names of the commands that its state allows."""
+        return self.status.allowed
+
+    @property
+    def ended(self) -> bool:
+        """Whether it has ended."""
+        return self.status.state in ENDS
+
+    async def refresh(self) -> OperationStatus:
+        """Ask the server how it is."""
+        self.status = await self._connection.get(join("operations", self.id), OperationStatus)
+        return self.status
+
+    def events(self, after: int = 0) -> AsyncGenerator[Envelope, None]:
+        """Yield the events numbered from `after` + 1 on, as they happen, until it has ended.
+
+        A connection that breaks is made again, also when the server is started again meanwhile: no event is missing,
+        and none comes twice.
+        """
+        return follow_operation(self._connection, self.id, after)
+
+    async def approve(self) -> None:
+        """Run the plan that waits for approval."""
+        await self._command(commands.Approve())
+
+    async def pause(self, reason: str = "requested") -> None:
+        """Pause, and wait until it is paused: at the next point where all active skills may be paused."""
+        await self._command(commands.Pause(reason))
+        await self._wait_while(frozenset({"running", "pausing"}))
+
+    async def resume(self) -> None:
+        """Continue after a pause."""
+        await self._command(commands.Resume())
+
+    async def step(self, depth: Depth = "into") -> State:
+        """Continue until the next call of a skill starts, and return the state then: paused, unless it has ended.
+
+        `over` skips the calls inside the present one, `out` those inside the call around it.
+        """
+        await self._command(STEPS[depth])
+        return await self.wait_for_pause()
+
+    async def wait_for_pause(self) -> State:
+        """Wait until it is paused, waits for approval, or has ended; return the state."""
+        await self._wait_while(BEFORE_PAUSE)
+        return self.state
+
+    async def stop(self, reason: str = "stopped") -> None:
+        """Halt everything; it ends when everything is at rest. One that has ended stays as it is."""
+        path = join("operations", self.id, "stop")
+        self.status = await self._connection.send("POST", path, OperationStatus, StopReason(reason))
+
+    async def retry(self) -> None:
+        """After a failure: run the failed step again."""
+        await self._command(commands.Retry())
+
+    async def skip(self, why: str) -> None:
+        """After a failure: count the failed step as done, because somebody did it; its effects are assumed.
+
+        Who says so is the owner of the token.
+        """
+        await self._command(commands.Skip(who="", why=why))
+
+    async def replan(self) -> None:
+        """Halt what runs and plan again."""
+        await self._command(commands.Replan())
+
+    async def wait(self, timeout_s: float | None = None) -> OperationStatus:
+        """Wait for the end and return how it ended. RequestError after `timeout_s` s of wall time; it goes on then."""
+        try:
+            async with asyncio.timeout(timeout_s):
+                await self._wait_while(None)
+        except TimeoutError as error:
+            raise RequestError(f"{self.task} has not ended within {timeout_s:g} s; it is {self.state}") from error
+        return self.status
+
+    def __await__(self) -> Generator[Any, None, OperationStatus]:
+        return self.wait().__await__()
+
+    async def _command(self, command: Command) -> None:
+        path = join("operations", self.id, "commands")
+        self.status = await self._connection.send("POST", path, OperationStatus, command)
+
+    async def _wait_while(self, states: frozenset[State] | None) -> None:
+        """Wait until it is in another state, or until it has ended if None."""
+        status = await self._refresh_patiently()
+        while status.state not in ENDS and (states is None or status.state in states):
+            async with aclosing(follow_operation(self._connection, self.id, status.events)) as events:
+                async for each in events:
+                    if isinstance(each.event, StateChanged | TaskEnded):
+                        break
+            status = await self._refresh_patiently()
+
+    async def _refresh_patiently(self) -> OperationStatus:
+        """Ask how it is, again and again while the server is away."""
+        retries = Retries()
+        while True:
+            try:
+                return await self.refresh()
+            except UnavailableError as error:
+                await retries.wait(error)

@@ -1,0 +1,91 @@
+"""A server, for programs with asyncio."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncGenerator
+from types import TracebackType
+
+from skillc.cells.operation import CellStatus, OperationStatus
+from skillc.client.async_cell import AsyncCell
+from skillc.client.async_operation import AsyncOperation
+from skillc.client.connection import Connection, join
+from skillc.client.feed import Status, follow_states
+from skillc.server.access.roles import Role
+from skillc.server.access.tokens import TokenInfo
+from skillc.server.routes.tokens import MadeToken, NewToken
+from skillc.services.errors import RequestError
+
+
+class AsyncServer:
+    """A server; as a context manager it closes the connection. Errors are those of `AsyncOperation`.
+
+    All is used in one event loop, that in which it is used first.
+    """
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+
+    async def cells(self) -> tuple[CellStatus, ...]:
+        """Return how its cells are."""
+        return await self._connection.get("/cells", tuple[CellStatus, ...])
+
+    async def cell(self, name: str | None = None) -> AsyncCell:
+        """Return a cell, or the only one. RequestError, with the cells, if there is none such, or several."""
+        names = [each.name for each in await self.cells()]
+        if name is None and len(names) == 1:
+            return AsyncCell(self._connection, names[0])
+        if name in names:
+            return AsyncCell(self._connection, name)
+        wanted = f"there is no cell `{name}`" if name is not None else "name a cell"
+        raise RequestError(f"{wanted}; the server has {', '.join(sorted(names))}")
+
+    async def operation(self, id: str | None = None) -> AsyncOperation:
+        """Return an operation, or the only one that goes on. RequestError if there is none such, or several."""
+        if id is not None:
+            status = await self._connection.get(join("operations", id), OperationStatus)
+            return AsyncOperation(self._connection, status)
+        match await self.ongoing():
+            case (only,):
+                return only
+            case ():
+                raise RequestError("no operation goes on")
+            case several:
+                raise RequestError(f"name an operation: {', '.join(each.id for each in several)}")
+
+    async def ongoing(self) -> tuple[AsyncOperation, ...]:
+        """Return the operations of all cells that have not ended."""
+        cells = [AsyncCell(self._connection, each.name) for each in await self.cells()]
+        found = await asyncio.gather(*(each.operations(ongoing=True) for each in cells))
+        return tuple(operation for operations in found for operation in operations)
+
+    def watch(self) -> AsyncGenerator[Status, None]:
+        """Yield how each cell and each operation that goes on is, and then what changes, until that is given up.
+
+        Of several changes of the same only the last one may come; events of operations come all.
+        """
+        return follow_states(self._connection)
+
+    async def tokens(self) -> tuple[TokenInfo, ...]:
+        """Return the tokens of its clients, without their secrets."""
+        return await self._connection.get("/tokens", tuple[TokenInfo, ...])
+
+    async def add_token(self, name: str, role: Role) -> str:
+        """Make a token for a client, and return it; nobody can read it again."""
+        return (await self._connection.send("POST", "/tokens", MadeToken, NewToken(name, role))).token
+
+    async def revoke_token(self, name: str) -> None:
+        """Refuse all further requests with a token."""
+        await self._connection.send("DELETE", join("tokens", name), type(None))
+
+    async def close(self) -> None:
+        """Close the connection; what goes on in the server goes on."""
+        await self._connection.close()
+
+    async def __aenter__(self) -> AsyncServer:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        await self.close()

@@ -1,0 +1,88 @@
+"""A cell of a server."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from skillc.cells.operation import CellStatus
+from skillc.client.async_cell import OPERATIONS, AsyncCell
+from skillc.client.loop_thread import LoopThread
+from skillc.client.operation import ServerOperation
+from skillc.server.access.leases import Lease
+
+
+class ServerCell:
+    """A cell of a server; its methods are those of `AsyncCell`, and wait."""
+
+    def __init__(self, loop: LoopThread, cell: AsyncCell) -> None:
+        self._loop, self._cell = loop, cell
+
+    @property
+    def name(self) -> str:
+        """Its name, which no other cell of the server has."""
+        return self._cell.name
+
+    @property
+    def status(self) -> CellStatus:
+        """How it is now."""
+        return self._loop.run(self._cell.status())
+
+    def start(
+        self,
+        task: str | None = None,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        skill: str | None = None,
+        approve: bool = False,
+        ask_after_failure: bool = False,
+        deadline_s: float | None = None,
+        step: bool = False,
+        pause_at: Sequence[str] = (),
+        key: str | None = None,
+    ) -> ServerOperation:
+        """Submit a task, a goal or a skill call, and return the operation; the parameters are those of `AsyncCell`."""
+        starting = self._cell.start(
+            task,
+            arguments=arguments,
+            goal=goal,
+            skill=skill,
+            approve=approve,
+            ask_after_failure=ask_after_failure,
+            deadline_s=deadline_s,
+            step=step,
+            pause_at=pause_at,
+            key=key,
+        )
+        return ServerOperation(self._loop, self._loop.run(starting))
+
+    def operations(self, limit: int = OPERATIONS, ongoing: bool = False) -> tuple[ServerOperation, ...]:
+        """Return its last operations, the last one first; with `ongoing` all that have not ended, and no others."""
+        found = self._loop.run(self._cell.operations(limit, ongoing))
+        return tuple(ServerOperation(self._loop, each) for each in found)
+
+    def set_pace(self, pace: float | str) -> CellStatus:
+        """Let its time pass `fast`, as fast as it computes, `real`, as real time, or so many times as fast."""
+        return self._loop.run(self._cell.set_pace(pace))
+
+    def acknowledge(self) -> CellStatus:
+        """Let it take operations again after a fault whose cause is removed."""
+        return self._loop.run(self._cell.acknowledge())
+
+    def stop(self, reason: str = "stopped") -> CellStatus:
+        """Stop all its operations."""
+        return self._loop.run(self._cell.stop(reason))
+
+    @property
+    def lease(self) -> Lease:
+        """Who alone may command it now."""
+        return self._loop.run(self._cell.lease())
+
+    def take_lease(self, duration_s: float = 60.0, takeover: bool = False) -> Lease:
+        """Be the only client that may command it for `duration_s` s from now on; `takeover` ends another's lease."""
+        return self._loop.run(self._cell.take_lease(duration_s, takeover))
+
+    def release_lease(self) -> None:
+        """Let others command it again."""
+        self._loop.run(self._cell.release_lease())

@@ -1,0 +1,107 @@
+"""Requests to a server, and their answers as values."""
+
+from __future__ import annotations
+
+import ssl
+from typing import Literal, TypeVar
+from urllib.parse import quote
+
+import httpx
+import msgspec
+
+from skillc.client.address import ServerAddress
+from skillc.client.errors import RefusedError, UnavailableError
+from skillc.server.problems import ProblemDetails
+from skillc.services.errors import ServiceError
+
+TIMEOUT_S = 60.0
+"""How long an answer may take, in s: a cell that plans or starts answers late."""
+FIRST_SERVER_ERROR, UNAVAILABLE = 500, 503
+UNAUTHORIZED = 401
+Method = Literal["GET", "POST", "PUT", "DELETE"]
+T = TypeVar("T")
+
+
+class Connection:
+    """A connection to a server. It belongs to one event loop."""
+
+    def __init__(self, address: ServerAddress) -> None:
+        self.address = address
+        self.tls = ssl.create_default_context() if address.url.startswith("https:") else None
+        self._client = httpx.AsyncClient(
+            headers={"Authorization": f"Bearer {address.token}"},
+            timeout=TIMEOUT_S,
+            verify=self.tls or False,
+            trust_env=not address.is_local,
+        )
+
+    async def close(self) -> None:
+        """Close the connection; what goes on in the server goes on."""
+        await self._client.aclose()
+
+    async def get(self, path: str, kind: type[T], **query: object) -> T:
+        """Read a resource; errors as of `send`."""
+        return await self.send("GET", path, kind, query=query)
+
+    async def send(
+        self,
+        method: Method,
+        path: str,
+        kind: type[T],
+        body: object = None,
+        query: dict[str, object] | None = None,
+        key: str | None = None,
+    ) -> T:
+        """Make a request and return the answer. `key` makes the same request twice one.
+
+        RefusedError if the server refuses it, UnavailableError if it does not answer, or the cell is off.
+        """
+        headers = {} if body is None else {"Content-Type": "application/json"}
+        if key is not None:
+            headers["Idempotency-Key"] = key
+        content = None if body is None else msgspec.json.encode(body)
+        parameters = {name: str(value) for name, value in (query or {}).items() if value is not None}
+        try:
+            answer = await self._client.request(
+                method, self.address.url + path, content=content, params=parameters, headers=headers
+            )
+        except (httpx.HTTPError, httpx.InvalidURL) as error:
+            raise UnavailableError(describe_loss(self.address, error)) from error
+        if not answer.is_success:
+            raise _find_error(answer, self.address)
+        return decode(answer.content or b"null", kind)
+
+
+def decode(content: bytes | str, kind: type[T]) -> T:
+    """Return what a server has sent; ServiceError if it is of another type."""
+    try:
+        return msgspec.json.decode(content, type=kind)
+    except msgspec.DecodeError as error:
+        raise ServiceError(f"the server sends what this version of skillc does not know: {error}") from error
+
+
+def describe_loss(address: ServerAddress, error: Exception) -> str:
+    """Return why a server cannot be reached, and what to do."""
+    server = address.url.rpartition("/api")[0]
+    if isinstance(error, httpx.TimeoutException | TimeoutError):
+        return f"the server at {server} does not answer in time"
+    reason = f" ({error})" if "certificate" in str(error).lower() else ""
+    return f"no server answers at {server}{reason}; start one with `skillc serve`, or give the address of one"
+
+
+def join(*parts: str) -> str:
+    """Return a path of parts, each of which may be any text."""
+    return "".join(f"/{quote(part, safe='')}" for part in parts)
+
+
+def _find_error(answer: httpx.Response, address: ServerAddress) -> ServiceError:
+    try:
+        problem = msgspec.json.decode(answer.content, type=ProblemDetails)
+        detail, allowed = problem.detail, problem.allowed or ()
+    except msgspec.DecodeError:
+        detail, allowed = f"{address.url} answers with {answer.status_code}: it is no server of skillc", ()
+    if answer.status_code >= FIRST_SERVER_ERROR:
+        return UnavailableError(detail)
+    if answer.status_code == UNAUTHORIZED:
+        detail = f"the server at {address.url.rpartition('/api')[0]} does not know this token"
+    return RefusedError(detail, answer.status_code, allowed)

@@ -1,0 +1,67 @@
+"""An event loop in a thread of its own, so that programs without asyncio can use what needs one."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import AsyncGenerator, Coroutine, Iterator
+from concurrent.futures import wait
+from typing import Any, TypeVar
+
+LOOK_S = 0.1
+"""How often a waiting thread looks again, so that it takes interrupts, in s of wall time."""
+T = TypeVar("T")
+
+
+class LoopThread:
+    """A thread with an event loop; `run` and `iterate` may be called from any other thread."""
+
+    def __init__(self) -> None:
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, name="skillc client", daemon=True)
+        self._thread.start()
+
+    def run(self, coroutine: Coroutine[Any, Any, T]) -> T:
+        """Return the value of a coroutine; an interrupt of the thread that waits cancels it."""
+        future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+        try:
+            while not future.done():
+                wait((future,), LOOK_S)
+            return future.result(0.0)
+        finally:
+            future.cancel()
+
+    def iterate(self, items: AsyncGenerator[T, None]) -> Iterator[T]:
+        """Yield what an asynchronous generator yields, and close it at the end."""
+        try:
+            while True:
+                yield self.run(_next(items))
+        except StopAsyncIteration:
+            return
+        finally:
+            if not self._loop.is_closed():
+                self.run(_close(items))
+
+    def close(self) -> None:
+        """End the thread, and what goes on in it."""
+        self.run(_end_tasks())
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join()
+        self._loop.close()
+
+
+async def _next(items: AsyncGenerator[T, None]) -> T:
+    return await anext(items)
+
+
+async def _close(items: AsyncGenerator[Any, None]) -> None:
+    await items.aclose()
+
+
+async def _end_tasks() -> None:
+    """Cancel all other tasks, and close the generators that are open."""
+    tasks = asyncio.all_tasks() - {asyncio.current_task()}
+    for each in tasks:
+        each.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
+    await asyncio.get_running_loop().shutdown_asyncgens()

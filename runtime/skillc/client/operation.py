@@ -1,0 +1,101 @@
+"""An operation of a server."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc.cells.operation import OperationStatus
+from skillc.client.async_operation import AsyncOperation, Depth
+from skillc.client.loop_thread import LoopThread
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.states import State
+
+
+class ServerOperation:
+    """An operation of a server; its methods are those of `AsyncOperation`, and wait.
+
+    Its properties ask the server each time, but for `id` and `task`.
+    """
+
+    def __init__(self, loop: LoopThread, operation: AsyncOperation) -> None:
+        self._loop, self._operation = loop, operation
+
+    @property
+    def id(self) -> str:
+        """Its id, which no other has."""
+        return self._operation.id
+
+    @property
+    def task(self) -> str:
+        """The name of its task, or the text of its goal or call."""
+        return self._operation.task
+
+    @property
+    def status(self) -> OperationStatus:
+        """How it is now."""
+        return self._loop.run(self._operation.refresh())
+
+    @property
+    def state(self) -> State:
+        """Its state: queued, planning, planned, running, pausing, paused, stopping, or one in which it has ended."""
+        return self.status.state
+
+    @property
+    def reason(self) -> str:
+        """Why it is in its state, or for what it waits; empty if there is nothing to say."""
+        return self.status.reason
+
+    @property
+    def allowed(self) -> tuple[str, ...]:
+        """The names of the commands that its state allows."""
+        return self.status.allowed
+
+    @property
+    def ended(self) -> bool:
+        """Whether it has ended."""
+        self._loop.run(self._operation.refresh())
+        return self._operation.ended
+
+    def events(self, after: int = 0) -> Iterator[Envelope]:
+        """Yield the events numbered from `after` + 1 on, as they happen, until it has ended: each of them once."""
+        return self._loop.iterate(self._operation.events(after))
+
+    def approve(self) -> None:
+        """Run the plan that waits for approval."""
+        self._loop.run(self._operation.approve())
+
+    def pause(self, reason: str = "requested") -> None:
+        """Pause, and wait until it is paused: at the next point where all active skills may be paused."""
+        self._loop.run(self._operation.pause(reason))
+
+    def resume(self) -> None:
+        """Continue after a pause."""
+        self._loop.run(self._operation.resume())
+
+    def step(self, depth: Depth = "into") -> State:
+        """Continue until the next call of a skill starts, and return the state then."""
+        return self._loop.run(self._operation.step(depth))
+
+    def wait_for_pause(self) -> State:
+        """Wait until it is paused, waits for approval, or has ended; return the state."""
+        return self._loop.run(self._operation.wait_for_pause())
+
+    def stop(self, reason: str = "stopped") -> None:
+        """Halt everything; it ends when everything is at rest. One that has ended stays as it is."""
+        self._loop.run(self._operation.stop(reason))
+
+    def retry(self) -> None:
+        """After a failure: run the failed step again."""
+        self._loop.run(self._operation.retry())
+
+    def skip(self, why: str) -> None:
+        """After a failure: count the failed step as done, because somebody did it; its effects are assumed."""
+        self._loop.run(self._operation.skip(why))
+
+    def replan(self) -> None:
+        """Halt what runs and plan again."""
+        self._loop.run(self._operation.replan())
+
+    def wait(self, timeout_s: float | None = None) -> OperationStatus:
+        """Wait for the end and return how it ended. RequestError after `timeout_s` s of wall time; it goes on then."""
+        return self._loop.run(self._operation.wait(timeout_s))
