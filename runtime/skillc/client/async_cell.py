@@ -39,6 +39,7 @@ class AsyncCell:
         skill: str | None = None,
         approve: bool = False,
         ask_after_failure: bool = False,
+        priority: int = 0,
         deadline_s: float | None = None,
         step: bool = False,
         pause_at: Sequence[str] = (),
@@ -47,9 +48,10 @@ class AsyncCell:
         """Submit a task of the cell's library, a goal or a skill call, and return the operation.
 
         `arguments` are the values of the task's parameters by name. With `approve` each plan waits for approval; with
-        `ask_after_failure` a failed step waits for a decision. The operation fails if it has not ended `deadline_s` s
-        of the cell's time after this. It pauses before its first call with `step`, and before each SKILL or FILE:LINE
-        of `pause_at`. The same `key` twice is one operation.
+        `ask_after_failure` a failed step waits for a decision. Of operations that wait for devices a higher `priority`
+        comes first. The operation fails if it has not ended `deadline_s` s of the cell's time after this. It pauses
+        before its first call with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is
+        one operation.
         """
         request = OperationRequest(
             task=optional_text(task, "the task"),
@@ -58,6 +60,7 @@ class AsyncCell:
             arguments=read_arguments(arguments),
             approve=approve,
             ask_after_failure=ask_after_failure,
+            priority=priority,
             deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
             step=step,
             breakpoints=tuple(pause_at),
