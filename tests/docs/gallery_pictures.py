@@ -1,10 +1,12 @@
 """Makes the pictures of docs/gallery.md and the film of README from runs of the shipped tasks: `make pictures`.
 
-Each task runs with seed 0 into out/pictures; a picture is a frame of its film. Names of tasks make some pictures only.
+Each task runs with seed 0 into out/pictures; a picture is a frame of its film. Names of tasks make some pictures only,
+from runs that are there already.
 """
 
 from __future__ import annotations
 
+import shutil
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -19,11 +21,11 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import TaskRequest, load_task
 from skillc_runtime.film.film import FILM
-from skillc_runtime.film.picture_files import LOOP_EVERY, LoopPictures, few_colours
+from skillc_runtime.film.picture_files import LOOP_EVERY, LoopPictures
 from skillc_runtime.film.rendering import Picture
 
 PICTURES, RUNS = ROOT / "docs/pictures", ROOT / "out/pictures"
-SIZE = 960, 540
+SIZE, QUALITY = (960, 540), 88
 README_FILM, README_BYTES = PICTURES / "skillc.webp", 2_000_000
 ALL_BYTES = 5_000_000
 """All pictures of the documentation together are not larger."""
@@ -39,17 +41,31 @@ class TaskPicture:
     @property
     def file(self) -> Path:
         """Where it is."""
-        return PICTURES / f"{self.task.rpartition(':')[2]}.png"
+        return PICTURES / f"{self.task.rpartition(':')[2]}.webp"
 
 
 TASKS = (
     TaskPicture("clean_table", 0.57),
-    TaskPicture("contact:press_button", 0.39),
+    TaskPicture("clean_whiteboard", 0.66),
+    TaskPicture("clean_around", 0.6),
+    TaskPicture("clean_desk", 0.5),
+    TaskPicture("clean_both", 0.5),
+    TaskPicture("share_eraser", 0.375),
+    TaskPicture("contact:press_button", 0.37),
+    TaskPicture("contact:press_button_panda", 0.43),
+    TaskPicture("contact:polish_sheet", 0.54),
+    TaskPicture("contact:polish_sheet_ur5e", 0.5),
     TaskPicture("contact:insert_peg", 0.5),
+    TaskPicture("contact:insert_peg_iiwa", 0.5),
     TaskPicture("contact:teach_pose", 0.43),
+    TaskPicture("contact:teach_pose_panda", 0.33),
     TaskPicture("sorting:sort_parts", 0.32),
     TaskPicture("sorting:sort_seen_parts", 0.14),
+    TaskPicture("sorting:sort_shapes", 0.54),
 )
+ROBOTS = (("clean_whiteboard", 0.66), ("contact:teach_pose", 0.43), ("contact:press_button_panda", 0.2))
+"""The films, and where in them, from which the robots that ship are cut."""
+ROBOTS_PICTURE = PICTURES / "robots.webp"
 
 SCENES = (("clean_table", 0.2, 0.72), ("sorting:sort_parts", 0.1, 0.5), ("contact:insert_peg", 0.3, 0.75))
 """The parts of films, from one share to another, that README opens with."""
@@ -70,11 +86,30 @@ def read_film(task: str) -> Sequence[Picture]:
         return [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
 
 
+def read_frame(task: str, share: float) -> Image.Image:
+    """Return the frame at a share of the film of a task."""
+    frames = read_film(task)
+    return Image.fromarray(frames[round(share * (len(frames) - 1))])
+
+
 def write_task_picture(picture: TaskPicture) -> None:
-    """Write the picture of a task, with few colours."""
-    frames = read_film(picture.task)
-    image = Image.fromarray(frames[round(picture.share * (len(frames) - 1))]).resize(SIZE, Image.Resampling.LANCZOS)
-    few_colours(image).save(picture.file, optimize=True)
+    """Write the picture of a task."""
+    image = read_frame(picture.task, picture.share).resize(SIZE, Image.Resampling.LANCZOS)
+    image.save(picture.file, quality=QUALITY, method=6)
+
+
+def write_robots_picture() -> None:
+    """Write the picture of the robots that ship, side by side, each cut from a film without its caption."""
+    width, height = SIZE[0] // len(ROBOTS), SIZE[0] // 2
+    both = Image.new("RGB", (*SIZE[:1], height))
+    for place, (task, share) in enumerate(ROBOTS):
+        frame = read_frame(task, share)
+        above = round(0.85 * frame.height)
+        across = round(above * width / height)
+        left = (frame.width - across) // 2
+        cut = frame.crop((left, 0, left + across, above)).resize((width, height), Image.Resampling.LANCZOS)
+        both.paste(cut, (place * width, 0))
+    both.save(ROBOTS_PICTURE, quality=QUALITY, method=6)
 
 
 def write_readme_film() -> None:
@@ -96,10 +131,13 @@ def main(names: Iterable[str]) -> None:
     """Make the pictures of some tasks, or without names those of all and the film of README."""
     PICTURES.mkdir(parents=True, exist_ok=True)
     wanted = [find_task_picture(each) for each in names]
+    if not wanted:
+        shutil.rmtree(RUNS, ignore_errors=True)
     for picture in wanted or TASKS:
         write_task_picture(picture)
         print(picture.file.relative_to(ROOT), file=sys.stderr)
     if not wanted:
+        write_robots_picture()
         write_readme_film()
 
 

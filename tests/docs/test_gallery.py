@@ -9,6 +9,7 @@ from PIL import Image
 
 from docs.gallery_pictures import ALL_BYTES, PICTURES, README_BYTES, README_FILM, SIZE, TASKS, find_task_picture
 from docs.pages import ROOT
+from skillc.services.task_list import list_tasks
 
 PAGE = (ROOT / "docs/gallery.md").read_text("utf-8")
 SHOWN = re.compile(r"!\[([^\]]*)\]\(pictures/([^)]+)\)")
@@ -18,6 +19,10 @@ def test_the_gallery_has_each_picture_once_with_a_text_for_who_cannot_see_it() -
     shown = {file: text for text, file in SHOWN.findall(PAGE)}
     assert sorted(file for _, file in SHOWN.findall(PAGE)) == sorted(each.file.name for each in TASKS)
     assert [file for file, text in shown.items() if len(text) < 30] == []
+
+
+def test_every_task_that_ships_has_a_picture() -> None:
+    assert sorted(each.task for each in TASKS) == sorted(each.name for each in list_tasks() if each.origin == "shipped")
 
 
 @pytest.mark.parametrize("name", [each.task for each in TASKS])

@@ -26,6 +26,9 @@ AROUND_M = 0.07
 NEAR_M = 1.0
 """A thing is in view if it is at most this far from a link."""
 
+MOVED_M = 0.02
+"""An arm moves in a shot if one of its links does by this much."""
+
 SHORTEST_SHOT = 12
 """Number of frames for which robots must stand in one place for the camera to stand still."""
 
@@ -54,9 +57,11 @@ class Framing:
     ) -> None:
         """`corners` are those (n, 3) in m of the surfaces that were worked on; aspect: width by height of pictures."""
         self._model, self._frames, self._corners, self._aspect = model, frames, corners, aspect
-        prefixes = tuple(drawing.prefixes.values())
-        self._moving = [each for each in range(model.nbody) if model.body_mocapid[each] >= 0]
-        self._links = [each for each in range(model.nbody) if model.body(each).name.startswith(prefixes)]
+        self._bases = [each for each in range(model.nbody) if model.body_mocapid[each] >= 0]
+        self._links = [
+            [each for each in range(model.nbody) if model.body(each).name.startswith(prefix)]
+            for prefix in drawing.prefixes.values()
+        ]
 
     def work_views(self) -> Iterator[CameraView]:
         """Yield the view for each frame."""
@@ -73,15 +78,25 @@ class Framing:
             yield blend_views(views[after - 1], views[after], share * share * (3 - 2 * share))
 
     def _shot_view(self, shot: range, before: CameraView | None) -> CameraView:
-        """Return the view of a shot: of the robots, and the things and surfaces that they are near or work on."""
+        """Return the view of a shot: of robots that move, and of what they are near or work on."""
         chosen = [self._frames[at] for at in np.linspace(shot.start, shot.stop - 1, STATES).astype(int)]
         states = [posed(self._model, each.posture) for each in chosen]
+        links = self._find_moving_links(states)
         corners = [at for each, at in self._corners.items() if self._is_worked(each, shot)]
-        hands = [np.array([_around(mark.position) for mark in each.hands.values()]).reshape(-1, 3) for each in chosen]
+        hands = [_around_hands(data.xpos[links], frame) for data, frame in zip(states, chosen, strict=True)]
         targets = [np.concatenate([at, *corners]) if number % 3 == 2 else at for number, at in enumerate(hands)]
-        points = [self._points(data, frame) for data, frame in zip(states, chosen, strict=True)]
+        points = [self._points(data, frame, links) for data, frame in zip(states, chosen, strict=True)]
         every, normals = np.concatenate([*points, *corners]), [_normal(each) for each in corners]
         return choose_view(self._model, states, targets, every, self._aspect, before, normals)
+
+    def _find_moving_links(self, states: Sequence[Any]) -> list[int]:
+        """Return the links of the devices that move between states; those of all if none does."""
+        moving = [
+            links
+            for links in self._links
+            if np.ptp([data.xpos[links] for data in states], axis=0).max(initial=0.0) > MOVED_M
+        ]
+        return [link for links in moving or self._links for link in links]
 
     def _is_worked(self, surface: str, shot: range) -> bool:
         first, last = self._frames[shot.start].shades[surface], self._frames[shot.stop - 1].shades[surface]
@@ -94,19 +109,29 @@ class Framing:
         around = hand + HAND_M * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-0.5, 1)])
         return choose_view(self._model, [posed(self._model, frame.posture)], [_around(hand)], around, self._aspect)
 
-    def _points(self, data: Any, frame: Frame) -> Array:
-        """Return the points (n, 3) of a state that are to be in view: robots with space around them, named things."""
-        links = data.xpos[self._links]
+    def _points(self, data: Any, frame: Frame, bodies: list[int]) -> Array:
+        """Return the points (n, 3) of a state that are to be in view: links, space around them, and what is near."""
+        links = data.xpos[bodies]
         spread = [links + LINK_M * direction for direction in (*np.eye(3), *-np.eye(3))]
         named = np.array([tag.point for tag in frame.annotations.tags]).reshape(-1, 3)
-        named = named[[np.linalg.norm(links - each, axis=1).min() < NEAR_M for each in named]]
-        return np.concatenate([*spread, data.xpos[self._moving], named])
+        return np.concatenate([*spread, _find_near(links, np.concatenate([named, data.xpos[self._bases]]), NEAR_M)])
+
+
+def _find_near(links: Array, points: Array, distance_m: float) -> Array:
+    """Return those of the points (m, 3) that are at most at a distance in m from a link (n, 3)."""
+    return points[[np.linalg.norm(links - each, axis=1).min() < distance_m for each in points]]
 
 
 def _normal(corners: Array) -> Array:
     """Return the normal (3,) of a surface with corners (4, 3) at (-x, -y), (-x, y), (x, -y), (x, y)."""
     across = np.cross(corners[2] - corners[0], corners[1] - corners[0])
     return np.asarray(across / np.linalg.norm(across))
+
+
+def _around_hands(links: Array, frame: Frame) -> Array:
+    """Return points (n, 3) at and around the hands of a frame that belong to links (m, 3)."""
+    hands = np.array([each.position for each in frame.hands.values()]).reshape(-1, 3)
+    return np.array([_around(each) for each in _find_near(links, hands, HAND_M)]).reshape(-1, 3)
 
 
 def _around(hand: Array) -> Array:
