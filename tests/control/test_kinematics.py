@@ -6,6 +6,7 @@ import pytest
 from rig import HOMES, ROBOTS, Bench, moved_by
 
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
+from skillc_runtime.control.limits import range_margin
 from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
 
@@ -130,3 +131,18 @@ def test_the_driver_finds_joints_for_a_pose_in_the_world(robot):
     assert driver.measured.pose.position == pytest.approx(
         Bench(robot).driver.measured.pose.position @ base.rotation.T + base.position
     )
+
+
+def test_joints_stay_away_from_the_ends_of_their_ranges_where_they_are_pushed_back(robot):
+    bench, arm = Bench(robot), VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
+    limits, found = bench.limits.range, 0
+    for joint in range(arm.joints):
+        q = np.array(HOMES[robot])
+        q[joint] = limits[joint, 1] - 0.01
+        arm.update_kinematics(q)
+        solution = solve_inverse_kinematics(arm, arm.tool, q, limits)
+        if solution is not None:
+            found += 1
+            room = np.minimum(solution - limits[:, 0], limits[:, 1] - solution)
+            assert (room >= range_margin(limits) - 1e-9).all()
+    assert found > arm.joints / 2

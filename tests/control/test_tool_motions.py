@@ -128,7 +128,7 @@ def test_an_overlay_that_the_arm_cannot_do_is_refused_before_it_moves(cell):
         cell.run(OverlayCircle(cell, arm=ARM, plane=UP, radius=0.05, rate=3.0))
     cell.bench.driver._task.limits = replace(limits, velocity=np.full_like(limits.velocity, 0.05))
     with pytest.raises(
-        SkillFailure, match=r"joint \w+ would have to turn with 0\.\d+ rad/s, faster than the 0\.05 rad/s"
+        SkillFailure, match=r"joint \w+ would have to move with 0\.\d+ rad/s, faster than the 0\.05 rad/s"
     ):
         cell.run(OverlayCircle(cell, arm=ARM, plane=UP, radius=0.015, rate=1.0))
     with pytest.raises(SkillFailure, match="a direction `along` that lies in its plane"):

@@ -1,10 +1,12 @@
-"""A small arm with six joints as URDF, which tests change, and projects that it is added to."""
+"""A small arm with six joints as URDF, which tests change, and larger ones from files."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 GEN3 = Path(__file__).parent / "gen3.urdf"
+LIFTER = Path(__file__).parent / "lifter.urdf"
+"""An invented arm: six joints with odd names, two of them without end, on a fixed plinth, with a two-finger gripper."""
 LINK = """\
   <link name="link_{0}">
     <inertial>
@@ -39,3 +41,16 @@ def six() -> str:
         '<origin xyz="0 0 0.04"/> </joint>\n</robot>\n'
     )
     return "".join(parts)
+
+
+def railed() -> str:
+    """Return the URDF of the lifter on a cart that slides 0.35 m to either side along y; its joint is `rail`."""
+    cart = (
+        ' <link name="cart"> <inertial> <mass value="8"/> <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" '
+        'iyz="0"/> </inertial> </link>\n <joint name="rail" type="prismatic"> <parent link="plinth"/> '
+        '<child link="cart"/> <axis xyz="0 1 0"/> <limit lower="-0.35" upper="0.35" effort="600" velocity="0.6"/> '
+        "</joint>\n"
+    )
+    text, foot = LIFTER.read_text("utf-8"), '<parent link="plinth"/>'
+    assert text.count(foot) == 1
+    return text.replace(foot, foot.replace("plinth", "cart")).replace("</robot>", f"{cart}</robot>")

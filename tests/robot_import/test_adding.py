@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from projects.folders import call, checked, names
-from robot_import.arms import GEN3, six
+from robot_import.arms import GEN3, LIFTER, railed, six
 
 USE = ("lab:Arm-1 a cell:Six", "not lab:Arm-1 a skillc:Panda", "lab:Arm-1 skillc:hasSheet cell:six-sheet")
 POSITIONS = (
@@ -107,20 +107,38 @@ def test_without_pinocchio_a_sentence_says_what_to_do(empty: Path, monkeypatch: 
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("template", ["wipe", "pick-place"])
-def test_a_fourth_arm_does_the_task_of_a_template(
-    template: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("template", "urdf", "like", "control"),
+    [
+        ("wipe", GEN3.read_text("utf-8"), "panda", "torque"),
+        ("wipe", LIFTER.read_text("utf-8"), "ur5e", "position"),
+        ("pick-place", GEN3.read_text("utf-8"), "panda", "torque"),
+        ("pick-place", LIFTER.read_text("utf-8"), "ur5e", "position"),
+        ("pick-place", railed(), "panda", "torque"),
+        ("press", railed(), "ur5e", "position"),
+    ],
+    ids=["wipe-gen3", "wipe-lifter", "pick-place-gen3", "pick-place-lifter", "pick-place-railed", "press-railed"],
+)
+def test_an_added_arm_does_the_task_of_a_template(
+    template: str, urdf: str, like: str, control: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     assert call(tmp_path, "new", "cell", "--template", template).exit_code == 0
     project = tmp_path / "cell"
-    assert call(project, "add", "robot", GEN3, "--like", "panda").exit_code == 0
-    edits = [each.replace("six", "gen3").replace("Six", "Gen3") for each in USE]
+    (project / "six.urdf").write_text(urdf, "utf-8")
+    tip = ("--tip", "tool0") if "tool0" in urdf else ()
+    added = call(project, "add", "robot", "six.urdf", "--like", like, *tip)
+    assert added.exit_code == 0, added.output
+    shipped = "Iiwa14" if template == "press" else "Panda"
+    edits = [each.replace("Panda", shipped) for each in USE] + list(POSITIONS if control == "position" else ())
     assert call(project, "scene", "edit", "cell.ttl", *edits).exit_code == 0
+    assert checked(project) == []
     ran = call(project, "run")
     assert ran.exit_code == 0, ran.output
     if template == "wipe":
         assert "isClean == true  sensed by Inspect" in ran.output and "100.0%" in ran.output
-    else:
+    elif template == "pick-place":
         misses = re.findall(r"really (\d+) mm .* (\d+) mm from where it should be", ran.output)
         assert len(misses) == 2 and all(float(mm) <= 5 for pair in misses for mm in pair), ran.output
+    else:
+        assert re.search(r"lab:Panel-1.isPressed == true +assumed by", ran.output), ran.output

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from robot_import.arms import GEN3, six
+from robot_import.arms import GEN3, railed, six
 from skillc.services.errors import RequestError
 from skillc.services.robot_import.comparison import POSTURES
 from skillc.services.robot_import.mjcf_writer import write_mjcf
@@ -16,6 +16,8 @@ from skillc.services.robot_import.proof import prove_same
 from skillc.services.robot_import.reader import read_robot
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc_ontology import catalogue
+from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
+from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
 
 LAST = '  <link name="tool0"/>'
 FINGERS = "".join(
@@ -125,11 +127,11 @@ def test_inertia_of_no_real_body_is_refused_with_its_link(tmp_path: Path) -> Non
     [
         (LAST, FINGERS + LAST, {"tip": "tool0"}, "what is beyond `tool0` is left out"),
         (LAST, FINGERS.replace('link="tool0"', 'link="link_6"') + LAST, {"tip": "tool0"}, "left, right do not belong"),
-        ('joint_4" type="revolute"', 'joint_4" type="continuous"', {}, "joint_4 turn without end"),
+        ('joint_4" type="revolute"', 'joint_4" type="continuous"', {}, "without end: joint_4;"),
         ("<axis", '<dynamics damping="0.1"/><axis', {}, "damping and friction of joints"),
         ("<cylinder", '<mesh filename="package://none/a.stl"/><cylinder', {}, "a.stl"),
         ('<child link="tool0"/> <origin', '<child link="tool0"/> <origin rpy="0 1.57 0"', {}, "the z axis of `tool0`"),
-        ('joint_1" type="revolute"', 'joint_1" type="prismatic"', {}, "joint_1 slide"),
+        ('joint_1" type="revolute"', 'joint_1" type="prismatic"', {}, "sliding: joint_1;"),
     ],
 )
 def test_what_a_user_should_know_is_said(
@@ -176,3 +178,17 @@ def test_masses_of_both_formats_are_the_same(tmp_path: Path) -> None:
         assert np.allclose(one.joint.axis, other.joint.axis)
         assert np.allclose(one.inertia.matrix, other.inertia.matrix, atol=1e-9)
         assert [shape.kind for shape in one.shapes] == [shape.kind for shape in other.shapes]
+
+
+def test_a_long_rail_is_not_turned_by_whole_turns(tmp_path: Path) -> None:
+    reading = read(tmp_path, railed().replace('lower="-0.35" upper="0.35"', 'lower="-9" upper="9"'), tip="tool0")
+    arm = VirtualArm(load_virtual_model(written(tmp_path, reading)))
+    assert [arm.joint_unit(joint) for joint in range(arm.joints)] == ["m", *["rad"] * 6]
+    limits = np.array([(link.joint.low, link.joint.high) for link in reading.model.links])
+    seed = np.array([0.0, 0.0, 0.2, -1.5, 0.0, 1.43, 0.0])
+    arm.update_kinematics(seed + np.array([6.0, *[0.0] * 6]))
+    target = arm.tool
+    found = solve_inverse_kinematics(arm, target, seed, limits)
+    assert found is not None
+    arm.update_kinematics(found)
+    assert np.allclose(arm.tool.position, target.position, atol=1e-4)

@@ -64,6 +64,11 @@ class CollisionChecker:
         """Return the pairs of geoms that overlap at joints q (nv,)."""
         return frozenset(pair for pair, far in self.near_pairs(q).items() if far <= 0)
 
+    def deepest_overlap(self, q: Array) -> Collision | None:
+        """Return the deepest overlap of the arm, its hand or what it holds with the scenery at joints q (nv,)."""
+        found = [(far, pair) for pair, far in self.near_pairs(q).items() if far <= 0 and not self._within(pair)]
+        return self._collision(*min(found)) if found else None
+
     def allow(self, start: Array, goal: Array) -> None:
         """From now on allow distances as small as at the start of a motion and, without contact, at its end.
 
@@ -91,10 +96,7 @@ class CollisionChecker:
         ]
         if not wrong:
             return None
-        distance, (one, other) = min(wrong)
-        if not self._moves[one]:
-            one, other = other, one
-        return Collision(self.model.names[one], self.model.names[other], distance)
+        return self._collision(*min(wrong))
 
     def first_collision(self, way: Iterable[Array]) -> Collision | None:
         """Return the first collision along postures (nv,), None if there is none."""
@@ -115,9 +117,13 @@ class CollisionChecker:
         for q in way:
             for pair, far in self.near_pairs(q).items():
                 if far < -SLACK_M and pair not in allowed and self._is_unwanted(pair, spared):
-                    one, other = pair if self._moves[pair[0]] else pair[::-1]
-                    return Collision(self.model.names[one], self.model.names[other], far)
+                    return self._collision(far, pair)
         return None
+
+    def _collision(self, distance_m: float, pair: Pair) -> Collision:
+        """Return the collision of a pair, the part that moves first."""
+        one, other = pair if self._moves[pair[0]] else pair[::-1]
+        return Collision(self.model.names[one], self.model.names[other], distance_m)
 
     def _is_unwanted(self, pair: Pair, spared: frozenset[str]) -> bool:
         """Whether no skill wants two parts to touch."""

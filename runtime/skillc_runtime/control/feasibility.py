@@ -74,8 +74,8 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
     joint = int((speeds / limits.velocity).argmax())
     if speeds[joint] > limits.velocity[joint]:
         raise Infeasible(
-            f"{arm.joint_name(joint)} would have to turn with {speeds[joint]:.2f} rad/s, faster than the "
-            f"{limits.velocity[joint]:.2f} rad/s it can",
+            f"{arm.joint_name(joint)} would have to move with {speeds[joint]:.2f} {arm.joint_unit(joint)}/s, "
+            f"faster than the {limits.velocity[joint]:.2f} {arm.joint_unit(joint)}/s it can",
             arm.tool.position,
         )
 
@@ -94,8 +94,8 @@ def _check(arm: VirtualArm, target: Pose, q: Array, limits: ArmLimits) -> None:
         joint = int(outside.argmax())
         low, high = limits.range[joint]
         raise Infeasible(
-            f"{arm.joint_name(joint)} would have to be at {q[joint]:.2f} rad, "
-            f"outside its range from {low:.2f} to {high:.2f} rad",
+            f"{arm.joint_name(joint)} would have to be at {q[joint]:.2f} {arm.joint_unit(joint)}, "
+            f"outside its range from {low:.2f} to {high:.2f} {arm.joint_unit(joint)}",
             target.position,
         )
     arm.update_kinematics(q)

@@ -6,6 +6,7 @@ from math import pi
 
 import numpy as np
 
+from skillc_runtime.control.limits import range_margin
 from skillc_runtime.control.virtual_arm import VirtualArm
 from skillc_runtime.motion.pose import Array, Pose, log
 
@@ -20,15 +21,17 @@ def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits:
     """Return joints (nv,) in rad, within limits (nv, 2), with the tool at `target` in base; None if there are none.
 
     The result is the solution from `seed` (nv,) if there is one, else the one nearest to it from seeds all over the
-    range.
+    range. Joints keep away from the ends of their ranges, where they are pushed back.
     """
-    direct = descend(arm, target, seed, seed, limits)
+    margin = range_margin(limits)
+    free = np.stack([limits[:, 0] + margin, limits[:, 1] - margin], axis=1)
+    direct = descend(arm, target, seed, seed, free)
     if direct is not None:
         return direct
     draw = np.random.default_rng(0)
     low, high = np.maximum(limits[:, 0], seed - pi), np.minimum(limits[:, 1], seed + pi)
     starts = [draw.uniform(low, high) for _ in range(SEEDS)]
-    found = [q for start in starts if (q := descend(arm, target, start, seed, limits)) is not None]
+    found = [q for start in starts if (q := descend(arm, target, start, seed, free)) is not None]
     return min(found, key=lambda q: float(np.abs(q - seed).max()), default=None)
 
 
@@ -39,7 +42,7 @@ def descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: Ar
         arm.update_kinematics(q)
         error = pose_error(arm.tool, target)
         if np.abs(error[:3]).max() < CLOSE_M and np.abs(error[3:]).max() < CLOSE_RAD:
-            return _unwind(q, seed, limits)
+            return np.where(arm.turning, _unwind(q, seed, limits), q)
         step = step_towards(arm.jacobian, error, PULL * (seed - q))
         longest = float(np.abs(step).max())
         q = np.clip(q + step * min(1.0, LONGEST_STEP_RAD / longest), limits[:, 0], limits[:, 1])

@@ -100,7 +100,8 @@ class Kinematics:
         joint = int(far.argmax())
         if far[joint] <= NEAR_JOINT_RAD:
             return None
-        return f"{self._arm.joint_name(joint)} is {far[joint]:.3f} rad away from where it shall be"
+        unit = self._arm.joint_unit(joint)
+        return f"{self._arm.joint_name(joint)} is {far[joint]:.3f} {unit} away from where it shall be"
 
     def inverse_kinematics(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
         """Return joints (nv,) in rad, within limits (nv, 2), with the tool at `target` in base, near `seed`.

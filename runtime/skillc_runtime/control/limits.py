@@ -12,8 +12,9 @@ from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array
 
-RANGE_MARGIN_RAD = 0.05
-"""Within this distance of the end of its range a joint is pushed back, with a quarter of its effort at the end."""
+RANGE_MARGIN, RANGE_MARGIN_SHARE = 0.05, 0.1
+"""Within this distance of the end of its range, rad or m, a joint is pushed back, with a quarter of its effort at the
+end; at most this share of its range."""
 
 MAX_LAG_RAD = 0.2
 """An arm with servos that lags behind its command by more, as the norm over all joints, is blocked."""
@@ -33,6 +34,11 @@ COMMANDED rad, SPEED rad/s: positions and speeds commanded last; LEAST, MOST rad
 """
 
 
+def range_margin(limits: Array) -> Array:
+    """Return the distances (nv,) from the ends of ranges (nv, 2), rad or m, within which joints are pushed back."""
+    return np.minimum(RANGE_MARGIN, RANGE_MARGIN_SHARE * (limits[:, 1] - limits[:, 0]))
+
+
 class TorqueLimit:
     """Limits torques in rate, range and effort; all laws of an arm share it, so switching makes no jump.
 
@@ -40,8 +46,9 @@ class TorqueLimit:
     """
 
     def __init__(self, limits: ArmLimits, rate: float) -> None:
-        low, high = limits.range[:, 0] + RANGE_MARGIN_RAD, limits.range[:, 1] - RANGE_MARGIN_RAD
-        spring = limits.effort / 4 / RANGE_MARGIN_RAD
+        margin = range_margin(limits.range)
+        low, high = limits.range[:, 0] + margin, limits.range[:, 1] - margin
+        spring = limits.effort / 4 / margin
         self.rows: Array = np.array([np.zeros_like(low), low, high, spring, limits.effort])
         self.rate = rate
 

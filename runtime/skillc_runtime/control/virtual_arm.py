@@ -14,6 +14,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
@@ -74,6 +75,7 @@ class VirtualArm:
         self._qpos = self._data.qpos
         self._position, self._rotation = self._data.xpos[self._body], self._data.xmat[self._body].reshape(3, 3)
         self.joints = model.nv
+        self.turning: NDArray[np.bool_] = model.jnt_type == mujoco.mjtJoint.mjJNT_HINGE
         self.jacobian = np.zeros((6, model.nv))
         self._jacp, self._jacr = self.jacobian[:3], self.jacobian[3:]
         self.inertia = np.zeros((model.nv, model.nv))
@@ -89,6 +91,10 @@ class VirtualArm:
         """Return the name of a joint, counted from 0, in the arm's model, or its number from 1 if it has none."""
         name = self._model.joint(index).name
         return f"the joint {name}" if name else f"joint {index + 1}"
+
+    def joint_unit(self, index: int) -> str:
+        """Return the unit of a joint, counted from 0: rad, or m if it slides."""
+        return "rad" if self.turning[index] else "m"
 
     def mount_tool(self, q: Array, tool: Pose) -> None:
         """Place the tool centre point on the hand so that it is at `tool` in base for joints q (nv,) in rad.

@@ -13,6 +13,7 @@ from skillc.services.cell_checks.overlaps import check_overlaps
 from skillc.services.cell_checks.places import check_goal_places, check_places
 from skillc.services.cell_checks.poses import check_poses
 from skillc.services.cell_checks.reach import check_reach
+from skillc.services.cell_checks.start_postures import check_start_postures
 from skillc.services.cell_checks.support import check_support
 from skillc_model.conditions import Condition
 from skillc_runtime.scene.violation import SceneViolation
@@ -26,6 +27,7 @@ CHECKS: tuple[CellCheck, ...] = (
     check_model_sizes,
     check_grasps,
     check_overlaps,
+    check_start_postures,
     check_poses,
     check_support,
     check_reach,

@@ -47,8 +47,8 @@ class ScenePlaces:
         return self.name_of(violation.individual) if statement is None else with_shown_path(statement.object_place)
 
 
-WHOLE_CELL = "impossible-body"
-"""The problem because of which no task can be simulated in the cell, whatever it uses."""
+WHOLE_CELL = ("impossible-body", "starts-inside")
+"""The problems because of which no task can be simulated in the cell, whatever it uses."""
 
 
 def cell_diagnostics(
@@ -64,7 +64,7 @@ def cell_diagnostics(
 def grade(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[SceneViolation]:
     """Yield violations as they concern tasks that use some individuals: those of other individuals are warnings."""
     for each in found:
-        concerns = each.name == WHOLE_CELL or not used.isdisjoint((each.individual, *each.others))
+        concerns = each.name in WHOLE_CELL or not used.isdisjoint((each.individual, *each.others))
         yield each if concerns else replace(each, severity="warning")
 
 

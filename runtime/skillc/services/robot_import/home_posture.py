@@ -17,8 +17,8 @@ from skillc_runtime.motion.pose import Array, Pose, exp
 
 AHEAD = (0.5, 0.6)
 """How far in front of the base the flange may be at home, as a share of the reach."""
-ABOVE = (0.45, 0.65)
-"""How high above the base it may be, likewise."""
+ABOVE = (0.6, 0.75)
+"""How high above the base it may be, likewise: a long hand is above what stands as high as the base."""
 TURNS = 4
 SEEDS = 8
 FAR_RAD = 1.0

@@ -181,10 +181,10 @@ def _notes(tree: UrdfTree, chain: Chain) -> Iterator[str]:
         yield f"{_some(locked)} do not belong to the chain: they are fixed at 0, or as near as their range allows"
     endless = [joint.name for joint in chain.joints if joint.kind == "continuous"]
     if endless:
-        yield f"{_some(endless)} turn without end: their range is set to one turn to either side"
+        yield f"without end: {_some(endless)}; the range is set to one turn to either side"
     sliding = [joint.name for joint in chain.joints if joint.kind == "prismatic"]
     if sliding:
-        yield f"{_some(sliding)} slide: their numbers are in m, m/s and N"
+        yield f"sliding: {_some(sliding)}; the numbers are in m, m/s and N"
     rubbed = [joint.name for joint in chain.joints if _has_friction(tree, joint)]
     if rubbed:
         yield "damping and friction of joints (`<dynamics>`) are not taken over: models of skillc have none"
