@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from skillc.services.cell_checks.facts import ROUNDED_M
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.scene.violation import SceneViolation
-from skillc_runtime.world.space.frames import FrameError, pose
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER, HAS_SHEET
