@@ -106,7 +106,7 @@ def test_a_part_nearly_as_wide_as_the_gripper_opens_is_sorted() -> None:
         ),
         (
             sized(BIN, 0.06, 0.06, 0.06),
-            "40 x 40 mm do not fit into lab:Bin-A, which is 52 x 52 mm, with room for the fingers",
+            "40 x 40 mm do not fit into lab:Bin-A, which is 52 x 52 mm, with room for the hand",
         ),
     ],
     ids=["full", "narrow"],

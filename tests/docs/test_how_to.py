@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,8 @@ def test_there_are_how_tos() -> None:
 
 def follow(page: Path, folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> Reader:
     monkeypatch.chdir(folder)
+    monkeypatch.setenv("COLUMNS", "500")
+    shutil.copy(ROOT / "tests/robot_import/lifter.urdf", folder)
     reader = Reader(monkeypatch, everything)
     reader.follow(page)
     return reader

@@ -8,6 +8,7 @@ import pytest
 
 from skillc.services import library_checks
 from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.new_library import create_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 
@@ -93,6 +94,17 @@ def test_a_goal_out_of_reach_is_told_with_what_is_missing(tmp_path: Path) -> Non
     (told,) = [d for d in checked(tmp_path, "goal lab:Table-1.isClean == true") if d.severity == "error"]
     assert (told.name, told.span.line) == ("unreachable-goal", LINE - 2)
     assert "Wipe" in told.message
+
+
+def test_a_thing_of_which_nobody_said_where_it_is_has_the_fact_that_is_missing_as_help(tmp_path: Path) -> None:
+    create_library(tmp_path / "cell", "pick-place")
+    scene = tmp_path / "cell/cell.ttl"
+    text = scene.read_text("utf-8")
+    assert text.count("lab:Part-A, lab:Part-B ;") + text.count("lab:Part-A, lab:Part-B .") == 1
+    scene.write_text(text.replace("lab:Part-A, lab:Part-B", "lab:Part-A"), "utf-8")
+    (told,) = library_checks.check_library(find_library(tmp_path / "cell"), scene)
+    assert told.name == "unreachable-goal"
+    assert told.help == "state where it is, as of other things: `lab:Cell skiros:contain lab:Part-B`"
 
 
 def test_what_begins_with_a_call_that_cannot_start_yet_is_a_warning(tmp_path: Path) -> None:

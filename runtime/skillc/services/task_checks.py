@@ -6,6 +6,7 @@ Diagnostics have displayable paths, and labels at the individuals that a message
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
@@ -27,6 +28,7 @@ from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual
 from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
 
 LABELLED = 6
 """The most individuals that are labelled in a diagnostic."""
@@ -147,7 +149,22 @@ class _TaskDiagnostics:
         what = "cannot be reached" if found.proved else "no plan can be made for"
         message = f"`{self._task.name}` has a goal that {what} in its scene: {found.why}"
         place = self._span(self._task.source)
-        return Diagnostic("unreachable-goal", place, message, labels=tuple(self._named(message)))
+        return Diagnostic(
+            "unreachable-goal", place, message, self._missing_place(message), labels=tuple(self._named(message))
+        )
+
+    def _missing_place(self, message: str) -> str:
+        """Return what to state if a thing that a message names is nowhere, and others of the scene are somewhere."""
+        state, short = self._scene.state, self._scene.state.vocabulary.short
+        if CONTAIN not in state.vocabulary.relations:
+            return ""
+        words = set(re.findall(r"[\w.-]*:[\w-]+", message))
+        lost = [each for each in state.instances(MANIPULATABLE) if not state.subjects(CONTAIN, each)]
+        named = sorted(short(each) for each in lost if short(each) in words)
+        places = Counter(short(place) for place, thing in sorted(state.pairs(CONTAIN)) if thing not in lost)
+        if not named or not places:
+            return ""
+        return f"state where it is, as of other things: `{places.most_common(1)[0][0]} {short(CONTAIN)} {named[0]}`"
 
     def diagnostic(self, name: str, message: str, refusal: Refusal, severity: Severity) -> Diagnostic:
         """Return a diagnostic at the call, or at the task if the call is inside another skill."""

@@ -30,6 +30,9 @@ GAP_M = 0.01
 FINGER_M = 0.03
 """How much room a finger needs beside a thing when it lets go."""
 
+PALM_SLACK_M = 0.003
+"""How much higher a palm may be than its data sheet says."""
+
 HAND_M = 0.035
 """Half the width of a hand across the direction in which it closes."""
 
@@ -54,13 +57,14 @@ class PlaceError(EvaluationError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Load:
-    """A held thing: its corners (n, 3) in m and those of the fingers' room (8, 3) in m, in the frame of the hand.
+    """A held thing: its corners (n, 3) in m and those of the room (8, 3) in m of fingers and palm, in the hand's frame.
 
     turns: the rotations (3, 3) of the hand, in the frame of a support, in which it puts the thing down.
     """
 
     corners: Array
     fingers: Array
+    palm: Array
     turns: tuple[Array, ...]
 
 
@@ -127,9 +131,12 @@ def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
     width_m = float(np.abs(corners[:, 1]).max())
     hand = read_hand_shape(state, gripper)
     if state.value(thing, HELD_SIDEWAYS) is True:
-        return Load(corners, _room_of_horizontal(hand, width_m), SIDEWAYS)
+        room = _room_of_horizontal(hand, width_m)
+        return Load(corners, room, room, SIDEWAYS)
     fingers = CORNERS * np.array([HAND_M, width_m + FINGER_M, hand.tip_m])
-    return Load(corners, fingers, QUARTERS)
+    behind = np.array([0.0, 0.0, hand.depth_m + PALM_SLACK_M])
+    palm = CORNERS * np.array([hand.palm_thickness_m, hand.palm_width_m, 0.0]) / 2 - behind
+    return Load(corners, fingers, palm, QUARTERS)
 
 
 def _room_of_horizontal(hand: HandShape, width_m: float) -> Array:
@@ -166,7 +173,7 @@ def _best(
     where, wide = short(support.individual), f"{1e3 * size[0]:.0f} x {1e3 * size[1]:.0f} mm"
     if not fits:
         room = f"{2e3 * support.half[0]:.0f} x {2e3 * support.half[1]:.0f} mm"
-        return PlaceError(f"{wide} do not fit into {where}, which is {room}, with room for the fingers", "room")
+        return PlaceError(f"{wide} do not fit into {where}, which is {room}, with room for the hand", "room")
     if not free:
         return PlaceError(f"{where} is full: no place of {wide} is free", "free room")
     return PlaceError(f"no free place on {where} is within the {reach_m:.2f} m that {short(arm)} reaches", "reach")
@@ -178,7 +185,7 @@ def _hands(support: Support, load: Load) -> Iterator[Pose]:
     Between walls first in rows, so that many things fit; then, and without walls at once, from the middle outwards.
     """
     if support.rim_m > 0.0:
-        yield from _rows(support, load)
+        yield from (hand for hand in _rows(support, load) if _is_within_walls(support, load.palm, hand))
     turns = [(rotation, *_room(support, load, rotation)) for rotation in load.turns]
     for x, y in _grid(support.half):
         for rotation, height_m, low, high in turns:
@@ -208,14 +215,24 @@ def _rows(support: Support, load: Load) -> Iterator[Pose]:
 def _room(support: Support, load: Load, rotation: Array) -> tuple[float, Array, Array]:
     """Return the height in m of the hand, and the lowest and highest corner (2,) in m of the room that it needs.
 
-    The fingers need room between walls that are higher than their tips.
+    Fingers and palm need room between walls that are higher than their lower ends.
     """
     low, high = _extent(load.corners, rotation)
     height_m = -float(low[2])
-    least, most = _extent(load.fingers, rotation)
-    if height_m + least[2] < support.rim_m:
-        low, high = np.minimum(low, least), np.maximum(high, most)
+    for part in (load.fingers, load.palm):
+        least, most = _extent(part, rotation)
+        if height_m + least[2] < support.rim_m:
+            low, high = np.minimum(low, least), np.maximum(high, most)
     return height_m, low[:2], high[:2]
+
+
+def _is_within_walls(support: Support, palm: Array, hand: Pose) -> bool:
+    """Whether the palm (8, 3) of a hand is above the walls of a support, or between them."""
+    least, most = _extent(palm, hand.rotation)
+    if hand.position[2] + least[2] >= support.rim_m:
+        return True
+    middle = hand.position[:2]
+    return bool((middle + least[:2] >= -support.half).all() and (middle + most[:2] <= support.half).all())
 
 
 def _grid(half: Array) -> list[tuple[float, float]]:
