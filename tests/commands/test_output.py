@@ -16,6 +16,7 @@ from skillc.cli.run_output import print_results
 from skillc.cli.run_progress import RunProgress
 from skillc.cli.trial_progress import TrialProgress
 from skillc_runtime.evaluation.report.result import StepResult, TaskResult
+from skillc_runtime.world.state.labelled import LabelledIri
 
 LIBRARY = """use skiros
 
@@ -81,7 +82,8 @@ def test_a_table_of_results_has_the_text_as_it_is(text: str, capsys: pytest.Capt
         task=text,
         status="failed",
         plan=(step,),
-        robot=text,
+        controllers=(text,),
+        robots=(LabelledIri(text, text),),
         variation=text,
         sim_time_s=1.0,
         replanned=(text,),

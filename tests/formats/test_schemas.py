@@ -18,6 +18,7 @@ from skillc.cli.main import skillc
 from skillc.services.schemas import SCHEMAS, format_schema, make_schema, read_schema
 
 IRI = re.compile(r"https?://\S+#\S+")
+PREFIXED = re.compile(r"(lab|skiros|skillc|wiping|std):[\w-]+")
 TEXTS = ("label", "message", "failure", "reason", "quality", "plan_quality", "variation", "detail", "why", "text")
 """Fields for people."""
 
@@ -107,14 +108,33 @@ def test_a_run_fits_and_its_names_mean_one_thing(tmp_path: Path, monkeypatch: py
     check("result", result)
     assert json.loads(run.stdout) == result
     check("signals", json.loads(Path("out/signals.json").read_text()))
+    for document in (events, result, json.loads(Path("out/signals.json").read_text())):
+        assert [
+            (field, text) for field, text in strings(document) if PREFIXED.fullmatch(text) and field not in TEXTS
+        ] == []
     individuals = {text for field, text in strings(events) if field == "iri" and IRI.fullmatch(text)}
-    prefixes = result["prefixes"]
-    names = {
-        text
-        for field, text in strings(result)
-        if field not in TEXTS and text.partition(":")[0] in prefixes and re.fullmatch(r"\w+:[\w-]+", text)
-    }
-    assert {prefixes[name.partition(":")[0]] + name.partition(":")[2] for name in names} <= individuals and names
-    assert {field for field, text in strings(result) if IRI.fullmatch(text)} <= {"iri"}
-    for field, text in strings(events):
-        assert field in TEXTS or not re.fullmatch(r"lab:[\w-]+", text), f"{field}: {text}"
+    assert {text for field, text in strings(result) if field == "iri"} <= individuals
+    assert {field for field, text in strings(result) if IRI.fullmatch(text)} == {"iri"}
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("tasks",),
+        ("plan", "clean_table"),
+        ("plan", "share_eraser", "--minimise", "makespan"),
+        ("world", "iiwa_table"),
+        ("world", "iiwa_table", "--all"),
+        ("scene", "show", "iiwa_table.ttl"),
+        ("doctor",),
+    ],
+    ids=" ".join,
+)
+def test_what_a_command_prints_as_json_has_the_names_that_people_type(
+    command: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    printed = CliRunner().invoke(skillc, [*command, "--json"])
+    assert printed.exit_code == 0, printed.output
+    found = list(strings(json.loads(printed.stdout)))
+    assert found and [(field, text) for field, text in found if IRI.search(text)] == []

@@ -114,7 +114,7 @@ def leaning(tmp_path_factory: pytest.TempPathFactory) -> Report:
 def test_a_skill_of_ones_own_that_pushes_has_the_numbers_of_a_push(leaning: Report) -> None:
     (push,) = leaning.result.works
     assert isinstance(push, PushResult)
-    assert (push.skill, push.arm, push.on) == ("LeanOn", "lab:Ur5e-1", ("lab:Button-1",))
+    assert (push.skill, str(push.arm), *map(str, push.on)) == ("LeanOn", "lab:Ur5e-1", "lab:Button-1")
     assert push.force_command_n == 4.0 and push.force_source == "sensor"
     assert push.contact_s is not None and push.start_s < push.contact_s < push.end_s
     assert push.force_mean_n == pytest.approx(push.true_mean_n, abs=0.5)

@@ -61,7 +61,7 @@ def names(calls: list[NodeOutcome]) -> list[str]:
 
 def check_quality(result: TaskResult) -> None:
     assert result.status == "succeeded", result.failure
-    assert {wiping.surface for wiping in result.wipings} == {"lab:Whiteboard-1", "lab:Table-1"}
+    assert {str(wiping.surface) for wiping in result.wipings} == {"lab:Whiteboard-1", "lab:Table-1"}
     for wiping in result.wipings:
         assert wiping.coverage >= 0.99 and wiping.contact_lost <= 0.01
         assert abs(wiping.force_mean_n / wiping.force_command_n - 1) <= 0.1

@@ -37,7 +37,7 @@ def test_an_insertion_has_its_push_search_and_grasp() -> None:
     assert isinstance(push, PushResult) and isinstance(search, SearchResult) and isinstance(grasp, GraspResult)
     assert push.force_source == "estimate" and push.force_command_n == 8.0
     assert push.true_greatest_n is not None and push.true_greatest_n >= 8.0
-    assert search.on == ("lab:Peg-1", "lab:Socket-1")
+    assert tuple(map(str, search.on)) == ("lab:Peg-1", "lab:Socket-1")
     assert search.found_mm is not None and 0.0 < search.found_mm <= search.radius_mm + 0.1 < 9.0
     assert search.depth_mm == pytest.approx(30.0, abs=2.0)
     assert grasp.force_n == pytest.approx(40.0, abs=1.0)
@@ -51,7 +51,7 @@ def test_an_insertion_has_its_push_search_and_grasp() -> None:
 def test_an_arm_that_is_led_has_the_path_and_the_force_of_the_person() -> None:
     record = run("teach_pose", "iiwa_guiding")
     (guided,) = measure_work(record)
-    assert isinstance(guided, GuidanceResult) and guided.arm == "lab:Iiwa-1"
+    assert isinstance(guided, GuidanceResult) and str(guided.arm) == "lab:Iiwa-1"
     assert guided.path_mm >= guided.moved_mm - 1e-6 > 100.0
     (person,) = record.truth.guidances()
     assert guided.person_greatest_n == pytest.approx(float(person.forces.max()))

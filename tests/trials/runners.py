@@ -19,9 +19,15 @@ from skillc_runtime.evaluation.measures.work import (
 )
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.trials.trial import Trial
+from skillc_runtime.world.state.labelled import LabelledIri
 
 KILLED, BROKEN = 3, 4
 """Seeds at which a process dies, and at which something goes wrong in it."""
+
+
+def lab(name: str) -> LabelledIri:
+    """Return an individual with its name."""
+    return LabelledIri(name.replace("lab:", "http://example.org/lab#"), name)
 
 
 def wiping(surface: str = "lab:Table-1", **changes: float) -> WipingWork:
@@ -43,7 +49,7 @@ def wiped(surface: str, **changes: float) -> WipingResult:
         "tracking_rms_mm": 5.0,
         "lane_dwell_s": None,
     }
-    return WipingResult(surface=surface, **{**good, **changes})  # type: ignore[arg-type]
+    return WipingResult(surface=lab(surface), **{**good, **changes})  # type: ignore[arg-type]
 
 
 GOOD: dict[str, Work] = {
@@ -51,14 +57,16 @@ GOOD: dict[str, Work] = {
     "polishing": PolishingWork(
         wiping=wiped("lab:Sheet-1"), polished_share=1.0, overlay_amplitude_m=0.0095, commanded_amplitude_m=0.01
     ),
-    "pressing": PressingWork(button="lab:Button-1", required_n=10.0, held_n=10.0, greatest_n=10.5, duration_share=0.9),
+    "pressing": PressingWork(
+        button=lab("lab:Button-1"), required_n=10.0, held_n=10.0, greatest_n=10.5, duration_share=0.9
+    ),
     "inserting": InsertingWork(
-        socket="lab:Socket-1", depth_m=0.03, hole_depth_m=0.03, greatest_n=20.0, duration_share=0.5
+        socket=lab("lab:Socket-1"), depth_m=0.03, hole_depth_m=0.03, greatest_n=20.0, duration_share=0.5
     ),
     "teaching": TeachingWork(
-        pose="lab:TeachingWork-1", position_error_m=0.001, greatest_n=18.0, mean_n=5.0, duration_share=0.4
+        pose=lab("lab:TeachingWork-1"), position_error_m=0.001, greatest_n=18.0, mean_n=5.0, duration_share=0.4
     ),
-    "placing": PlacingWork(thing="lab:Part-1", error_m=0.002, turned_deg=1.0, missed_m=0.003),
+    "placing": PlacingWork(thing=lab("lab:Part-1"), error_m=0.002, turned_deg=1.0, missed_m=0.003),
 }
 """A piece of work of each kind that meets all targets."""
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from skillc.services.errors import ServiceError
+from skillc.services.signal_files import read_signal_dictionary
+from skillc_runtime.recording.signals.signal import CLOCK
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,11 +20,32 @@ SHOWN_ROWS = 30
 
 def make_frame(rows: Iterable[Mapping[str, Any]], columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Return records as a frame. ServiceError if pandas is not installed."""
+    return import_pandas().DataFrame(list(rows), columns=None if columns is None else list(columns))
+
+
+def read_signal_frame(folder: Path | None) -> pd.DataFrame:
+    """Return the signals that were recorded in a folder, by the time of the cell in s, with their units in `attrs`.
+
+    RequestError if there are none; ServiceError if they cannot be read, or pandas is not installed.
+    """
+    dictionary = read_signal_dictionary(folder)
+    assert folder is not None, "a folder with signals"
+    file, pandas = folder / dictionary.file, import_pandas()
+    try:
+        frame = pandas.read_parquet(file) if file.suffix == ".parquet" else pandas.read_csv(file)
+    except (OSError, ValueError, ImportError) as error:
+        raise ServiceError(f"{file} cannot be read: {error}") from error
+    frame.attrs["units"] = {each.column: each.unit for each in dictionary.signals}
+    return frame.set_index(CLOCK.column)
+
+
+def import_pandas() -> Any:
+    """Return pandas. ServiceError if it is not installed."""
     try:
         import pandas as pd
     except ImportError as error:
         raise ServiceError("frames require pandas: `pip install 'skillc[data]'` installs it") from error
-    return pd.DataFrame(list(rows), columns=None if columns is None else list(columns))
+    return pd
 
 
 def make_table(columns: Sequence[str], rows: Sequence[Sequence[object]]) -> str:

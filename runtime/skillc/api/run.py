@@ -11,21 +11,23 @@ from typing import TYPE_CHECKING, Any, Literal
 import msgspec
 
 from skillc.api.boundary import AnyPath, NoticeList, api_call, require_choice, require_path, require_text
-from skillc.api.frames import make_frame, make_table
+from skillc.api.frames import make_frame, make_table, read_signal_frame
 from skillc.api.picture import Figure
 from skillc.services.errors import ServiceError
 from skillc.services.recordings import answer_question, find_recording, read_envelopes, read_result
 from skillc.services.story_text import format_answer, format_overview
-from skillc_runtime.evaluation.report.result import StepResult, TaskResult, WipingResult
+from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult
+from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.evaluation.report.write import REPORT
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.labelled_text import format_value
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Part = Literal["events", "steps", "wipings", "placements", "touches"]
+Part = Literal["events", "steps", "signals", "wipings", "works", "placements", "touches"]
 STEP_COLUMNS = ("step", "skill", "implementation", "arguments", "status")
 EVENT_COLUMNS = ("sequence", "time_s", "type", "name", "status", "message")
 
@@ -70,9 +72,9 @@ class Run:
         return self.result.plan
 
     @property
-    def measures(self) -> tuple[WipingResult, ...]:
-        """The quality of each wiping, as the simulator measured it."""
-        return self.result.wipings
+    def measures(self) -> tuple[WipingResult | WorkResult | PlacementResult, ...]:
+        """The numbers of each piece of work: wipings, then other work, then where the things are that it moved."""
+        return (*self.result.wipings, *self.result.works, *self.result.placements)
 
     @property
     def figures(self) -> tuple[Figure, ...]:
@@ -107,17 +109,21 @@ class Run:
         return value
 
     def to_frame(self, part: Part = "events") -> pd.DataFrame:
-        """Return its events, steps, wipings, placements or touches as a pandas frame with a row for each.
+        """Return a part as a pandas frame with a row for each event, step, sample of signals, or piece of work.
 
-        SkillcError if pandas is not installed.
+        `signals` are those that `signals=` recorded, with the time in s as index; `frame.attrs["units"]` has the units
+        of the columns. SkillcError if pandas is not installed, RequestError if no signals were recorded.
         """
         require_choice(part, Part, "the part")
         if part == "events":
             return make_frame(map(_event_row, self.events), EVENT_COLUMNS)
         if part == "steps":
             return make_frame([dict(zip(STEP_COLUMNS, row, strict=True)) for row in self._step_rows()], STEP_COLUMNS)
+        if part == "signals":
+            with api_call():
+                return read_signal_frame(self.folder)
         values: Sequence[msgspec.Struct] = getattr(self.result, part)
-        return make_frame([msgspec.structs.asdict(each) for each in values])
+        return make_frame(map(_work_row, values))
 
     def _step_rows(self) -> list[tuple[object, ...]]:
         return [
@@ -149,6 +155,21 @@ def open_run(path: AnyPath) -> Run:
 
 def _arguments(arguments: Mapping[str, Any]) -> str:
     return ", ".join(f"{name}: {format_value(value)}" for name, value in arguments.items())
+
+
+def _work_row(work: msgspec.Struct) -> dict[str, object]:
+    """Return the fields of a piece of work, with the names of individuals, and of what type it is if there are more."""
+    tag = work.__struct_config__.tag
+    fields = {name: _format_names(value) for name, value in msgspec.structs.asdict(work).items()}
+    return fields if tag is None else {"type": str(tag), **fields}
+
+
+def _format_names(value: object) -> object:
+    if isinstance(value, LabelledIri):
+        return str(value)
+    if isinstance(value, tuple) and all(isinstance(each, LabelledIri) for each in value):
+        return ", ".join(map(str, value))
+    return value
 
 
 def _event_row(envelope: Envelope) -> dict[str, object]:

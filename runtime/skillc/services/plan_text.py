@@ -70,7 +70,7 @@ def describe_answer(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
     match answer:
         case Solved(plan=plan):
             steps = [_step(step, loaded) for step in plan.steps]
-            return {**_solved(answer, steps), "duration_s": plan.duration_s, "planner": answer.planner}
+            return {**_solved(answer, steps, loaded), "duration_s": plan.duration_s, "planner": answer.planner}
         case Scheduled(schedule=schedule, plan=plan):
             steps = [
                 {**_step(each.step, loaded), "start_s": each.start_s, "duration_s": each.duration_s}
@@ -78,7 +78,7 @@ def describe_answer(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
             ]
             times = {"makespan_s": schedule.makespan_s, "duration_s": plan.duration_s}
             notes = {"planner": answer.planner, "times": answer.times, "note": answer.note}
-            return {**_solved(answer, steps), **times, **notes}
+            return {**_solved(answer, steps, loaded), **times, **notes}
         case Unsolvable(why=why, causes=causes):
             return {"status": "unsolvable", "failure": why, "causes": list(causes)}
         case GaveUp(why=why, causes=causes):
@@ -87,7 +87,8 @@ def describe_answer(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
             assert_never(answer)
 
 
-def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]]) -> dict[str, object]:
+def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]], loaded: LoadedTask) -> dict[str, object]:
+    short = loaded.assignment.state.vocabulary.short
     return {
         "status": "solved",
         "plan": steps,
@@ -97,7 +98,7 @@ def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]]) -> dict[
         "quality": _quality(answer),
         "assumptions": list(answer.assumptions),
         "left_out": [
-            {"kind": each.kind, "what": each.what, "why": each.why, "harmless": each.harmless}
+            {"kind": each.kind, "what": [short(iri) for iri in each.what], "why": each.why, "harmless": each.harmless}
             for each in answer.left_out
         ],
     }

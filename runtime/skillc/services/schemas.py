@@ -11,7 +11,8 @@ import msgspec
 
 ADDRESS = "https://w3id.org/skillc/schema"
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-RESULT_FORMAT = DIAGNOSTICS_FORMAT = PROJECT_FORMAT = 1
+RESULT_FORMAT = 2
+DIAGNOSTICS_FORMAT = PROJECT_FORMAT = 1
 """Raised with every change of these documents that is not only a new field with a default."""
 
 
@@ -104,7 +105,7 @@ def _events() -> SchemaOf:
 def _result() -> SchemaOf:
     from skillc_runtime.evaluation.report.result import TaskResult
 
-    what = "The result of a task: result.json and `skillc run --json`. Names have prefixes, which `prefixes` expands."
+    what = "The result of a task: result.json and `skillc run --json`. Individuals are IRIs with labels."
     return SchemaOf("skillc result", what, RESULT_FORMAT, TaskResult)
 
 

@@ -8,12 +8,22 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from skillc.services.errors import RequestError
+import msgspec
+
+from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.execution.attempt import TICK_S
-from skillc_runtime.recording.signals.files import CSV, PARQUET, CsvSink, ParquetSink, write_dictionary
+from skillc_runtime.recording.signals.files import (
+    CSV,
+    DICTIONARY,
+    PARQUET,
+    CsvSink,
+    ParquetSink,
+    SignalDictionary,
+    write_dictionary,
+)
 from skillc_runtime.recording.signals.sampler import SignalSampler
 from skillc_runtime.recording.signals.signal import Signal, SignalSink
 
@@ -26,6 +36,20 @@ def check_signals(form: SignalFormat | None, folder: Path | None) -> None:
         raise RequestError("--signals records to a folder, which --out names")
     if form == "parquet" and find_spec("pyarrow") is None:
         raise RequestError("--signals parquet needs the package pyarrow: pip install 'skillc[data]'")
+
+
+def read_signal_dictionary(folder: Path | None) -> SignalDictionary:
+    """Return what is recorded beside the signals in a folder: their file and their columns.
+
+    RequestError if no signals were recorded there, ServiceError if that cannot be read.
+    """
+    file = None if folder is None else folder / DICTIONARY
+    if file is None or not file.exists():
+        raise RequestError(f"no signals were recorded{'' if folder is None else f' in {folder}'}; run with `signals`")
+    try:
+        return msgspec.json.decode(file.read_bytes(), type=SignalDictionary)
+    except (OSError, msgspec.DecodeError) as error:
+        raise ServiceError(f"{file} cannot be read: {error}") from error
 
 
 @contextmanager

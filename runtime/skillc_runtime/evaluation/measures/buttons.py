@@ -10,6 +10,7 @@ from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import PressingWork, Work
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import number_of
+from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.terms import BUTTON, PRESS_FORCE
 
 HELD_S = 0.1
@@ -23,7 +24,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
         pressing = evidence.truth.pressing(button)
         if len(pressing):
             yield PressingWork(
-                button=state.vocabulary.short(button),
+                button=label(button, state.vocabulary),
                 required_n=number_of(state, button, PRESS_FORCE),
                 held_n=compute_held_force_n(pressing),
                 greatest_n=float(pressing[:, 1].max()),

@@ -9,6 +9,7 @@ import numpy as np
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import TeachingWork, Work
 from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.terms import IS_TAUGHT, TAUGHT_POSE
 
 
@@ -22,7 +23,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
             nearest = int(np.argmin(errors_m))
             forces = guidances[nearest].forces
             yield TeachingWork(
-                pose=state.vocabulary.short(taught),
+                pose=label(taught, state.vocabulary),
                 position_error_m=errors_m[nearest],
                 greatest_n=float(forces.max()),
                 mean_n=float(forces.mean()),

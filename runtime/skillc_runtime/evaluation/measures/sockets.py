@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import InsertingWork, Work
 from skillc_runtime.world.state.data_sheet import number_of
+from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.terms import CONTAIN, DEPTH, PEG, SOCKET
 
 
@@ -21,7 +22,7 @@ def measure(evidence: RunEvidence) -> Iterator[Work]:
 def _measure_insertion(evidence: RunEvidence, socket: str, peg: str) -> InsertingWork:
     state, truth = evidence.state, evidence.truth
     return InsertingWork(
-        socket=state.vocabulary.short(socket),
+        socket=label(socket, state.vocabulary),
         depth_m=-float(truth.fixture_pose(socket).inverse().apply(truth.face_position(peg))[2]),
         hole_depth_m=number_of(state, socket, DEPTH),
         greatest_n=float(truth.recording(peg).force.max(initial=0.0)),

@@ -7,6 +7,7 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_runtime.evaluation.report.result import WipingResult
+from skillc_runtime.world.state.labelled import LabelledIri
 
 
 class WipingWork(msgspec.Struct, frozen=True, kw_only=True, tag="wiping"):
@@ -33,7 +34,7 @@ class PressingWork(msgspec.Struct, frozen=True, kw_only=True, tag="pressing"):
     `duration_share` is the time of the work relative to the duration of the skill; None if the skill declares none.
     """
 
-    button: str
+    button: LabelledIri
     required_n: float
     held_n: float
     greatest_n: float
@@ -43,7 +44,7 @@ class PressingWork(msgspec.Struct, frozen=True, kw_only=True, tag="pressing"):
 class InsertingWork(msgspec.Struct, frozen=True, kw_only=True, tag="inserting"):
     """A peg is in a socket: its depth and the depth of the hole in m, the greatest force on it in N."""
 
-    socket: str
+    socket: LabelledIri
     depth_m: float
     hole_depth_m: float
     greatest_n: float
@@ -53,7 +54,7 @@ class InsertingWork(msgspec.Struct, frozen=True, kw_only=True, tag="inserting"):
 class TeachingWork(msgspec.Struct, frozen=True, kw_only=True, tag="teaching"):
     """A pose was taught: its distance in m from the intended one, the greatest and mean force of the person in N."""
 
-    pose: str
+    pose: LabelledIri
     position_error_m: float
     greatest_n: float
     mean_n: float
@@ -66,7 +67,7 @@ class PlacingWork(msgspec.Struct, frozen=True, kw_only=True, tag="placing"):
     `missed_m` is None if no place was intended.
     """
 
-    thing: str
+    thing: LabelledIri
     error_m: float
     turned_deg: float
     missed_m: float | None

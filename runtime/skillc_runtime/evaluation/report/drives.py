@@ -9,6 +9,7 @@ import numpy as np
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import DriveResult
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.labelled import label
 
 LEAST_M = 0.02
 """A base that moved less did not drive."""
@@ -22,7 +23,7 @@ def find_drives(record: RunRecord) -> dict[str, Array]:
 def measure_drives(record: RunRecord) -> Iterator[DriveResult]:
     """Yield how far each base drove."""
     for robot, path in find_drives(record).items():
-        yield DriveResult(robot=record.state.vocabulary.short(robot), path_m=_length_m(path))
+        yield DriveResult(robot=label(robot, record.state.vocabulary), path_m=_length_m(path))
 
 
 def _length_m(path: Array) -> float:

@@ -12,6 +12,7 @@ from skillc_runtime.evaluation.report.pushes import find_pushes
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import GuidanceResult
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.terms import ARM_DEVICE
 
 LEAST_S = 0.5
@@ -46,7 +47,7 @@ def measure_guidance(period: FreePeriod, record: RunRecord) -> GuidanceResult:
     """Return the numbers of a time in which an arm yielded in all directions."""
     position, forces = period.samples.position, None if period.guidance is None else period.guidance.forces
     return GuidanceResult(
-        arm=record.state.vocabulary.short(period.arm),
+        arm=label(period.arm, record.state.vocabulary),
         start_s=float(period.samples.time[0]),
         end_s=float(period.samples.time[-1]),
         path_mm=float(1e3 * np.linalg.norm(np.diff(position, axis=0), axis=1).sum()),

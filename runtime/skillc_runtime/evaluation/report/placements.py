@@ -15,6 +15,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.evidence import DecidingWrite, describe_evidence
 from skillc_runtime.world.state.facts import PropertyFact, RelationFact
+from skillc_runtime.world.state.labelled import label
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, MANIPULATABLE, POSITION
 from skillc_runtime.world.state.world_state import WorldState
@@ -49,14 +50,14 @@ def _measure(
     target: tuple[float, float] | None,
 ) -> PlacementResult:
     holder = min(state.subjects(CONTAIN, thing), default=None)
-    short, believed, true = state.vocabulary.short, _believed(state, thing), _true(truth, thing)
+    vocabulary, believed, true = state.vocabulary, _believed(state, thing), _true(truth, thing)
     contained = None if holder is None else world.deciding_write(RelationFact(holder, CONTAIN, thing))
     off = None if believed is None or true is None else believed.inverse() @ true
     is_held = holder is not None and state.is_a(holder, END_EFFECTOR)
     intended = None if is_held else target
     return PlacementResult(
-        thing=short(thing),
-        holder=None if holder is None else short(holder),
+        thing=label(thing, vocabulary),
+        holder=None if holder is None else label(holder, vocabulary),
         is_held=is_held,
         holder_known=describe_evidence(contained) if holder is not None else "",
         believed_m=None if believed is None else _numbers(believed),

@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.report.work_result import ForceSource, PushResult
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledVector, Quantity
+from skillc_runtime.world.state.labelled import LabelledIri, LabelledVector, Quantity, label
 from skillc_runtime.world.state.terms import ARM_DEVICE, BUTTON, END_EFFECTOR, FIXTURE, LOCATION, ROBOT, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -74,13 +74,13 @@ def find_pushes(record: RunRecord) -> tuple[PushRecord, ...]:
 
 def measure_push(push: PushRecord, record: RunRecord) -> PushResult:
     """Return the numbers of a push."""
-    short, truth, contact = record.state.vocabulary.short, push.truth, push.contact_s
+    vocabulary, truth, contact = record.state.vocabulary, push.truth, push.contact_s
     known = push.force[push.samples.time >= contact] if contact is not None else np.zeros(0)
     pressed = truth[truth[:, 1] > TOUCHED_N, 1] if truth is not None else np.zeros(0)
     return PushResult(
         skill=push.within.skill,
-        arm=short(push.arm),
-        on=tuple(map(short, push.on)),
+        arm=label(push.arm, vocabulary),
+        on=tuple(label(each, vocabulary) for each in push.on),
         start_s=push.start_s,
         end_s=push.end_s,
         contact_s=contact,

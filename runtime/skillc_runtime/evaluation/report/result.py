@@ -11,7 +11,7 @@ from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.states import EndState
-from skillc_runtime.world.state.labelled import LabelledValue
+from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue
 
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):
@@ -45,7 +45,7 @@ class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
     the tool, it is the dwell of the commanded path.
     """
 
-    surface: str
+    surface: LabelledIri
     coverage: float
     force_command_n: float
     force_mean_n: float
@@ -69,8 +69,8 @@ class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
     where the hand is.
     """
 
-    thing: str
-    holder: str | None
+    thing: LabelledIri
+    holder: LabelledIri | None
     is_held: bool
     holder_known: str
     known: str
@@ -83,7 +83,7 @@ class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class TouchResult(msgspec.Struct, frozen=True, kw_only=True):
-    """What a part of a robot touched that it should not, as the simulator saw it, by short names.
+    """What a part of a robot touched that it should not, as the simulator saw it, as texts.
 
     Times in s, the greatest force in N, None where the simulation does not compute it.
     """
@@ -115,8 +115,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
     is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
     was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved, `works` one for each
-    other piece of work, `touches` one for each contact of a link, a hand or a base. `prefixes` expands names such as
-    `lab:Arm-1` to IRIs.
+    other piece of work, `touches` one for each contact of a link, a hand or a base.
     """
 
     task: str
@@ -128,8 +127,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     plan_optimal: bool | None = None
     plan_quality: str = ""
     planner: str = ""
-    robot: str = ""
-    controller: str = ""
+    robots: tuple[LabelledIri, ...] = ()
+    controllers: tuple[str, ...] = ()
     sim_time_s: float = 0.0
     wall_time_s: float = 0.0
     real_time_factor: float = 0.0
@@ -144,4 +143,3 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     failure: str | None = None
     cause: Failure | None = None
     failed_calls: tuple[FailedCall, ...] = ()
-    prefixes: dict[str, str] = {}

@@ -12,6 +12,7 @@ from skillc_runtime.evaluation.report.pushes import PushRecord, find_pushes
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import SearchResult
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.labelled import label
 
 WORLD = ("x in the world", "y in the world")
 LEVEL_COSINE = 0.99
@@ -49,13 +50,13 @@ def find_searches(record: RunRecord) -> tuple[Search, ...]:
 
 def measure_search(search: Search, record: RunRecord) -> SearchResult:
     """Return the numbers of a search."""
-    short, path = record.state.vocabulary.short, search.in_plane(search.samples.position)
+    vocabulary, path = record.state.vocabulary, search.in_plane(search.samples.position)
     away = np.linalg.norm(path, axis=1)
     travel = search.push.travel_mm[search.push.samples.time >= search.start_s]
     return SearchResult(
         skill=search.push.within.skill,
-        arm=short(search.push.arm),
-        on=tuple(map(short, search.push.on)),
+        arm=label(search.push.arm, vocabulary),
+        on=tuple(label(each, vocabulary) for each in search.push.on),
         start_s=search.start_s,
         end_s=search.end_s,
         path_mm=float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum()),

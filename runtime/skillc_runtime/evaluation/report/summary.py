@@ -22,6 +22,7 @@ from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.states import EndState
+from skillc_runtime.world.state.labelled import LabelledIri, label
 from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_ARM
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -32,11 +33,10 @@ def summarise_start(task: str, simulation: Simulation) -> TaskResult:
     return TaskResult(
         task=task,
         status="interrupted",
-        robot=", ".join(_robots(state)),
-        controller=", ".join(_controllers(state)),
+        robots=tuple(_robots(state)),
+        controllers=tuple(_controllers(state)),
         seed=truth.seed,
         variation=truth.variation,
-        prefixes=dict(sorted(state.vocabulary.prefixes.items())),
     )
 
 
@@ -140,10 +140,10 @@ def _make_choices(choices: Mapping[int, ImplementationChosen], library: SkillLib
     return tuple(found[key] for key in sorted(found))
 
 
-def _robots(state: WorldState) -> list[str]:
-    """Return the short names of the robots that have arms, and of arms without a robot."""
+def _robots(state: WorldState) -> list[LabelledIri]:
+    """Return the robots that have arms, and the arms without a robot."""
     robots = {min(state.subjects(HAS_ARM, arm), default=arm) for arm in state.instances(ARM_DEVICE)}
-    return sorted(map(state.vocabulary.short, robots))
+    return [label(each, state.vocabulary) for each in sorted(robots, key=state.vocabulary.short)]
 
 
 def _controllers(state: WorldState) -> list[str]:

@@ -29,16 +29,23 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
     return [
         *planned,
         *shorten_rows([(format_fact(fact.fact), format_evidence(fact)) for fact in result.facts]),
-        ("robot", f"{result.robot}, controller {result.controller}"),
+        *_robot_rows(result),
         ("reality", f"{result.variation} (seed {result.seed})" if result.variation else "as the facts say"),
         *shorten_rows([("unwanted contact", str(touch)) for touch in result.touches]),
         *shorten_rows([("planned again", why) for why in result.replanned]),
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
         *list_work_rows(result.works),
-        *shorten_rows([(each.thing, format_placement(each)) for each in result.placements]),
+        *shorten_rows([(str(each.thing), format_placement(each)) for each in result.placements]),
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
         ("speed", f"{result.real_time_factor:.1f} x real time"),
     ]
+
+
+def _robot_rows(result: TaskResult) -> list[tuple[str, str]]:
+    """Return a row about robots and controllers; none for a cell without arms."""
+    robots = ", ".join(map(str, result.robots))
+    controllers = f", controller {', '.join(result.controllers)}" if result.controllers else ""
+    return [("robot" if len(result.robots) == 1 else "robots", robots + controllers)] if robots else []
 
 
 def _describe_plan(result: TaskResult) -> str:
@@ -83,7 +90,7 @@ def _millimetres(place: tuple[float, ...] | None) -> str:
 def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, str]]:
     share = wiping.force_rmse_n / wiping.force_command_n
     return [
-        *([("surface", wiping.surface)] if one_of_several else []),
+        *([("surface", str(wiping.surface))] if one_of_several else []),
         ("coverage", f"{wiping.coverage:.1%}"),
         ("force", f"{wiping.force_mean_n:.2f} N mean of {wiping.force_command_n:g} N"),
         ("force RMSE", f"{wiping.force_rmse_n:.2f} N, {share:.1%}"),

@@ -16,7 +16,7 @@ from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import least_force_n, surface_layout
-from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labelled import Quantity, label
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -98,7 +98,7 @@ def rate_wiping(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Wiping
     metrics = measure_wiping(recording, wiping.strokes, wiping_setup(wiping, state, truth), wiping.pauses)
     dwell = metrics.lane_dwell
     return WipingResult(
-        surface=state.vocabulary.short(wiping.surface),
+        surface=label(wiping.surface, state.vocabulary),
         coverage=metrics.coverage,
         force_command_n=metrics.force_command_n,
         force_mean_n=metrics.force_mean_n,

@@ -6,6 +6,8 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc_runtime.world.state.labelled import LabelledIri
+
 ForceSource: TypeAlias = Literal["sensor", "estimate"]
 """What an arm knows a force from: a force-torque sensor, or an estimate from its motors."""
 
@@ -20,8 +22,8 @@ class PushResult(msgspec.Struct, frozen=True, kw_only=True, tag="push"):
     """
 
     skill: str
-    arm: str
-    on: tuple[str, ...]
+    arm: LabelledIri
+    on: tuple[LabelledIri, ...]
     start_s: float
     end_s: float
     contact_s: float | None
@@ -43,8 +45,8 @@ class SearchResult(msgspec.Struct, frozen=True, kw_only=True, tag="search"):
     """
 
     skill: str
-    arm: str
-    on: tuple[str, ...]
+    arm: LabelledIri
+    on: tuple[LabelledIri, ...]
     start_s: float
     end_s: float
     path_mm: float
@@ -59,7 +61,7 @@ class GuidanceResult(msgspec.Struct, frozen=True, kw_only=True, tag="guidance"):
     The forces in N of whoever guided it are those of the simulator; None if nobody did.
     """
 
-    arm: str
+    arm: LabelledIri
     start_s: float
     end_s: float
     path_mm: float
@@ -76,8 +78,8 @@ class GraspResult(msgspec.Struct, frozen=True, kw_only=True, tag="grasp"):
     the fingers.
     """
 
-    thing: str
-    gripper: str
+    thing: LabelledIri
+    gripper: LabelledIri
     grasped_s: float
     released_s: float | None
     force_n: float | None
@@ -87,7 +89,7 @@ class GraspResult(msgspec.Struct, frozen=True, kw_only=True, tag="grasp"):
 class DriveResult(msgspec.Struct, frozen=True, kw_only=True, tag="drive"):
     """A mobile base drove during the run: the length of its path in m, by the simulator."""
 
-    robot: str
+    robot: LabelledIri
     path_m: float
 
 

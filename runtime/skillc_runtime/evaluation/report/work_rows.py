@@ -34,7 +34,7 @@ def shorten_rows(rows: list[Row]) -> list[Row]:
 def _make_row(work: WorkResult) -> Row:
     match work:
         case PushResult():
-            return f"{work.skill} {' '.join(work.on)}".strip(), _describe_push(work)
+            return f"{work.skill} {' '.join(map(str, work.on))}".strip(), _describe_push(work)
         case SearchResult():
             return f"search of {work.skill}", _describe_search(work)
         case GuidanceResult():

@@ -147,11 +147,11 @@ def list_work_values(work: Work) -> Iterator[MetricValue]:
             assert_never(work)
 
 
-def _list_values(metrics: tuple[Metric[Result], ...], result: Result, subject: str) -> Iterator[MetricValue]:
+def _list_values(metrics: tuple[Metric[Result], ...], result: Result, subject: object) -> Iterator[MetricValue]:
     for metric in metrics:
         value = metric.of(result)
         if value is not None:
-            yield MetricValue(metric, subject, value)
+            yield MetricValue(metric, str(subject), value)
 
 
 def _percent(part: float | None, whole: float | None) -> float | None:
