@@ -13,6 +13,7 @@ from rich.text import Text
 from docs.pages import ROOT
 from operating.monitors import Monitor
 from skillc.cli.run_display import compose_display
+from skillc.cli.run_view import view_run
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import TaskRequest, load_task
@@ -37,7 +38,7 @@ def draw() -> str:
             return (Pause(),) if now - pressing_since[0] > PRESSED_S else ()
         since = [event.time for event in monitor.events if isinstance(event, StateChanged)]
         if run.state == "paused" and now - since[-1] > PAUSED_S:
-            lines[:] = compose_display(TASK, run, now, since[-1], Pace(), "")
+            lines[:] = compose_display(TASK, view_run(run), now, since[-1], Pace(), "")
             return (Stop(),)
         return ()
 

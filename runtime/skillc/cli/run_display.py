@@ -6,37 +6,36 @@ from collections.abc import Iterator
 
 from skillc.cli.run_estimate import Estimate
 from skillc.cli.run_keys import format_help
+from skillc.cli.run_view import RunView
 from skillc_runtime.execution.pace import Pace
-from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.execution.tree.gate import Call
-from skillc_runtime.execution.tree.run import TreeRun
 
 MAX_CALLS = 12
 """How many calls of a stack are shown; the innermost ones."""
 
 
-def compose_display(title: str, run: TaskRun, now: float, since: float, pace: Pace | None, remark: str) -> list[str]:
+def compose_display(
+    title: str, run: RunView, now: float, since: float, pace: Pace | None, remark: str, detachable: bool = False
+) -> list[str]:
     """Return all lines for a run, as `describe_run` does, with the keys if there is a `pace` that they can change."""
     first, *more = describe_run(run, now, since)
-    keys = [] if pace is None else [f"  {format_help(run.allowed, pace)}"]
+    keys = [] if pace is None else [f"  {format_help(run.allowed, pace, detachable)}"]
     return [f"{title}  {first}", *more, *keys, *([f"  {remark}"] if remark else [])]
 
 
-def describe_run(run: TaskRun, now: float, since: float) -> list[str]:
+def describe_run(run: RunView, now: float, since: float) -> list[str]:
     """Return the lines for a run at the time `now` of the cell in s; it is in its state since `since`.
 
     While it runs, that is the stack of the last active call. While it pauses or is paused, the reason, what becomes
     of forces, and each stack with the places of its calls, the innermost first.
     """
-    tree = run.tree
     match run.state:
-        case "running" if tree is not None and not tree.paused:
-            return [f"{now:6.1f} s  {_join_stack(tree)}"]
-        case "running":
+        case "running" if run.approaches:
             return [f"{now:6.1f} s  the tool approaches again"]
-        case "paused" | "pausing" if tree is not None:
+        case "running":
+            return [f"{now:6.1f} s  {_join_stack(run)}"]
+        case "paused" | "pausing":
             head = f"{now:6.1f} s  {run.state} since {since:.1f} s: {run.reason}"
-            return [head, *_describe_forces(tree), *_describe_stacks(tree)]
+            return [head, *([f"  {run.force}"] if run.force else []), *_describe_stacks(run)]
         case _:
             return [f"{run.state}: {run.reason}" if run.reason else run.state]
 
@@ -52,32 +51,15 @@ def _format_duration(seconds: float) -> str:
     return f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
 
-def _join_stack(tree: TreeRun) -> str:
-    active = tree.active_calls
-    return " > ".join(call.skill_name for call in reversed(_stack(active[-1]))) if active else ""
+def _join_stack(run: RunView) -> str:
+    return " > ".join(call.skill for call in reversed(run.stacks[-1].calls)) if run.stacks else ""
 
 
-def _stack(call: Call) -> list[Call]:
-    """Return a call and those around it, the innermost first."""
-    return [call, *call.enclosing_calls()]
-
-
-def _describe_forces(tree: TreeRun) -> Iterator[str]:
-    """Say what became of the force of a tool that pressed; nothing if none did."""
-    if not tree.is_pressing or not tree.paused:
-        return
-    if tree.withdrawn:
-        yield "  the tool was taken off; it senses contact again before the task goes on"
-    else:
-        yield "  the force is kept"
-
-
-def _describe_stacks(tree: TreeRun) -> Iterator[str]:
-    for innermost in tree.active_calls:
-        stack = _stack(innermost)
-        width = max(len(call.skill_name) for call in stack)
-        marks = ["next" if tree.holds_back(innermost) else "in", *("" for _ in stack)]
-        for mark, call in zip(marks, stack[:MAX_CALLS], strict=False):
-            yield f"  {mark:4}  {call.skill_name:{width}}  {call.source}"
-        if len(stack) > MAX_CALLS:
-            yield f"        and {len(stack) - MAX_CALLS} calls around them"
+def _describe_stacks(run: RunView) -> Iterator[str]:
+    for stack in run.stacks:
+        width = max(len(call.skill) for call in stack.calls)
+        marks = ["next" if stack.next else "in", *("" for _ in stack.calls)]
+        for mark, call in zip(marks, stack.calls[:MAX_CALLS], strict=False):
+            yield f"  {mark:4}  {call.skill:{width}}  {call.source}"
+        if len(stack.calls) > MAX_CALLS:
+            yield f"        and {len(stack.calls) - MAX_CALLS} calls around them"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from skillc.cli.run_view import RunView
 from skillc_runtime.execution.pace import Pace, format_pace
-from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Pause, Resume, StepInto, StepOut, StepOver, Stop
 
 
@@ -28,14 +28,16 @@ KEYS = (
     Key("q", "stop", Stop("stopped by the user")),
 )
 FASTER, SLOWER = "+", "-"
+DETACH = "d"
 
 
-def format_help(allowed: tuple[str, ...], pace: Pace) -> str:
+def format_help(allowed: tuple[str, ...], pace: Pace, detachable: bool) -> str:
     """Return the line that says which keys do something now."""
-    return "  ".join((*_format_keys(allowed), f"{FASTER} {SLOWER} pace: {format_pace(pace.factor)}"))
+    detach = [f"{DETACH} detach"] if detachable else []
+    return "  ".join((*_format_keys(allowed), *detach, f"{FASTER} {SLOWER} pace: {format_pace(pace.factor)}"))
 
 
-def explain_refusal(key: Key, run: TaskRun) -> str:
+def explain_refusal(key: Key, run: RunView) -> str:
     """Say that a key does nothing now, and which ones do."""
     possible = ", ".join(_format_keys(run.allowed)) or "no key"
     return f"{key.letter} ({key.label}) is not possible while the task is {run.state}; possible: {possible}"

@@ -20,7 +20,8 @@ from skillc.cli.interrupts import Interrupted, noting_signals
 from skillc.cli.layout import Style
 from skillc.cli.run_display import compose_display, format_estimate
 from skillc.cli.run_estimate import EndedStep, Estimate, PlanProgress
-from skillc.cli.run_keys import FASTER, KEYS, SLOWER, explain_refusal
+from skillc.cli.run_keys import DETACH, FASTER, KEYS, SLOWER, explain_refusal
+from skillc.cli.run_view import RunView, view_run
 from skillc.cli.settings import output_settings
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
@@ -50,8 +51,8 @@ SHOW_CURSOR, HIDE_CURSOR = b"\x1b[?25h", b"\x1b[?25l"
 class RunProgress:
     """The monitor of a run: shows its state and active skills, and passes on keys and signals."""
 
-    def __init__(self, title: str, quiet: bool, pace: Pace | None = None) -> None:
-        """Show nothing and take no keys if `quiet`."""
+    def __init__(self, title: str, quiet: bool, pace: Pace | None = None, detachable: bool = False) -> None:
+        """Show nothing and take no keys if `quiet`; a key gives a run up that is `detachable`."""
         self.pace = pace or Pace()
         self._console = rich_console(sys.stderr)
         self._page = page_of(sys.stderr)
@@ -63,7 +64,8 @@ class RunProgress:
         self._keyboard: Keys | None = None
         self._signal: Callable[[], Interrupted | None] = lambda: None
         self._remark, self._since, self._looked = "", 0.0, 0.0
-        self._stopped = False
+        self._stopped, self._detachable = False, detachable
+        self.detached = False
 
     def __enter__(self) -> RunProgress:
         if not self._quiet and find_display_obstacle() is None:
@@ -82,9 +84,9 @@ class RunProgress:
         else:
             self._print(f"{self._title}: {message}")
 
-    def __call__(self, event: Event) -> None:
-        """Show an event."""
-        ended = self._plan.observe(event, time.monotonic())
+    def __call__(self, event: Event, ago_s: float = 0.0) -> None:
+        """Show an event that happened `ago_s` s of wall time ago."""
+        ended = self._plan.observe(event, time.monotonic() - ago_s)
         match event:
             case NodeStarted(node=node, parent=parent, kind=kind, name=name) if self._live is None:
                 around = self._calls.get(parent, ())
@@ -126,24 +128,39 @@ class RunProgress:
         if signal is not None and not self._stopped:
             self._stopped = True
             return (Stop(str(signal)),)
+        return self.take_commands(lambda: view_run(run), now, seconds)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether a signal asks the program to end."""
+        return self._signal() is not None
+
+    def remark(self, text: str) -> None:
+        """Show a remark until the next key."""
+        self._remark = text
+
+    def take_commands(self, look: Callable[[], RunView], now: float, seconds: float) -> Sequence[Command]:
+        """Show a run at the time `now` of the cell in s, and wait for up to `seconds` of wall time for keys."""
         wall = time.monotonic()
         if seconds == 0.0 and wall - self._looked < LOOK_S:
             return ()
         self._looked = wall
+        run = look()
         if self._live is not None:
             pace = self.pace if self._keyboard is not None else None
-            first, *more = compose_display(self._title, run, now, self._since, pace, self._remark)
+            first, *more = compose_display(self._title, run, now, self._since, pace, self._remark, self._detachable)
             self._show(first, *more, estimate=self._plan.estimate(now, wall))
         if self._keyboard is None:
             time.sleep(seconds)
             return ()
         return [command for letter in self._keyboard.read(seconds) for command in self._understand(letter.lower(), run)]
 
-    def _understand(self, letter: str, run: TaskRun) -> Iterator[Command]:
+    def _understand(self, letter: str, run: RunView) -> Iterator[Command]:
         """Yield the command of a key, also one that will be refused: that is recorded, and the user is told."""
         self._remark = ""
         if letter in (FASTER, SLOWER):
             self.pace.faster() if letter == FASTER else self.pace.slower()
+        self.detached |= self._detachable and letter == DETACH
         for key in KEYS:
             if key.letter == letter:
                 if key.command.name not in run.allowed:

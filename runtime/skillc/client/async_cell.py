@@ -11,8 +11,7 @@ from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.server.access.leases import Lease
-from skillc.server.routes.cells import PaceSetting, StopAll
-from skillc.server.routes.leases import LeaseRequest
+from skillc.server.api_types import LeaseRequest, PaceSetting, StopAll
 from skillc.services.errors import RequestError
 from skillc_runtime.execution.pace import FAST
 

@@ -12,7 +12,7 @@ from skillc.client.connection import Connection, join
 from skillc.client.errors import UnavailableError
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
-from skillc.server.routes.operations import StopReason
+from skillc.server.api_types import StopReason
 from skillc.services.errors import RequestError
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording import commands
@@ -130,6 +130,13 @@ class AsyncOperation:
     async def replan(self) -> None:
         """Halt what runs and plan again."""
         await self._command(commands.Replan())
+
+    async def give(self, command: Command) -> None:
+        """Give any command, without waiting for what it leads to."""
+        if isinstance(command, commands.Stop):
+            await self.stop(command.reason)
+        else:
+            await self._command(command)
 
     async def wait(self, timeout_s: float | None = None) -> OperationStatus:
         """Wait for the end and return how it ended. RequestError after `timeout_s` s of wall time; it goes on then."""

@@ -13,7 +13,7 @@ from skillc.client.connection import Connection, join
 from skillc.client.feed import Status, follow_states
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
-from skillc.server.routes.tokens import MadeToken, NewToken
+from skillc.server.api_types import MadeToken, NewToken
 from skillc.services.errors import RequestError
 
 
@@ -49,7 +49,7 @@ class AsyncServer:
             case (only,):
                 return only
             case ():
-                raise RequestError("no operation goes on")
+                raise RequestError("no operation goes on; name one that has ended")
             case several:
                 raise RequestError(f"name an operation: {', '.join(each.id for each in several)}")
 

@@ -11,7 +11,7 @@ import msgspec
 
 from skillc.client.address import ServerAddress
 from skillc.client.errors import RefusedError, UnavailableError
-from skillc.server.problems import ProblemDetails
+from skillc.server.api_types import ProblemDetails
 from skillc.services.errors import ServiceError
 
 TIMEOUT_S = 60.0

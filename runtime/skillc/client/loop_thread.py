@@ -6,6 +6,7 @@ import asyncio
 import threading
 from collections.abc import AsyncGenerator, Coroutine, Iterator
 from concurrent.futures import wait
+from types import AsyncGeneratorType
 from typing import Any, TypeVar
 
 LOOK_S = 0.1
@@ -55,6 +56,10 @@ async def _next(items: AsyncGenerator[T, None]) -> T:
 
 
 async def _close(items: AsyncGenerator[Any, None]) -> None:
+    """Close a generator, once it has stopped after an interrupt cancelled it."""
+    assert isinstance(items, AsyncGeneratorType), "what `async def` with `yield` returns"
+    while items.ag_running:
+        await asyncio.sleep(0.0)
     await items.aclose()
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from skillc.cells.operation import OperationStatus
 from skillc.client.async_operation import AsyncOperation, Depth
 from skillc.client.loop_thread import LoopThread
+from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.states import State
 
@@ -34,6 +35,11 @@ class ServerOperation:
     def status(self) -> OperationStatus:
         """How it is now."""
         return self._loop.run(self._operation.refresh())
+
+    @property
+    def last_status(self) -> OperationStatus:
+        """How it was when it was last heard of, without asking the server."""
+        return self._operation.status
 
     @property
     def state(self) -> State:
@@ -95,6 +101,10 @@ class ServerOperation:
     def replan(self) -> None:
         """Halt what runs and plan again."""
         self._loop.run(self._operation.replan())
+
+    def give(self, command: Command) -> None:
+        """Give any command, without waiting for what it leads to."""
+        self._loop.run(self._operation.give(command))
 
     def wait(self, timeout_s: float | None = None) -> OperationStatus:
         """Wait for the end and return how it ended. RequestError after `timeout_s` s of wall time; it goes on then."""

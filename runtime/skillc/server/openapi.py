@@ -8,8 +8,9 @@ from typing import Any
 
 import msgspec
 
+from skillc.server.api_types import ProblemDetails
 from skillc.server.endpoint import JSON, ApiEndpoint
-from skillc.server.problems import MEDIA_TYPE, ProblemDetails
+from skillc.server.problems import MEDIA_TYPE
 
 VERSION = "1"
 ALWAYS = (

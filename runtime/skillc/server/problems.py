@@ -8,20 +8,9 @@ import msgspec
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
+from skillc.server.api_types import ProblemDetails
+
 MEDIA_TYPE = "application/problem+json"
-
-
-class ProblemDetails(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """Why a request was refused; nothing has changed. `title` is the phrase of the status, `detail` says what to do.
-
-    `allowed` are the commands that the state of an operation allows.
-    """
-
-    type: str = "about:blank"
-    title: str
-    status: int
-    detail: str
-    allowed: tuple[str, ...] | None = None
 
 
 class ApiRefusal(Exception):

@@ -3,29 +3,12 @@
 from __future__ import annotations
 
 from http import HTTPStatus
-from typing import Annotated
-
-import msgspec
 
 from skillc.cells.messages import Acknowledge, Message, SetPace
 from skillc.cells.operation import CellStatus
+from skillc.server.api_types import PaceSetting, StopAll
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell
-from skillc.server.values import Reason
-
-MAX_PACE = 1000.0
-
-
-class PaceSetting(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How fast the cell's time may pass: `factor` times real time; null for as fast as it computes."""
-
-    factor: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PACE)] | None
-
-
-class StopAll(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Why everything is stopped."""
-
-    reason: Reason = "stopped"
 
 
 async def list_cells(call: ApiCall) -> tuple[CellStatus, ...]:

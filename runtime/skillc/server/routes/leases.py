@@ -3,23 +3,12 @@
 from __future__ import annotations
 
 from http import HTTPStatus
-from typing import Annotated
-
-import msgspec
 
 from skillc.server.access.leases import Lease, LeaseHeld
 from skillc.server.access.roles import includes
+from skillc.server.api_types import LeaseRequest
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.problems import ApiRefusal
-
-MAX_LEASE_S = 3600.0
-
-
-class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """For how long a client wants to command a cell alone, in s; `takeover` ends the lease of another client."""
-
-    duration_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_LEASE_S)] = 60.0
-    takeover: bool = False
 
 
 async def show_lease(call: ApiCall) -> Lease:

@@ -13,6 +13,7 @@ from msgspec import structs
 
 from skillc.cells.messages import Give, Submit
 from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.server.api_types import StopReason
 from skillc.server.context import open_journal
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
@@ -54,12 +55,6 @@ class EventPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     after: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
     limit: Limit = 1000
-
-
-class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Why an operation is stopped."""
-
-    reason: Annotated[str, msgspec.Meta(max_length=500)] = "stopped"
 
 
 async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:

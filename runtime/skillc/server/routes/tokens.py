@@ -4,28 +4,10 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-import msgspec
-
-from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenExists, TokenInfo
+from skillc.server.api_types import MadeToken, NewToken
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.problems import ApiRefusal
-from skillc.server.values import Name
-
-
-class NewToken(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A token to be made."""
-
-    name: Name
-    role: Role
-
-
-class MadeToken(msgspec.Struct, frozen=True):
-    """A token that was made; `token` is shown this once."""
-
-    name: str
-    role: Role
-    token: str
 
 
 async def list_tokens(call: ApiCall) -> tuple[TokenInfo, ...]:

@@ -1,0 +1,125 @@
+"""Shows an operation of a server in the terminal, with the keys of a run; the operation goes on without it."""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import CancelledError
+from queue import Empty, SimpleQueue
+from threading import Thread
+
+from skillc.cli.console import find_display_obstacle, print_remark
+from skillc.cli.run_progress import RunProgress
+from skillc.cli.run_view import EventView
+from skillc.cli.server_access import remark_status
+from skillc.client.cell import ServerCell
+from skillc.client.operation import ServerOperation
+from skillc.services.errors import ServiceError
+from skillc_runtime.execution.pace import FAST, Pace
+from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.events import Requested, StateChanged, TaskEnded
+
+LOOK_S = 0.05
+
+
+class EventQueue:
+    """The events of an operation, which a thread receives; `error` is why there are no more before it has ended."""
+
+    def __init__(self, operation: ServerOperation) -> None:
+        self.ended, self.error = False, ""
+        self._waiting = SimpleQueue[Envelope | None]()
+        self._operation = operation
+        Thread(target=self._receive, daemon=True).start()
+
+    def take(self) -> list[Envelope]:
+        """Return the events that have come since this was called last."""
+        found = list[Envelope]()
+        while not self.ended:
+            try:
+                event = self._waiting.get_nowait()
+            except Empty:
+                break
+            if event is None:
+                self.ended = True
+            else:
+                found.append(event)
+        return found
+
+    def _receive(self) -> None:
+        try:
+            for each in self._operation.events():
+                self._waiting.put(each)
+        except ServiceError as error:
+            self.error = str(error)
+        except CancelledError:
+            pass  # the connection is closed: nobody wants to know any more
+        self._waiting.put(None)
+
+
+def attach(cell: ServerCell, operation: ServerOperation) -> int:
+    """Show an operation until it has ended or its user detaches; return the exit code.
+
+    ServiceError if the server is away for too long.
+    """
+    factor = cell.status.pace
+    pace = Pace(FAST if factor is None else factor)
+    with RunProgress(operation.task, False, pace, detachable=True) as progress, progress.operating():
+        feed = EventQueue(operation)
+        watcher = _Watcher(cell, operation, progress)
+        while not feed.ended and not progress.detached and not progress.interrupted:
+            watcher.show(feed.take())
+    if feed.error:
+        raise ServiceError(feed.error)
+    if feed.ended:
+        status = operation.status
+        if find_display_obstacle() is None:
+            remark_status(status)
+        return 0 if status.state == "succeeded" else 3
+    print_remark(f"{operation.id} goes on; `skillc attach` shows it, `skillc stop` stops it")
+    return 0
+
+
+class _Watcher:
+    """Shows events as they come, and passes on what the keys mean."""
+
+    def __init__(self, cell: ServerCell, operation: ServerOperation, progress: RunProgress) -> None:
+        self._cell, self._operation, self._progress = cell, operation, progress
+        self._view, self._now, self._pace = EventView(), 0.0, progress.pace.factor
+
+    def show(self, events: list[Envelope]) -> None:
+        for each in events:
+            self._now = each.cell_time_s
+            self._view.observe(each.event)
+            self._progress(each.event, max(0.0, (time.time_ns() - each.wall_time_ns) * 1e-9))
+        if any(isinstance(each.event, StateChanged | Requested | TaskEnded) for each in events):
+            self._refresh()
+        status = self._operation.last_status
+        if status.state in ENDS:
+            time.sleep(LOOK_S)
+            return
+        for command in self._progress.take_commands(lambda: self._view.view(status), self._now, LOOK_S):
+            self._give(command)
+        self._pass_pace_on()
+
+    def _refresh(self) -> None:
+        try:
+            self._operation.status  # noqa: B018 - reading it asks the server
+        except ServiceError as error:
+            self._progress.remark(str(error))
+
+    def _give(self, command: Command) -> None:
+        known = command.name in self._operation.last_status.allowed
+        try:
+            self._operation.give(command)
+        except ServiceError as error:
+            if known:
+                self._progress.remark(str(error))
+
+    def _pass_pace_on(self) -> None:
+        if (factor := self._progress.pace.factor) != self._pace:
+            self._pace = factor
+            try:
+                self._cell.set_pace(factor)
+            except ServiceError as error:
+                self._progress.remark(str(error))

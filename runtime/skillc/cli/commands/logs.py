@@ -1,0 +1,54 @@
+"""Show what has happened in an operation, and what happens."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.server_access import connect_server, operation_argument, server_options
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from skillc.client.operation import ServerOperation
+    from skillc_runtime.recording.envelope import Envelope
+
+EXAMPLES = """
+skillc logs -f
+skillc logs carry-20260131T120000Z-1f0c9a --json
+"""
+
+
+@click.command(cls=Command, examples=EXAMPLES)
+@operation_argument
+@click.option("-f", "--follow", is_flag=True, help="Go on until the operation has ended.")
+@click.option("--after", type=click.IntRange(min=0), default=0, metavar="N", help="Begin after event number N.")
+@click.option("--json", "as_json", is_flag=True, help="Print each event as a line of JSON.")
+@server_options
+def command(operation: str | None, follow: bool, after: int, as_json: bool) -> None:
+    """Print the events of OPERATION: number, time of the cell in s, and what happened.
+
+    With --follow no event is missing or doubled, also when the server is started again meanwhile.
+    """
+    import msgspec
+
+    from skillc.cli.event_lines import EventLines
+
+    lines = EventLines()
+    with connect_server() as server:
+        found = server.operation(operation)
+        for each in found.events() if follow else read_events(found):
+            shown = [msgspec.json.encode(each).decode()] if as_json else lines.format(each)
+            for line in shown if each.sequence > after else ():
+                click.echo(line)
+
+
+def read_events(operation: ServerOperation) -> Iterator[Envelope]:
+    """Yield the events up to now."""
+    last = operation.status.events
+    for each in operation.events() if last else ():
+        yield each
+        if each.sequence >= last:
+            return

@@ -1,0 +1,33 @@
+"""Continue a paused operation until the next call of a skill."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.server_access import connect_server, operation_argument, remark_status, server_options
+
+if TYPE_CHECKING:
+    from skillc.client.async_operation import Depth
+
+EXAMPLES = """
+skillc step
+skillc step over
+"""
+
+
+@click.command(cls=Command, examples=EXAMPLES)
+@click.argument("depth", type=click.Choice(("into", "over", "out")), default="into")
+@operation_argument
+@server_options
+def command(depth: Depth, operation: str | None) -> None:
+    """Continue OPERATION until the next call of a skill starts, and pause it there.
+
+    `over` skips the calls inside the present one, `out` those inside the call around it.
+    """
+    with connect_server() as server:
+        found = server.operation(operation)
+        found.step(depth)
+        remark_status(found.status)

@@ -1,0 +1,59 @@
+"""Stop an operation of a server, or all."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.server_access import (
+    complete_cell,
+    connect_server,
+    operation_argument,
+    remark_status,
+    server_options,
+)
+
+if TYPE_CHECKING:
+    from skillc.client.operation import ServerOperation
+    from skillc.client.server import Server
+
+EXAMPLES = """
+skillc stop
+skillc stop --all
+"""
+
+
+@click.command(cls=Command, examples=EXAMPLES)
+@operation_argument
+@click.option("--all", "everything", is_flag=True, help="Stop all operations, of each cell unless --cell is given.")
+@click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="With --all, the cell.")
+@click.option("--why", default="stopped", help="The reason, which everybody sees.")
+@server_options
+def command(operation: str | None, everything: bool, cell: str | None, why: str) -> None:
+    """Halt OPERATION in the next tick, and wait until everything is at rest.
+
+    This is no emergency stop.
+    """
+    if everything and operation is not None:
+        raise click.UsageError("give an operation or --all")
+    if cell is not None and not everything:
+        raise click.UsageError("--cell is for --all")
+    with connect_server() as server:
+        if everything:
+            found = stop_all(server, cell, why)
+        else:
+            found = [server.operation(operation)]
+            found[0].stop(why)
+        for each in found:
+            remark_status(each.wait())
+
+
+def stop_all(server: Server, name: str | None, why: str) -> list[ServerOperation]:
+    """Stop all operations of a cell, or of all cells; return them."""
+    cells = [server.cell(each) for each in ([each.name for each in server.cells()] if name is None else [name])]
+    found = [operation for each in cells for operation in each.operations(ongoing=True)]
+    for each in cells:
+        each.stop(why)
+    return found

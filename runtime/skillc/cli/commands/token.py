@@ -1,0 +1,58 @@
+"""Make, list and revoke the tokens of a server's clients."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+import click
+
+from skillc.cli.command import Command, Group
+from skillc.cli.console import page_of, print_json, print_lines, print_remark
+from skillc.cli.options import json_option
+from skillc.cli.server_access import connect_server, server_options
+
+if TYPE_CHECKING:
+    from skillc.server.access.roles import Role
+
+
+@click.group(cls=Group)
+def command() -> None:
+    """Make, list and revoke the tokens with which clients use a server; this needs the role `admin`."""
+
+
+@command.command(cls=Command, examples="skillc token add ada --role operate")
+@click.argument("name")
+@click.option("--role", type=click.Choice(("view", "operate", "edit", "admin")), required=True, help="What it may do.")
+@server_options
+def add(name: str, role: Role) -> None:
+    """Make the token NAME and print it; it is not shown again."""
+    with connect_server() as server:
+        click.echo(server.add_token(name, role))
+
+
+@command.command("list", cls=Command)
+@json_option
+@server_options
+def list_tokens(as_json: bool) -> None:
+    """List the tokens with their roles, without their secrets."""
+    import sys
+
+    with connect_server() as server:
+        tokens = server.tokens()
+    if as_json:
+        print_json(tokens)
+    else:
+        dates = [f"{datetime.fromtimestamp(each.created_ns / 1e9, UTC):%Y-%m-%d}" for each in tokens]
+        rows = [(each.name, each.role, date) for each, date in zip(tokens, dates, strict=True)]
+        print_lines(page_of(sys.stdout).columns(rows))
+
+
+@command.command(cls=Command)
+@click.argument("name")
+@server_options
+def revoke(name: str) -> None:
+    """Refuse all further requests with the token NAME."""
+    with connect_server() as server:
+        server.revoke_token(name)
+    print_remark(f"{name}: revoked")

@@ -1,0 +1,110 @@
+"""What a display shows of a run: its state and its active calls, as the run has them or as its events say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from skillc.cells.operation import OperationStatus
+from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.execution.tree.gate import Call
+from skillc_runtime.execution.tree.run import TreeRun
+from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Replanned
+from skillc_runtime.recording.states import State
+
+
+@dataclass(frozen=True, slots=True)
+class ShownCall:
+    """A call of a skill, with its place."""
+
+    skill: str
+    source: Position
+
+
+@dataclass(frozen=True, slots=True)
+class CallStack:
+    """An active call and those around it, the innermost first; it is `next` if it has not started."""
+
+    calls: tuple[ShownCall, ...]
+    next: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class RunView:
+    """A run at one moment. `approaches` if its tool comes back into contact; `force` says what became of one."""
+
+    state: State
+    reason: str
+    allowed: tuple[str, ...]
+    stacks: tuple[CallStack, ...] = ()
+    approaches: bool = False
+    force: str = ""
+
+
+def view_run(run: TaskRun) -> RunView:
+    """Return what there is to show of a run of this process."""
+    tree, allowed = run.tree, tuple(run.allowed)
+    if tree is None:
+        return RunView(run.state, run.reason, allowed)
+    stacks = tuple(CallStack(_stack(each), tree.holds_back(each)) for each in tree.active_calls)
+    return RunView(run.state, run.reason, allowed, stacks, tree.paused, _describe_force(tree))
+
+
+@dataclass(slots=True)
+class EventView:
+    """What there is to show of a run elsewhere, after its events."""
+
+    _nodes: dict[int, NodeStarted] = field(default_factory=dict)
+    _chosen: set[int] = field(default_factory=set)
+
+    def observe(self, event: Event) -> None:
+        """Take an event into account."""
+        match event:
+            case NodeStarted(node=node):
+                self._nodes[node] = event
+            case ImplementationChosen(node=node):
+                self._chosen.add(node)
+            case NodeEnded(node=node):
+                self._nodes.pop(node, None)
+                self._chosen.discard(node)
+            case Replanned():
+                self._nodes.clear()
+                self._chosen.clear()
+            case _:
+                pass
+
+    def view(self, status: OperationStatus) -> RunView:
+        """Return what there is to show, with the state of its operation."""
+        stacks = tuple(
+            CallStack(self._find_stack(each), each.node not in self._chosen) for each in self._find_innermost()
+        )
+        return RunView(status.state, status.reason, status.allowed, stacks)
+
+    def _find_innermost(self) -> list[NodeStarted]:
+        """Return the active calls that no other active call is in."""
+        calls = [each for each in self._nodes.values() if each.kind == "call"]
+        around = {outer.node for each in calls for outer in self._find_enclosing(each)}
+        return [each for each in calls if each.node not in around]
+
+    def _find_stack(self, call: NodeStarted) -> tuple[ShownCall, ...]:
+        return tuple(ShownCall(each.name, each.source) for each in (call, *self._find_enclosing(call)))
+
+    def _find_enclosing(self, call: NodeStarted) -> list[NodeStarted]:
+        found, node = list[NodeStarted](), self._nodes.get(call.parent)
+        while node is not None:
+            found += [node] if node.kind == "call" else []
+            node = self._nodes.get(node.parent)
+        return found
+
+
+def _stack(call: Call) -> tuple[ShownCall, ...]:
+    return tuple(ShownCall(each.skill_name, each.source) for each in (call, *call.enclosing_calls()))
+
+
+def _describe_force(tree: TreeRun) -> str:
+    """Say what became of the force of a tool that pressed; nothing if none did."""
+    if not tree.is_pressing or not tree.paused:
+        return ""
+    if tree.withdrawn:
+        return "the tool was taken off; it senses contact again before the task goes on"
+    return "the force is kept"

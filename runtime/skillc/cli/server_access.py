@@ -1,0 +1,119 @@
+"""What the commands share that are clients of a server: which server, which operation or cell, what a shell offers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+from click.shell_completion import CompletionItem
+
+from skillc.cli.command import Command
+from skillc.cli.options import PATH, grouped_option
+from skillc.services.errors import ServiceError
+
+if TYPE_CHECKING:
+    from skillc.cells.operation import OperationStatus
+    from skillc.client.operation import ServerOperation
+    from skillc.client.server import Server
+
+SERVER = "Server"
+_URL, _TOKEN_FILE = "skillc.cli.server", "skillc.cli.token_file"
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def server_options(function: Function) -> Function:
+    """Add `--server` and `--token-file`, which `connect_server` reads."""
+    url = grouped_option(
+        SERVER,
+        "--server",
+        metavar="URL",
+        help="The server; by default that of SKILLC_SERVER, or http://127.0.0.1:8421.",
+        expose_value=False,
+        callback=lambda context, _, value: _keep(context, _URL, value),
+    )
+    file = grouped_option(
+        SERVER,
+        "--token-file",
+        type=PATH,
+        help="The file with the token; by default that of SKILLC_TOKEN, or of the server in `.skillc`.",
+        expose_value=False,
+        callback=lambda context, _, value: _keep(context, _TOKEN_FILE, value),
+    )
+    return url(file(function))
+
+
+@contextmanager
+def connect_server() -> Iterator[Server]:
+    """Return the server that the options of the command name, in a `with` statement; errors as of `skillc.connect`."""
+    from skillc.client.address import read_token_file
+    from skillc.client.connecting import connect
+
+    meta = click.get_current_context().meta
+    url, file = meta.get(_URL), meta.get(_TOKEN_FILE)
+    with connect(url, read_token_file(file) if file is not None else None) as server:
+        yield server
+
+
+def operation_argument(function: Function) -> Function:
+    """Add OPERATION, which may be left out if only one goes on."""
+    return click.argument("operation", required=False, metavar="[OPERATION]", shell_complete=complete_operation)(
+        function
+    )
+
+
+def make_operation_command(help: str, act: Callable[[ServerOperation], None], examples: str = "") -> click.Command:
+    """Return a command that gives an operation a command, and prints how it is then."""
+
+    @click.command(cls=Command, help=help, examples=examples)
+    @operation_argument
+    @server_options
+    def command(operation: str | None) -> None:
+        with connect_server() as server:
+            found = server.operation(operation)
+            act(found)
+            remark_status(found.status)
+
+    return command
+
+
+def remark_status(status: OperationStatus) -> None:
+    """Print how an operation is to stderr."""
+    from skillc.cli.console import print_remark
+
+    print_remark(f"{status.id}: {describe_state(status)}")
+
+
+def describe_state(status: OperationStatus) -> str:
+    """Return the state of an operation, and why it is in it."""
+    from skillc_runtime.recording.known_facts import format_status
+
+    words = format_status(status.state, status.verified)
+    return f"{words}: {status.reason}" if status.reason else words
+
+
+def complete_operation(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the operations that go on, with how they are; none without a server."""
+    try:
+        with context.scope(cleanup=False), connect_server() as server:
+            found = [each.last_status for each in server.ongoing()]
+    except ServiceError:
+        return []
+    return [CompletionItem(each.id, help=describe_state(each)) for each in found if each.id.startswith(begun)]
+
+
+def complete_cell(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the cells, with how they are; none without a server."""
+    try:
+        with context.scope(cleanup=False), connect_server() as server:
+            found = server.cells()
+    except ServiceError:
+        return []
+    return [CompletionItem(each.name, help=each.state) for each in found if each.name.startswith(begun)]
+
+
+def _keep(context: click.Context, name: str, value: str | Path | None) -> None:
+    if value is not None:
+        context.meta[name] = value

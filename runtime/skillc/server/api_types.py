@@ -1,0 +1,66 @@
+"""The bodies of requests, and answers, that only the API has; clients share them."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from skillc.server.access.roles import Role
+from skillc.server.values import Name, Reason
+
+MAX_PACE = 1000.0
+MAX_LEASE_S = 3600.0
+
+
+class ProblemDetails(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """Why a request was refused; nothing has changed. `title` is the phrase of the status, `detail` says what to do.
+
+    `allowed` are the commands that the state of an operation allows.
+    """
+
+    type: str = "about:blank"
+    title: str
+    status: int
+    detail: str
+    allowed: tuple[str, ...] | None = None
+
+
+class PaceSetting(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How fast the cell's time may pass: `factor` times real time; null for as fast as it computes."""
+
+    factor: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PACE)] | None
+
+
+class StopAll(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Why everything is stopped."""
+
+    reason: Reason = "stopped"
+
+
+class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Why an operation is stopped."""
+
+    reason: Annotated[str, msgspec.Meta(max_length=500)] = "stopped"
+
+
+class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """For how long a client wants to command a cell alone, in s; `takeover` ends the lease of another client."""
+
+    duration_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_LEASE_S)] = 60.0
+    takeover: bool = False
+
+
+class NewToken(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A token to be made."""
+
+    name: Name
+    role: Role
+
+
+class MadeToken(msgspec.Struct, frozen=True):
+    """A token that was made; `token` is shown this once."""
+
+    name: str
+    role: Role
+    token: str
