@@ -135,3 +135,27 @@ def test_a_controller_that_there_is_not_is_told_in_its_line(
 @pytest.mark.parametrize("name", ["wiping", "std"])
 def test_nothing_is_foreseen_of_shipped_libraries(name: str) -> None:
     assert library_checks.check_library(find_library(SHIPPED / name), None) == ()
+
+
+@pytest.mark.parametrize(
+    ("fact", "wrong", "name"),
+    [
+        ("skiros:SizeX 0.04 ; skiros:SizeY 0.04", "skiros:SizeX 0.14 ; skiros:SizeY 0.14", "too-wide"),
+        ("skiros:Weight 0.15", "skiros:Weight 30.0", "too-heavy"),
+    ],
+)
+def test_what_no_gripper_can_grasp_is_one_error_there_with_the_tasks_that_it_stops(
+    tmp_path: Path, fact: str, wrong: str, name: str
+) -> None:
+    create_library(tmp_path / "cell", "pick-place")
+    scene = tmp_path / "cell/cell.ttl"
+    text = scene.read_text("utf-8")
+    scene.write_text(text.replace(fact, wrong, 1), "utf-8")
+    second = '\ntask sort_again {\n    scene "cell.ttl"\n    goal lab:Box-A contain lab:Part-A\n}\n'
+    with (tmp_path / "cell/tasks.skill").open("a", encoding="utf-8") as tasks:
+        tasks.write(second)
+    (told,) = library_checks.check_library(find_library(tmp_path / "cell"), scene)
+    assert (told.name, told.severity, Path(told.span.path).name) == (name, "error", "cell.ttl")
+    assert [Path(label.span.path).name for label in told.labels] == ["tasks.skill", "tasks.skill"]
+    scene.write_text(text, "utf-8")
+    assert library_checks.check_library(find_library(tmp_path / "cell"), scene) == []

@@ -9,10 +9,11 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TypeAlias
 
 from skillc.services import scene_diagnostics, value_checks
-from skillc.services.cell_checks.report import cell_diagnostics, used_individuals
+from skillc.services.cell_checks.report import CellProblem, cell_problems, used_individuals
 from skillc.services.device_checks import check_controllers, check_sheets
 from skillc.services.task_scenes import TaskScenes
 from skillc_compiler.program.typed import Program
@@ -43,7 +44,8 @@ def check_tasks_in_scenes(
 ) -> list[Diagnostic]:
     """Return the diagnostics of tasks that cannot succeed, individuals without implementations, and unusable arms.
 
-    What tasks with parameters do depends on their arguments, and is checked when they run.
+    What tasks with parameters do depends on their arguments, and is checked when they run. What is wrong in a cell is
+    reported there, with the tasks that it stops, and not at these again.
 
     `program` is the compiled program. Libraries and scenes with errors are skipped, and so is what compiling has
     reported. What affects several tasks is reported at the first.
@@ -54,9 +56,12 @@ def check_tasks_in_scenes(
     errors: list[Diagnostic] = []
     places = value_checks.value_places(program)
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
+    cells = {path: list(_of_cell(path, scenes, known)) for path in scenes.valid}
+    stopped: dict[CellProblem, list[Label]] = {}
     for name, path in scenes.files.items():
         if path in scenes.valid and name in known:
-            found = _of_task(known[name], library, display_path, scenes.valid[path], places)
+            of_task = _TaskDiagnostics(display_path, scenes.valid[path], known[name])
+            found = _of_task(of_task, library, cells[path], places, stopped)
             errors += (each for each in found if not _is_reported(each, compiled.diagnostics))
     errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
@@ -64,12 +69,23 @@ def check_tasks_in_scenes(
     others = [each for scene, path in valid for each in check_controllers(scene, path)]
     others += (each for scene, path in valid for each in check_sheets(scene, path))
     others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
-    cells: list[Diagnostic] = []
-    for path, scene in scenes.valid.items():
-        tasks = [known[name] for name, file in scenes.files.items() if file == path and name in known]
-        goals = [each.goal for each in tasks if each.goal is not None]
-        cells += cell_diagnostics(scene, str(path), _used_in(tasks, scene), goals)
-    return [*errors, *(each for each in others if (each.span.path, each.span.line) not in labelled), *cells]
+    others = [each for each in others if (each.span.path, each.span.line) not in labelled]
+    return [*errors, *others, *(_with_tasks(each, stopped) for found in cells.values() for each in found)]
+
+
+def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task]) -> Iterator[CellProblem]:
+    """Yield what is wrong in the cell of a scene, with regard to the tasks in it."""
+    tasks = [known[name] for name, file in scenes.files.items() if file == path and name in known]
+    goals = [each.goal for each in tasks if each.goal is not None]
+    yield from cell_problems(scenes.valid[path], str(path), _used_in(tasks, scenes.valid[path]), goals)
+
+
+def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[Label]]) -> Diagnostic:
+    """Return the diagnostic of a problem: an error with labels at the tasks that it stops, if there are any."""
+    if problem not in stopped:
+        return problem.diagnostic
+    labels = (*problem.diagnostic.labels, *stopped[problem])
+    return replace(problem.diagnostic, severity="error", labels=labels)
 
 
 def _used_in(tasks: Sequence[Task], scene: Scene) -> frozenset[str]:
@@ -88,13 +104,23 @@ def _is_reported(problem: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
 
 
 def _of_task(
-    task: Task, library: SkillLibrary, display_path: DisplayPath, scene: Scene, places: Mapping[Origin, Span]
+    of_task: _TaskDiagnostics,
+    library: SkillLibrary,
+    cell: Sequence[CellProblem],
+    places: Mapping[Origin, Span],
+    stopped: dict[CellProblem, list[Label]],
 ) -> Iterator[Diagnostic]:
-    """Yield the diagnostics of a task in its scene; `places` are the spans of values in the source."""
-    of_task = _TaskDiagnostics(display_path, scene, task)
+    """Yield the diagnostics of a task in its scene; `places` are the spans of values in the source.
+
+    If it is stopped by problems of the cell, labels for these are added to `stopped` instead.
+    """
+    task, scene = of_task.task, of_task.scene
     if task.goal is not None:
         found = explain_unreachable(library, scene.state, task.goal)
-        if found is not None:
+        causes = [] if found is None else _find_causes(found, cell)
+        for each in causes:
+            stopped.setdefault(each, []).append(of_task.stopped())
+        if found is not None and not causes:
             yield of_task.unreachable(found)
     if task.body is not None:
         refusals = preflight(task.body, library, scene.state)
@@ -102,6 +128,12 @@ def _of_task(
             yield from of_task.misnamed(refusal, places) if refusal.unknown_names else (of_task.refusal(refusal),)
         if not refusals:
             yield from (of_task.cannot_start(each) for each in initial_call_refusals(task.body, library, scene.state))
+
+
+def _find_causes(found: UnreachableGoal, cell: Sequence[CellProblem]) -> list[CellProblem]:
+    """Return the problems of a cell because of which a goal is unreachable; none if they do not explain all of it."""
+    explained = [[each for each in cell if each.explains(obstacle)] for obstacle in found.obstacles]
+    return list(dict.fromkeys(each for causes in explained for each in causes)) if all(explained) else []
 
 
 def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
@@ -118,7 +150,11 @@ class _TaskDiagnostics:
     """Makes diagnostics about one task."""
 
     def __init__(self, display_path: DisplayPath, scene: Scene, task: Task) -> None:
-        self._display_path, self._scene, self._task = display_path, scene, task
+        self._display_path, self.scene, self.task = display_path, scene, task
+
+    def stopped(self) -> Label:
+        """Return the label at the task for what stops it."""
+        return Label(self._span(self.task.source), "this task cannot reach its goal because of it")
 
     def refusal(self, refusal: Refusal) -> Diagnostic:
         """Return the diagnostic of a call that can never start in the scene."""
@@ -129,7 +165,7 @@ class _TaskDiagnostics:
     def misnamed(self, refusal: Refusal, places: Mapping[Origin, Span]) -> Iterator[Diagnostic]:
         """Yield those of the unknown names because of which a call can never start, at the text or at the call."""
         for origin, wrong in refusal.unknown_names.items():
-            message = wrong.message(self._scene.state.vocabulary)
+            message = wrong.message(self.scene.state.vocabulary)
             at_call = self.diagnostic("unknown-value", message, replace(refusal, rejected=()), "error")
             written = places.get(origin)
             if written is None:
@@ -141,21 +177,21 @@ class _TaskDiagnostics:
 
     def cannot_start(self, refusal: Refusal) -> Diagnostic:
         """Return the diagnostic of a call that cannot start in the initial state of the scene."""
-        message = f"`{self._task.name}` begins with a call that cannot start in this scene: {refusal.message}"
+        message = f"`{self.task.name}` begins with a call that cannot start in this scene: {refusal.message}"
         return self.diagnostic(_problem_name(refusal, "cannot-start"), message, refusal, "warning")
 
     def unreachable(self, found: UnreachableGoal) -> Diagnostic:
         """Return the diagnostic of an unreachable goal."""
         what = "cannot be reached" if found.proved else "no plan can be made for"
-        message = f"`{self._task.name}` has a goal that {what} in its scene: {found.why}"
-        place = self._span(self._task.source)
+        message = f"`{self.task.name}` has a goal that {what} in its scene: {found.why}"
+        place = self._span(self.task.source)
         return Diagnostic(
             "unreachable-goal", place, message, self._missing_place(message), labels=tuple(self._named(message))
         )
 
     def _missing_place(self, message: str) -> str:
         """Return what to state if a thing that a message names is nowhere, and others of the scene are somewhere."""
-        state, short = self._scene.state, self._scene.state.vocabulary.short
+        state, short = self.scene.state, self.scene.state.vocabulary.short
         if CONTAIN not in state.vocabulary.relations:
             return ""
         words = set(re.findall(r"[\w.-]*:[\w-]+", message))
@@ -171,14 +207,14 @@ class _TaskDiagnostics:
         labels = [Label(self._span(refusal.source), "this call")] if refusal.within else []
         labels += (Label(self._span(each.source), f"asked here by {each.implementation}") for each in refusal.rejected)
         labels += self._named(message)
-        place = self._task.source if refusal.within else refusal.source
+        place = self.task.source if refusal.within else refusal.source
         return Diagnostic(name, self._span(place), message, "", severity, tuple(dict.fromkeys(labels)))
 
     def _named(self, message: str) -> list[Label]:
         """Return labels at the declarations of the individuals that a message names."""
-        short = self._scene.state.vocabulary.short
+        short = self.scene.state.vocabulary.short
         words = set(re.findall(r"[\w.-]*:[\w-]+", message))
-        typed = {iri_of(each.subject): each for each in reversed(self._scene.said) if each.predicate == RDF_TYPE}
+        typed = {iri_of(each.subject): each for each in reversed(self.scene.said) if each.predicate == RDF_TYPE}
         found = sorted(each.subject_place for iri, each in typed.items() if short(iri) in words)
         return [Label(scene_diagnostics.with_shown_path(place), "this one") for place in found[:LABELLED]]
 

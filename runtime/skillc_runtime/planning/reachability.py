@@ -15,15 +15,20 @@ from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable
+from skillc_runtime.world.eval.explain import Obstacle
 from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
 class UnreachableGoal:
-    """Why no plan reaches a goal; not `proved` if a skill, or the goal itself, cannot be expressed for planners."""
+    """Why no plan reaches a goal; not `proved` if a skill, or the goal itself, cannot be expressed for planners.
+
+    `obstacles` is what the reasoners of computed relations say against it, if that is the reason.
+    """
 
     why: str
     proved: bool = True
+    obstacles: tuple[Obstacle, ...] = ()
 
 
 def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> UnreachableGoal | None:
@@ -43,7 +48,7 @@ def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Conditio
     if problem is None or _is_reachable(problem):
         return None
     reason = explain_unsolvable(replace(posed, problem=problem), goal, state)
-    return UnreachableGoal("; ".join(reason.causes) or reason.why, proved=not posed.restricted)
+    return UnreachableGoal("; ".join(reason.causes) or reason.why, not posed.restricted, reason.obstacles)
 
 
 def _is_reachable(problem: Problem) -> bool:

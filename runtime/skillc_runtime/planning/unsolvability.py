@@ -12,7 +12,7 @@ from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.grounding import Grounding
-from skillc_runtime.world.eval.explain import explain, find_obstacle
+from skillc_runtime.world.eval.explain import Obstacle, explain, find_obstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -28,25 +28,29 @@ class UnsolvabilityReason:
     """Why there is no plan: how the parts of the goal depend on conditions, and what keeps these from holding.
 
     `causes` are what reasoners say, else other facts that are wrong or missing; empty if none was found.
+    `obstacles` are all that reasoners say.
     """
 
     why: str
     causes: tuple[str, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
 
 
 def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) -> UnsolvabilityReason:
     """Return why a problem has no plan, as far as reachability without deletions shows."""
     causes: tuple[str, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
     try:
         explanation = _Explanation(posed, state)
         reasons = tuple(explanation.explain_goal(goal))
-        found = explanation.obstacles or explanation.wrong or explanation.missing
+        obstacles = tuple(dict.fromkeys(explanation.obstacles))
+        found = list(map(str, obstacles)) or explanation.wrong or explanation.missing
         causes = tuple(dict.fromkeys(found))[:MAX_LISTED]
     except Cancelled:
         reasons = ("no sequence of skills reaches the goal; the scene is too large to say why",)
     undecided = (f"not decided: {each}" for each in posed.undecided[:MAX_LISTED])
     notes = (*reasons, *_describe_left_out(posed), *undecided)
-    return UnsolvabilityReason("; ".join(dict.fromkeys(notes)), causes)
+    return UnsolvabilityReason("; ".join(dict.fromkeys(notes)), causes, obstacles)
 
 
 class _Explanation:
@@ -65,7 +69,7 @@ class _Explanation:
         self._formatter = FormulaFormatter(posed.problem, posed.library)
         self._grounding = Grounding(posed.problem, CancelToken(EXPLANATION_S))
         self._grounding.explore()
-        self.obstacles: list[str] = []
+        self.obstacles: list[Obstacle] = []
         self.wrong: list[str] = []
         self.missing: list[str] = []
 
@@ -186,7 +190,10 @@ class _Explanation:
         try:
             obstacle = find_obstacle(meaning.condition, self._state, bindings)
             text = explain(meaning.condition, self._state, bindings, self._state.vocabulary)
-            (self.wrong if obstacle is None else self.obstacles).append(obstacle or text)
+            if obstacle is None:
+                self.wrong.append(text)
+            else:
+                self.obstacles.append(obstacle)
             return text
         except EvaluationError as reason:
             return str(reason)

@@ -12,7 +12,8 @@ from skillc_runtime.world.state.world_state import WorldState
 class SceneViolation:
     """A violation of an individual, by name; `predicate` is that of the wrong statement, None if one is missing.
 
-    `others` are further individuals that take part in it.
+    `others` are further individuals that take part in it. `prevents` is the computed relation to the individual that
+    does not hold because of it.
     """
 
     individual: str
@@ -22,6 +23,7 @@ class SceneViolation:
     help: str = ""
     severity: Severity = "error"
     others: tuple[str, ...] = ()
+    prevents: str | None = None
 
 
 def stored_values(state: WorldState, property_: str) -> list[tuple[str, object]]:

@@ -10,7 +10,7 @@ from skillc_runtime.world.space.grasps import grasp_problem
 from skillc_runtime.world.space.grip_force import GraspError
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.terms import END_EFFECTOR, GRASP_WIDTH, MANIPULATABLE, SIZE, WEIGHT
+from skillc_runtime.world.state.terms import CAN_GRASP, END_EFFECTOR, GRASP_WIDTH, MANIPULATABLE, SIZE, WEIGHT
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -38,4 +38,4 @@ def _violation(state: WorldState, thing: str, problem: GraspError) -> SceneViola
     """Return a warning, because other tasks may use the thing without holding it."""
     wanted = (WEIGHT,) if problem.name == "too-heavy" else (GRASP_WIDTH, SIZE[0])
     place = next((each for each in wanted if state.value(thing, each) is not None), None)
-    return SceneViolation(thing, place, problem.name, problem.problem, problem.cure, "warning")
+    return SceneViolation(thing, place, problem.name, problem.problem, problem.cure, "warning", prevents=CAN_GRASP)

@@ -18,6 +18,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
+from skillc_runtime.world.eval.explain import Obstacle
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -51,14 +52,33 @@ WHOLE_CELL = ("impossible-body", "starts-inside")
 """The problems because of which no task can be simulated in the cell, whatever it uses."""
 
 
-def cell_diagnostics(
+@dataclass(frozen=True, slots=True)
+class CellProblem:
+    """Something that is wrong in a cell, and how it is reported."""
+
+    violation: SceneViolation
+    diagnostic: Diagnostic
+
+    def explains(self, obstacle: Obstacle) -> bool:
+        """Whether it is why a computed relation does not hold."""
+        return (self.violation.prevents, self.violation.individual) == (obstacle.relation, obstacle.object)
+
+
+def cell_problems(
     scene: Scene, path: str, used: frozenset[str], goals: Sequence[Condition] = ()
-) -> Iterator[Diagnostic]:
+) -> Iterator[CellProblem]:
     """Yield what is wrong in the cell of a scene file at `path`.
 
     `used` are the individuals that tasks name, `goals` those of the tasks.
     """
     yield from locate(grade(check_cell(scene.state, goals), used), ScenePlaces.of(scene.said, path))
+
+
+def cell_diagnostics(
+    scene: Scene, path: str, used: frozenset[str], goals: Sequence[Condition] = ()
+) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of `cell_problems`."""
+    yield from (each.diagnostic for each in cell_problems(scene, path, used, goals))
 
 
 def grade(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[SceneViolation]:
@@ -68,14 +88,14 @@ def grade(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[Sce
         yield each if concerns else replace(each, severity="warning")
 
 
-def locate(found: Iterable[SceneViolation], places: ScenePlaces) -> Iterator[Diagnostic]:
-    """Yield the violations of individuals in a scene file as diagnostics, with labels at the others."""
+def locate(found: Iterable[SceneViolation], places: ScenePlaces) -> Iterator[CellProblem]:
+    """Yield the violations of individuals in a scene file with their diagnostics, which have labels at the others."""
     for each in found:
         span = places.find(each)
         if span is not None:
             names = filter(None, map(places.name_of, each.others))
             labels = tuple(Label(name, "this one") for name in names)
-            yield Diagnostic(each.name, span, each.message, each.help, each.severity, labels)
+            yield CellProblem(each, Diagnostic(each.name, span, each.message, each.help, each.severity, labels))
 
 
 def used_individuals(item: msgspec.Struct, state: WorldState) -> frozenset[str]:

@@ -37,7 +37,7 @@ def _places(task: LoadedTask) -> ScenePlaces:
 
 
 def _warn(found: list[SceneViolation], places: ScenePlaces, reporter: Reporter) -> None:
-    located = list(locate(found, places))
+    located = [each.diagnostic for each in locate(found, places)]
     if located:
         reporter.show(located, find_texts(located, {}))
     for each in found:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import assert_never
 
 from skillc_model.conditions import (
@@ -44,14 +45,28 @@ def explain(condition: Condition, state: WorldState, bindings: Bindings, vocabul
     return _Explainer(state, vocabulary).unmet(condition, bindings)
 
 
-def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -> str | None:
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """What the reasoner of a computed relation says against it, for two individuals."""
+
+    relation: str
+    subject: str
+    object: str
+    reason: str
+
+    def __str__(self) -> str:
+        return self.reason
+
+
+def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -> Obstacle | None:
     """Return what the reasoner of a computed relation says against it; None for any other condition, or if it holds."""
     match condition:
         case Holds(subject, relation, object_) if relation in state.axioms.computed:
             start, end = _iri(subject, bindings), _iri(object_, bindings)
             if start is None or end is None:
                 return None
-            return state.axioms.computed[relation].obstacle(state, start, end)
+            reason = state.axioms.computed[relation].obstacle(state, start, end)
+            return None if reason is None else Obstacle(relation, start, end, reason)
         case _:
             return None
 

@@ -38,6 +38,7 @@ WORKSTATION = SKILLC + "Workstation"
 WORKSPACE = SKILLC + "Workspace"
 
 AT = SKIROS + "at"
+CAN_GRASP = SKILLC + "canGrasp"
 CONTAIN = SKIROS + "contain"
 HOLDS_DEEP = SKILLC + "holdsDeep"
 HAS_A = SKIROS + "hasA"
