@@ -28,11 +28,19 @@ def here(server: RunningServer, monkeypatch: pytest.MonkeyPatch) -> Iterator[Run
     assert type_in("stop", "--all").exit_code == 0
 
 
+def put_crates_back(server: RunningServer) -> None:
+    """Bring all crates to where they were, so that there is something to carry."""
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    assert type_in("start", "--goal", "forall c: Product (lab:Start contain c)", "--wait").exit_code == 0
+    server.client.put("/cells/yard/pace", json={"factor": 1.0})
+
+
 def type_in(*words: str) -> Result:
     return CliRunner().invoke(skillc, list(words))
 
 
 def test_a_task_is_planned_approved_paused_stepped_and_stopped(here: RunningServer) -> None:
+    put_crates_back(here)
     started = type_in("start", "carry_all", "--approve", "--priority", "2")
     name = started.stdout.strip()
     here.wait_for(name, "planned")
@@ -114,6 +122,7 @@ def test_a_shell_offers_what_the_server_has(here: RunningServer, monkeypatch: py
 
 
 def test_who_attaches_sees_the_task_operates_it_and_detaches(here: RunningServer) -> None:
+    put_crates_back(here)
     name = type_in("start", "carry_all", "--step").stdout.strip()
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "CI": ""}
     with Terminal((sys.executable, "-m", "skillc", "attach", name), environment) as terminal:
