@@ -32,7 +32,7 @@ TEMPLATES = (
         "an arm puts two parts into two boxes",
         "the classes of the parts and boxes",
         "robot, table, parts, boxes and where they are",
-        "add a third part to `cell.ttl`, to what `lab:Cell` contains, and to the goal, change the size of a box, or use another arm",
+        "add a third part, which `lab:Cell` contains, to `cell.ttl` and the goal, change a box, or use another arm",
         ("Pick", "Pick", "Place", "Place"),
     ),
     Template(
