@@ -16,6 +16,7 @@ import av
 from PIL import Image
 
 from docs.pages import ROOT
+from docs.terminal_pictures import write_terminal_pictures
 from operating.monitors import Monitor
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
@@ -138,6 +139,8 @@ def main(names: Iterable[str]) -> None:
         print(picture.file.relative_to(ROOT), file=sys.stderr)
     if not wanted:
         write_robots_picture()
+        for file in write_terminal_pictures():
+            print(file.relative_to(ROOT), file=sys.stderr)
         write_readme_film()
 
 

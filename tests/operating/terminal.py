@@ -14,7 +14,11 @@ import subprocess
 import termios
 import time
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
+
+import pyte
+from pyte.screens import Char
 
 ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\r")
 ROWS, COLUMNS = 30, 110
@@ -22,12 +26,24 @@ PATIENCE_S = 60.0
 """How long a text may take to be shown; only a program that hangs takes so long."""
 
 
+Line = tuple[Char, ...]
+"""A line of a terminal, a character for each column."""
+
+
+def text_of(line: Line) -> str:
+    """Return the text of a line, without the blanks at its end."""
+    return "".join(each.data for each in line).rstrip()
+
+
 class Terminal:
     """Runs a program in a new terminal, in a `with` statement; `shown` is all that was shown, without escape codes."""
 
-    def __init__(self, command: Sequence[str], environment: dict[str, str]) -> None:
+    def __init__(
+        self, command: Sequence[str], environment: dict[str, str], columns: int = COLUMNS, folder: Path | None = None
+    ) -> None:
+        self._columns = columns
         self._master, self._slave = pty.openpty()
-        fcntl.ioctl(self._master, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
+        fcntl.ioctl(self._master, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, columns, 0, 0))
         self.modes_before = self.modes
         self._raw, self._read = b"", 0
         self._process = subprocess.Popen(
@@ -36,6 +52,7 @@ class Terminal:
             stdout=self._slave,
             stderr=self._slave,
             env={**environment, "TERM": "xterm"},
+            cwd=folder,
             preexec_fn=self._control,
         )
 
@@ -63,6 +80,21 @@ class Terminal:
     def shown(self) -> str:
         """Everything that was shown."""
         return ESCAPES.sub("", self._raw.decode(errors="replace"))
+
+    @property
+    def lines(self) -> list[Line]:
+        """The lines that remain, as the user of the terminal can scroll through them, without empty ones at the end.
+
+        The screen is wider than programs are told, so a line that is too wide for it is longer than `columns`.
+        """
+        width = 2 * self._columns
+        screen = pyte.HistoryScreen(width, ROWS, history=10_000, ratio=1.0)
+        pyte.ByteStream(screen).feed(self._raw)
+        rows = [*screen.history.top, *(screen.buffer[row] for row in range(ROWS))]
+        lines = [tuple(row[column] for column in range(width)) for row in rows]
+        while lines and not text_of(lines[-1]):
+            lines.pop()
+        return lines
 
     def type(self, keys: str) -> None:
         """Type keys."""

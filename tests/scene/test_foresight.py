@@ -158,4 +158,4 @@ def test_what_no_gripper_can_grasp_is_one_error_there_with_the_tasks_that_it_sto
     assert (told.name, told.severity, Path(told.span.path).name) == (name, "error", "cell.ttl")
     assert [Path(label.span.path).name for label in told.labels] == ["tasks.skill", "tasks.skill"]
     scene.write_text(text, "utf-8")
-    assert library_checks.check_library(find_library(tmp_path / "cell"), scene) == []
+    assert not library_checks.check_library(find_library(tmp_path / "cell"), scene)
