@@ -22,6 +22,8 @@ DOCS = HERE.parent
 MADE = {"commands.md": command_page, "vocabulary.md": vocabulary_page, **MODULE_PAGES}
 """Pages that are made from the code, each with the function that returns its Markdown."""
 MADE_TITLES = (("The command line", "commands.md"), ("The vocabulary", "vocabulary.md"))
+REFERENCE = "Reference"
+"""The section after which the reference of the Python API comes."""
 MODULE_TITLES = tuple((name.removesuffix(".md"), name) for name in MODULE_PAGES)
 SOURCES = ("dsl", "ontology", "compiler", "runtime")
 """The folders of the packages that the reference of the Python API is made from."""
@@ -36,7 +38,9 @@ ALSO |= {"changelog.md": "CHANGELOG.md"}
 
 def build_site(out: Path) -> int:
     """Build the site into the folder `out`, which is emptied first; return 0, or 1 if anything was reported."""
-    sections = read_sections(DOCS / "README.md", {"Reference": (*MADE_TITLES, *MODULE_TITLES)})
+    read = read_sections(DOCS / "README.md", {REFERENCE: MADE_TITLES})
+    place = [each.title for each in read].index(REFERENCE) + 1
+    sections = (*read[:place], Section("Python API", MODULE_TITLES), *read[place:])
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder)
         missing = write_pages(project / "docs")

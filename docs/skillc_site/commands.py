@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from html import escape
+from inspect import cleandoc
 
 import click
 
@@ -54,7 +55,7 @@ def _examples(text: str) -> Iterator[str]:
 
 def _prose(text: str) -> str:
     """Return a help text as Markdown: click marks what it does not fill with a line of a backspace."""
-    paragraphs = text.partition("\f")[0].strip().split("\n\n")
+    paragraphs = cleandoc(text.partition("\f")[0]).split("\n\n")
     return "\n\n".join(_paragraph(each) for each in paragraphs)
 
 

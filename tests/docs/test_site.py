@@ -50,6 +50,7 @@ def test_the_command_line_and_the_vocabulary_are_complete(site: Path) -> None:
     names = [path.stem for path in COMMANDS.glob("[a-z]*.py")]
     assert len(names) > 20
     assert [name for name in names if f'id="skillc-{name}"' not in commands] == []
+    assert re.search(r"<p>The arm of a FILE has its kinematics", commands), "later paragraphs of a help are prose"
     assert "<code>isClean</code>" in (site / "vocabulary.html").read_text("utf-8")
 
 
