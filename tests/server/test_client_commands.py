@@ -66,7 +66,10 @@ def test_a_task_is_planned_approved_paused_stepped_and_stopped(here: RunningServ
 
 
 def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
-    here.client.put("/cells/yard/pace", json={"factor": None})
+    assert type_in("pace", "fast").stderr == "yard: pace fast\n"
+    stepped = type_in("start", "--goal", "lab:Goal contain lab:crate-4", "--approve").stdout.strip()
+    assert type_in("wait").stderr == f"{stepped}: planned: waits for approval\n"
+    assert type_in("stop").exit_code == 0 and type_in("wait", stepped).exit_code == 3
     waited = type_in("start", "--goal", "lab:Goal contain lab:crate-4", "--wait")
     assert waited.exit_code == 0 and "finished, not verified" in waited.stderr
     attached = type_in("start", "--goal", "lab:Start contain lab:crate-4", "--deadline", "0.1", "--attach")
@@ -87,6 +90,7 @@ def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
         (("ps", "--server", "http://example.org"), 2, "would get a token in the clear"),
         (("stop", "one", "--all"), 2, "give an operation or --all"),
         (("step", "sideways"), 2, "not one of 'into', 'over', 'out'"),
+        (("pace", "slow"), 2, "`slow` is no pace; write `fast`, `real`"),
         (("skip",), 2, "missing option '--why'"),
         (("token", "add", "a b", "--role", "view"), 1, "name"),
     ],
@@ -107,6 +111,19 @@ def test_tokens_are_made_listed_and_revoked(here: RunningServer, monkeypatch: py
         assert refused.exit_code == 1 and "this needs the role `operate`, and `ada` has `view`" in refused.stderr
     assert type_in("token", "revoke", "ada").exit_code == 0
     assert "ada" not in type_in("token", "list").stdout
+
+
+def test_the_lease_of_a_cell_is_taken_shown_and_released(here: RunningServer, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert type_in("lease", "take", "--for", "100").stderr == "yard: admin has the lease for 100 s\n"
+    token = type_in("token", "add", "bob", "--role", "operate").stdout.strip()
+    with monkeypatch.context() as patch:
+        patch.setenv("SKILLC_TOKEN", token)
+        refused = type_in("start", "carry_all")
+        assert refused.exit_code == 1 and "`admin` has the lease of yard" in refused.stderr
+        assert type_in("lease", "take", "--takeover").exit_code == 1
+    assert type_in("lease", "release").stderr == "yard: nobody has the lease\n"
+    assert type_in("lease", "show").stdout == "yard: nobody has the lease\n"
+    assert type_in("token", "revoke", "bob").exit_code == 0
 
 
 def test_a_shell_offers_what_the_server_has(here: RunningServer, monkeypatch: pytest.MonkeyPatch) -> None:

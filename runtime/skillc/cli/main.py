@@ -33,8 +33,8 @@ SECTIONS = {
     "Skills": ("check", "fmt", "explain", "graph", "doc", "compile", "shapes"),
     "Tasks": ("plan", "run", "why", "trials", "demo"),
     "Scenes": ("world", "scene"),
-    "Servers": ("serve", "ps", "start", "attach", "logs", "acknowledge", "token", "state"),
-    "Operations of a server": ("pause", "resume", "step", "stop", "approve", "retry", "skip", "replan"),
+    "Servers": ("serve", "ps", "start", "attach", "logs", "pace", "lease", "acknowledge", "token", "state"),
+    "Operations of a server": ("wait", "pause", "resume", "step", "stop", "approve", "retry", "skip", "replan"),
     "Tools": ("doctor", "schema", "completion", "lsp"),
 }
 """The sections of the help, with their commands in the order in which they are listed."""

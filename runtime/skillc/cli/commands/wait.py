@@ -1,0 +1,26 @@
+"""Wait until an operation pauses or ends.
+
+Exit code 3 if it has ended without success.
+"""
+
+from __future__ import annotations
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.server_access import connect_server, operation_argument, remark_status, server_options
+
+
+@click.command(cls=Command)
+@operation_argument
+@server_options
+def command(operation: str | None) -> int:
+    """Wait until OPERATION is paused, waits for approval, or has ended, and print how it is then."""
+    from skillc_runtime.execution.task_state import ENDS
+
+    with connect_server() as server:
+        found = server.operation(operation)
+        found.wait_for_pause()
+        status = found.status
+    remark_status(status)
+    return 3 if status.state in ENDS and status.state != "succeeded" else 0
