@@ -3,6 +3,7 @@
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.locate import Locate
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.stand_in import StandIn
 from skillc_runtime.world.state.labelled import Quantity
 
-__all__ = ["Cell", "Locate", "Primitive", "Quantity", "SkillFailure", "Status"]
+__all__ = ["Cell", "Locate", "Primitive", "Quantity", "SkillFailure", "StandIn", "Status"]

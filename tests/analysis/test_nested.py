@@ -19,7 +19,7 @@ skill Wipe {{
     in   board: Whiteboard
     post board.isClean == true
 }}
-impl plain of Wipe {{ run python "skillc_runtime.primitives.stand_in:StandIn" }}
+impl plain of Wipe {{ run python "skillc.primitives:StandIn" }}
 """
 HEADS = ("par all { wait 1 s ", "reactive seq { wait 1 s ", "retry 3 { wait 1 s ", "repeat 9 { ", "once { ")
 

@@ -24,7 +24,7 @@ skill Put {
 }
 
 impl by_somebody of Put {
-    run python "skillc_runtime.primitives.stand_in:StandIn"
+    run python "skillc.primitives:StandIn"
 }
 
 task put {

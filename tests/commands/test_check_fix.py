@@ -20,7 +20,7 @@ skill Rest {
     noplan
 }
 # allow unused-let: left over
-impl resting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }
+impl resting of Rest { run python "skillc.primitives:StandIn" }
 """
 FIXED = BROKEN.replace("arm:", "arm: ").replace("hand:", "hand: ").replace("# allow unused-let: left over\n", "")
 GUESSED = FIXED.replace("ArmDevice", "ArmDevise")
@@ -52,7 +52,7 @@ def test_all_safe_fixes_are_applied_until_none_is_left(library: Path) -> None:
 def test_a_relation_that_is_called_like_a_word_of_the_language_gets_its_prefix(library: Path) -> None:
     head = "use skiros\nprefix shop: <http://example.org/shop#>\nrelation shop:pause(Product, Product)\n"
     skill = "skill Rest {{ in this: Product  in other: Product  pre this {}pause other  pause never  noplan }}\n"
-    impl = 'impl resting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+    impl = 'impl resting of Rest { run python "skillc.primitives:StandIn" }\n'
     (library / "rest.skill").write_text(head + skill.format("") + impl, encoding="utf-8")
     assert check("--fix").stderr == "fixed 1 problem in 1 file\nno problems\n"
     assert (library / "rest.skill").read_text("utf-8") == head + skill.format("shop:") + impl

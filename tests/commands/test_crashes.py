@@ -15,7 +15,7 @@ import pytest
 from skillc.cli.main import main
 from skillc.services import formatting, libraries
 
-SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc.primitives:StandIn" }\n'
 COMMANDS = {
     "check": ["check", "--no-cache", "a.skill"],
     "compile": ["compile", "a.skill", "-o", "build"],

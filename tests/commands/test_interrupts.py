@@ -34,7 +34,7 @@ skill Drive {
     post  truck stands to
     duration 5 s
 }
-impl wheels of Drive { run python "skillc_runtime.primitives.stand_in:StandIn" }
+impl wheels of Drive { run python "skillc.primitives:StandIn" }
 
 skill Load {
     in    truck: Truck
@@ -46,7 +46,7 @@ skill Load {
     post  truck stores crate
     duration 2 s
 }
-impl forks of Load { run python "skillc_runtime.primitives.stand_in:StandIn" }
+impl forks of Load { run python "skillc.primitives:StandIn" }
 
 skill Unload {
     in    truck: Truck
@@ -57,7 +57,7 @@ skill Unload {
     post  to stores crate
     duration 2 s
 }
-impl forks of Unload { run python "skillc_runtime.primitives.stand_in:StandIn" }
+impl forks of Unload { run python "skillc.primitives:StandIn" }
 """
 HEAD = "@prefix lab: <http://example.org/lab#> . @prefix lib: <https://w3id.org/skillc/library/depot#> .\n"
 GOAL = " and ".join(f"lab:d{(n + 1) % PLACES} stores lab:c{n}" for n in range(CRATES))

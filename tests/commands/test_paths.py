@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 from skillc.cli.main import skillc
 
 LONG = "x" * 300
-SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc.primitives:StandIn" }\n'
 ODD = {
     "pipe": "pipe is not a regular file",
     "circle": "circle is a broken link",

@@ -9,7 +9,7 @@ import pytest
 
 from skillc.cli.main import main
 
-SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc.primitives:StandIn" }\n'
 
 
 def ended(*arguments: object) -> object:

@@ -12,7 +12,7 @@ import pytest
 MAIN = "from skillc.cli.main import main; main()"
 FULL = "error: cannot write to the standard output: No space left on device\n"
 CLOSED = "error: cannot write to the standard output: Bad file descriptor\n"
-GOOD = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+GOOD = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc.primitives:StandIn" }\n'
 NO_MESSAGE = b"Content-Length: 3\r\n\r\n[5]"
 
 

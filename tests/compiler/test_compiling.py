@@ -71,7 +71,7 @@ def test_what_has_errors_is_left_out_with_what_calls_it() -> None:
         "skill Bad { in arm: ArmDevise noplan }\n"
         'impl plain of Bad { run python "m:Bad" }\n'
         "skill Good { in arm: ArmDevice noplan }\n"
-        'impl plain of Good { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+        'impl plain of Good { run python "skillc.primitives:StandIn" }\n'
         "impl through_bad of Good { do Bad(arm) }\n"
     )
     assert errors(outcome) == ["unknown-class"]

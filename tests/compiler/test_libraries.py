@@ -52,7 +52,7 @@ def test_a_name_that_a_quantifier_binds_is_not_the_caller_s() -> None:
         "relation rests(Product, Location)\n"
         "skill Look { in thing: Product  in place: Location\n"
         "    pre exists p: Product (p rests place and not p == thing)  noplan }\n"
-        'impl one of Look { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+        'impl one of Look { run python "skillc.primitives:StandIn" }\n'
         "skill Ask { in p: Product  in place: Location\n"
         "    pre exists q: Product (q rests place and not q == p)  noplan }\n"
         "impl one of Ask { do Look(thing: p, place) }\n"

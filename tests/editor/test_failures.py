@@ -16,7 +16,7 @@ from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing.parser import parse
 from skillc_model.skills import SkillLibrary
 
-GOOD = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc_runtime.primitives.stand_in:StandIn" }\n'
+GOOD = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc.primitives:StandIn" }\n'
 ILL = GOOD + "# it fails\nskill Walk { in arm ArmDevice }\n"
 
 

@@ -120,7 +120,7 @@ def test_it_is_never_fixed_and_is_read_from_what_decides_it() -> None:
 
 
 HEAD = "use skiros, rparts, cora, skillc, wiping\n"
-STAND_IN = 'run python "skillc_runtime.primitives.stand_in:StandIn"'
+STAND_IN = 'run python "skillc.primitives:StandIn"'
 CARE = f"""{HEAD}
 skill Polish {{
     in    surface: WipeableSurface

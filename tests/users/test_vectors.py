@@ -32,7 +32,7 @@ skill Blow {
 }
 
 impl plain of Blow {
-    run python "skillc_runtime.primitives.stand_in:StandIn"
+    run python "skillc.primitives:StandIn"
 }
 
 task fine {

@@ -28,7 +28,7 @@ VOCABULARY = Vocabulary(relations={term.iri: term for term in TERMS})
 def library(effect: Assert | Retract) -> SkillLibrary:
     condition = Holds(X, effect.relation, Y)
     post = Post(label="post", condition=condition, effects=(effect,), sensed=False, text="", source=HERE)
-    body = Primitive("skillc_runtime.primitives.stand_in:StandIn")
+    body = Primitive("skillc.primitives:StandIn")
     implementation = Implementation(name="one", skill="Put", post=(post,), body=body, source=HERE)
     return SkillLibrary(
         name="own", namespace="", hash="", vocabulary=VOCABULARY, implementations={"Put.one": implementation}

@@ -44,7 +44,7 @@ _COUNTS = (
     "timeout -1 s",
     "retry 0",
 )
-_PYTHON = 'run python "skillc_runtime.primitives.stand_in:StandIn"'
+_PYTHON = 'run python "skillc.primitives:StandIn"'
 
 
 class _Writer:
