@@ -18,6 +18,7 @@ from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
 from skillc_runtime.world.space.shapes import solids_of
+from skillc_runtime.world.space.solids import Solid
 from skillc_runtime.world.space.supports import QUARTERS, Support, face_away, find_supports, tilt_problem
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -120,14 +121,7 @@ def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError
 
 def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
     in_hand = pose_in_hand(state, gripper, thing)
-    solids = solids_of(read_shape(state, thing))
-    corners = np.concatenate(
-        [
-            (CORNERS * np.array(each.half) @ each.place.rotation.T + each.place.position) @ in_hand.rotation.T
-            + in_hand.position
-            for each in solids
-        ]
-    )
+    corners = np.concatenate([_corners(each, in_hand) for each in solids_of(read_shape(state, thing))])
     width_m = float(np.abs(corners[:, 1]).max())
     hand = read_hand_shape(state, gripper)
     if state.value(thing, HELD_SIDEWAYS) is True:
@@ -137,6 +131,14 @@ def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
     behind = np.array([0.0, 0.0, hand.depth_m + PALM_SLACK_M])
     palm = CORNERS * np.array([hand.palm_thickness_m, hand.palm_width_m, 0.0]) / 2 - behind
     return Load(corners, fingers, palm, QUARTERS)
+
+
+def _corners(solid: Solid, place: Pose) -> Array:
+    """Return the corners (8, 3) in m of the box around a solid whose frame is at a pose, along the axes of the hand."""
+    axes = np.eye(3)
+    low, high = (np.array([sign * solid.reach(sign * axis, place) for axis in axes]) for sign in (-1, 1))
+    corners: Array = (low + high) / 2 + CORNERS * (high - low) / 2
+    return corners
 
 
 def _room_of_horizontal(hand: HandShape, width_m: float) -> Array:
