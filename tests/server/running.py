@@ -45,6 +45,12 @@ class RunningServer:
         assert answer.status_code == 201, answer.text
         return dict(answer.json())
 
+    def put_back(self) -> None:
+        """Bring all crates to where they were at first, so that there is something to carry; the pace is real then."""
+        self.client.put("/cells/yard/pace", json={"factor": None})
+        self.wait_for(self.submit(goal="forall c: Product (lab:Start contain c)")["id"], "succeeded")
+        self.client.put("/cells/yard/pace", json={"factor": 1.0})
+
     def wait_for(self, operation: str, *states: str) -> dict[str, Any]:
         """Wait until an operation is in one of the states, and return it."""
         return wait_until(lambda: self.client.get(f"/operations/{operation}").json(), lambda it: it["state"] in states)

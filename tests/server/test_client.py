@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -30,7 +31,8 @@ def connected(server: RunningServer) -> Iterator[skillc.Server]:
         yield found
 
 
-def test_an_operation_is_commanded_like_one_of_the_program(connected: skillc.Server) -> None:
+def test_an_operation_is_commanded_like_one_of_the_program(server: RunningServer, connected: skillc.Server) -> None:
+    server.put_back()
     cell = connected.cell()
     cell.set_pace("real")
     assert cell.name == "yard" and cell.status.pace == 1.0
@@ -104,14 +106,16 @@ def test_addresses_that_would_give_a_token_away_are_refused(tmp_path: Path, monk
     assert "secret" not in repr(find_address("http://[::1]:80", None, None))
     with pytest.raises(skillc.SkillcError, match=r"no server answers at .*127.0.0.1:1; start one with"):
         skillc.connect("http://127.0.0.1:1")
+    with monkeypatch.context() as patch, pytest.raises(skillc.SkillcError, match=r"pip install 'skillc\[server\]'"):
+        patch.setitem(sys.modules, "httpx", None)
+        skillc.connect()
     with pytest.raises(skillc.RequestError, match=r"there is no token for .*: elsewhere.admin.token does not exist"):
         skillc.connect(state="elsewhere")
 
 
 def test_connections_that_break_lose_and_double_no_event(server: RunningServer, connected: skillc.Server) -> None:
-    cell = connected.cell()
-    cell.set_pace("fast")
-    operation = cell.start("carry", arguments={"crate": "lab:crate-2", "to": "lab:Goal"})
+    server.put_back()
+    operation = connected.cell().start("carry", arguments={"crate": "lab:crate-2", "to": "lab:Goal"})
     with cutting(server.port, seed=4, max_bytes=MAX_BYTES) as relay:
         address = find_address(f"http://127.0.0.1:{relay.port}", server.token, None)
         found = asyncio.run(read_events(address, operation.id))

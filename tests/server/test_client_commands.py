@@ -28,11 +28,9 @@ def here(server: RunningServer, monkeypatch: pytest.MonkeyPatch) -> Iterator[Run
     assert type_in("stop", "--all").exit_code == 0
 
 
-def put_crates_back(server: RunningServer) -> None:
-    """Bring all crates to where they were, so that there is something to carry."""
-    server.client.put("/cells/yard/pace", json={"factor": None})
-    assert type_in("start", "--goal", "forall c: Product (lab:Start contain c)", "--wait").exit_code == 0
-    server.client.put("/cells/yard/pace", json={"factor": 1.0})
+def terminal_environment() -> dict[str, str]:
+    """Return the environment of a program in a terminal that has a display, and knows the server."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "CI": ""}
 
 
 def type_in(*words: str) -> Result:
@@ -40,7 +38,7 @@ def type_in(*words: str) -> Result:
 
 
 def test_a_task_is_planned_approved_paused_stepped_and_stopped(here: RunningServer) -> None:
-    put_crates_back(here)
+    here.put_back()
     started = type_in("start", "carry_all", "--approve", "--priority", "2")
     name = started.stdout.strip()
     here.wait_for(name, "planned")
@@ -139,10 +137,9 @@ def test_a_shell_offers_what_the_server_has(here: RunningServer, monkeypatch: py
 
 
 def test_who_attaches_sees_the_task_operates_it_and_detaches(here: RunningServer) -> None:
-    put_crates_back(here)
+    here.put_back()
     name = type_in("start", "carry_all", "--step").stdout.strip()
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "CI": ""}
-    with Terminal((sys.executable, "-m", "skillc", "attach", name), environment) as terminal:
+    with Terminal((sys.executable, "-m", "skillc", "attach", name), terminal_environment()) as terminal:
         terminal.expect(r"paused since [\d.]+ s: step: (Load|Unload) is next.*next  \1  .*d detach")
         terminal.type("p")
         terminal.expect(r"p \(pause\) is not possible while the task is paused; possible: s step over")
@@ -156,11 +153,22 @@ def test_who_attaches_sees_the_task_operates_it_and_detaches(here: RunningServer
         assert terminal.modes == terminal.modes_before
     assert here.client.get("/cells/yard").json()["pace"] == 0.5
     assert here.client.get(f"/operations/{name}").json()["state"] == "running"
-    with Terminal((sys.executable, "-m", "skillc", "attach"), environment) as terminal:
+    with Terminal((sys.executable, "-m", "skillc", "attach"), terminal_environment()) as terminal:
         terminal.expect(r"q stop")
         terminal.type("q")
         assert terminal.wait() == 3
     assert here.wait_for(name, "stopped")["reason"] == "admin: stopped by the user"
+
+
+def test_who_interrupts_waiting_is_told_that_the_task_goes_on(here: RunningServer) -> None:
+    words = ("start", "--goal", "lab:Start contain lab:crate-0", "--approve", "--wait")
+    with Terminal((sys.executable, "-m", "skillc", *words), terminal_environment()) as terminal:
+        name = terminal.expect(r"operation-\w+-\w+")[0]
+        here.wait_for(name, "planned")
+        terminal.send(signal.SIGINT)
+        assert terminal.wait() == 130
+        assert f"{name} goes on" in terminal.shown
+    assert here.client.get(f"/operations/{name}").json()["state"] == "planned"
 
 
 def test_without_a_display_lines_are_printed(here: RunningServer) -> None:
@@ -172,8 +180,7 @@ def test_without_a_display_lines_are_printed(here: RunningServer) -> None:
 
 
 def test_who_watches_gets_a_line_for_each_change(here: RunningServer, tmp_path: Path) -> None:
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "CI": ""}
-    with Terminal((sys.executable, "-m", "skillc", "ps", "--watch", "--json"), environment) as terminal:
+    with Terminal((sys.executable, "-m", "skillc", "ps", "--watch", "--json"), terminal_environment()) as terminal:
         terminal.expect('"operational"')
         name = type_in("start", "carry_all", "--approve").stdout.strip()
         terminal.expect(rf'"id":"{name}".*"state":"planned"')

@@ -7,10 +7,10 @@ from concurrent.futures import CancelledError
 from queue import Empty, SimpleQueue
 from threading import Thread
 
-from skillc.cli.console import find_display_obstacle, print_remark
+from skillc.cli.console import find_display_obstacle
 from skillc.cli.run_progress import RunProgress
 from skillc.cli.run_view import EventView
-from skillc.cli.server_access import remark_status
+from skillc.cli.server_access import remark_going_on, remark_status
 from skillc.client.cell import ServerCell
 from skillc.client.operation import ServerOperation
 from skillc.services.errors import ServiceError
@@ -76,7 +76,7 @@ def attach(cell: ServerCell, operation: ServerOperation) -> int:
         if find_display_obstacle() is None:
             remark_status(status)
         return 0 if status.state == "succeeded" else 3
-    print_remark(f"{operation.id} goes on; `skillc attach` shows it, `skillc stop` stops it")
+    remark_going_on(operation.id)
     return 0
 
 

@@ -86,6 +86,13 @@ def remark_status(status: OperationStatus) -> None:
     print_remark(f"{status.id}: {describe_state(status)}")
 
 
+def remark_going_on(operation: str) -> None:
+    """Print to stderr that an operation goes on without who watched it."""
+    from skillc.cli.console import print_remark
+
+    print_remark(f"{operation} goes on; `skillc attach` shows it, `skillc stop` stops it")
+
+
 def describe_state(status: OperationStatus) -> str:
     """Return the state of an operation, and why it is in it."""
     from skillc_runtime.recording.known_facts import format_status

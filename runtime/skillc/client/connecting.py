@@ -40,7 +40,7 @@ def connect_async(url: str | None = None, token: str | None = None, state: AnyPa
 
     That no server answers is found with the first request.
     """
-    if any(find_spec(each) is None for each in ("httpx", "websockets", "starlette")):
+    if any(find_spec(each) is None for each in ("httpx", "websockets")):
         raise ServiceError("clients of a server need httpx and websockets: pip install 'skillc[server]'")
     from skillc.client.async_server import AsyncServer
     from skillc.client.connection import Connection

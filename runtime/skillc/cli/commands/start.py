@@ -14,7 +14,7 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_task
 from skillc.cli.options import EXECUTION, grouped_option, task_arguments
-from skillc.cli.server_access import complete_cell, connect_server, remark_status, server_options
+from skillc.cli.server_access import complete_cell, connect_server, remark_going_on, remark_status, server_options
 
 if TYPE_CHECKING:
     from skillc.client.operation import ServerOperation
@@ -97,7 +97,14 @@ def command(
 
 
 def wait_for_end(operation: ServerOperation) -> int:
-    """Wait for the end of an operation, print how it ended, and return the exit code."""
-    status = operation.wait()
+    """Wait for the end of an operation, print how it ended, and return the exit code.
+
+    Who interrupts that is reminded that the operation goes on.
+    """
+    try:
+        status = operation.wait()
+    except KeyboardInterrupt:
+        remark_going_on(operation.id)
+        raise
     remark_status(status)
     return 0 if status.state == "succeeded" else 3
