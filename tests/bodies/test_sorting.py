@@ -14,7 +14,7 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import CONTAIN
+from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR
 
 LAB = "http://example.org/lab#"
 FOLDER = Path(__file__).parent / "sorting"
@@ -36,3 +36,21 @@ def test_parts_are_sorted_into_bins(backend: type[SimulatedCell | KinematicCell]
         height = {"A": 0.06, "B": 0.07}[letter]
         assert in_bin.position[2] == pytest.approx(-0.03 + 0.004 + height / 2, abs=0.003)
         assert cell.world.snapshot().holds(bin_, CONTAIN, part)
+
+
+@pytest.mark.sim
+def test_the_force_of_a_hand_is_that_of_its_present_contacts() -> None:
+    outcome = libraries.compile_library(find_library(FOLDER))
+    prepared = prepare(outcome.value, "sort_parts", FOLDER / "cell.ttl")
+    cell = SimulatedCell(WorldModel(prepared.assignment.state))
+    (gripper,) = prepared.assignment.state.instances(END_EFFECTOR)
+    forces = list[float]()
+
+    def look() -> None:
+        force = cell.ground_truth.contact_force(gripper)
+        assert force is not None
+        forces.append(float(np.linalg.norm(force)))
+
+    assert execute_task(prepared, outcome.value, cell, after_tick=look).status == "succeeded"
+    assert max(forces) < 40.0, "no push of this task is stronger, whenever contacts begin and end"
+    assert sum(force > 1.0 for force in forces) > 5 and forces[0] == forces[-1] == 0.0

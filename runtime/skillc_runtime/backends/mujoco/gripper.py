@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import mujoco
+
 from skillc_runtime.backends.mujoco.grip import Grip, make_grip
 from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.backends.simulation.arm import ModelledArm
@@ -41,6 +43,7 @@ class SimulatedGripper(ModelledGripper):
         self._data.ctrl[self._actuator] = self._target = self._goal
         self._still_since = 0.0
         self._grip: Grip | None = None
+        self._present: Any = None
 
     @property
     def _true_opening_m(self) -> float:
@@ -54,11 +57,19 @@ class SimulatedGripper(ModelledGripper):
         return motor if self._grip is None else self._grip.force_n
 
     def contact_force(self) -> Array:
-        """Return the force (3,) in N, world axes, with which hand and held object press on the rest, added up."""
+        """Return the force (3,) in N, world axes, with which hand and held object press on the rest, added up.
+
+        It is computed for a copy of the present state: between steps the simulation has new contacts, and the forces of
+        the old ones.
+        """
         roots = [self._palm]
         if self._carried:
             roots.append(self._model.body(part_name(self._names[self._carried], "block")).id)
-        return pressing_force(self._model, self._data, roots)
+        if self._present is None:
+            self._present = mujoco.MjData(self._model)
+        mujoco.mj_copyData(self._present, self._model, self._data)
+        mujoco.mj_forward(self._model, self._present)
+        return pressing_force(self._model, self._present, roots)
 
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""
