@@ -48,6 +48,17 @@ task carry_all {
     scene "yard.ttl"
     goal forall c: Product (lab:Goal contain c)
 }
+
+## Bring two crates in this order.
+task carry_two {
+    scene "yard.ttl"
+    do seq {
+        Load(cart: lab:Cart-1, crate: lab:crate-1)
+        Unload(cart: lab:Cart-1, crate: lab:crate-1, to: lab:Goal)
+        Load(cart: lab:Cart-1, crate: lab:crate-0)
+        Unload(cart: lab:Cart-1, crate: lab:crate-0, to: lab:Goal)
+    }
+}
 """
 SCENE = """@prefix lab: <http://example.org/lab#> .
 @prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .

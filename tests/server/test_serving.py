@@ -105,9 +105,13 @@ def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(tmp
         refused = server.client.post("/cells/yard/operations", json={"task": "carry_all"})
         assert refused.status_code == 503 and "yard is off" in refused.json()["detail"]
         server.wait_ready()
-        assert server.client.get(f"/operations/{operation}").json()["state"] == "interrupted"
-        again = server.submit(task="carry_all")["id"]
+        left = server.client.get(f"/operations/{operation}").json()
+        assert left["state"] == "interrupted" and left["decisions"][:2] == ["replan", "retry"]
+        again = server.submit(continues=operation, decision="retry")["id"]
         server.wait_for(again, "succeeded")
+        assert server.client.get(f"/operations/{operation}").json()["continued_by"] == again
+        refused = server.client.post("/cells/yard/operations", json={"continues": operation})
+        assert refused.status_code == 409 and f"was continued by {again}" in refused.json()["detail"]
 
 
 @pytest.mark.sim

@@ -7,7 +7,10 @@ from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
 import msgspec
+from msgspec import structs
 
+from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
+from skillc.cells.database import DatabaseError
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
@@ -25,12 +28,15 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request, TooManyRequests
+from skillc_runtime.execution.continuation import Continuation
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.preparation import prepare_after
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.execution.tree.gate import Gate
+from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
@@ -70,11 +76,17 @@ class CellHost:
     """
 
     def __init__(
-        self, settings: CellSettings, library: SkillLibrary, world: WorldModel, journal: CellJournal, scene: Path
+        self,
+        settings: CellSettings,
+        library: SkillLibrary,
+        world: WorldModel,
+        journal: CellJournal,
+        reader: JournalReader,
+        scene: Path,
     ) -> None:
         """Build the cell; SheetError or FrameError if its scene cannot be simulated."""
         self.settings, self.library = settings, library
-        self.world, self._journal = world, journal
+        self.world, self._journal, self._reader = world, journal, reader
         self._backend = make_backend(settings.backend, world, settings.seed)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
         self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=journal.commit)
@@ -118,15 +130,10 @@ class CellHost:
             raise RequestError(f"{self.settings.name} takes no operations: {fault}")
         if len(self._operations) >= MAX_OPERATIONS:
             raise TooManyRequests(f"{MAX_OPERATIONS} operations go on or wait in {self.settings.name}; try again later")
-        assignment = self._assign(request)
-        gate = Gate(parse_breakpoints(request.breakpoints, self.library))
-        if request.step:
-            gate.step("into", ())
-        settings = RunSettings(request.approve, request.deadline_s, request.ask_after_failure, request.priority)
-        self._journal.add_operation(operation, request)
-        publisher = Publisher(operation, (self._journal.record,))
-        run = self.loop.submit(assignment, (publisher,), settings, gate, operation)
-        self._operations[operation] = _Submitted(request, run, publisher, self.library.hash)
+        if request.continues:
+            self._continue(operation, request)
+        else:
+            self._submit(operation, request, Continuation(self._assign(request)))
 
     def request(self, operation: str, command: Command) -> Request:
         """Give a command to an operation in the next tick; RequestError if it is not one that goes on."""
@@ -149,6 +156,8 @@ class CellHost:
         changed = []
         for submitted in tuple(self._operations.values()):
             operation = submitted.describe(self.settings.name)
+            if operation.state == "interrupted":
+                operation = structs.replace(operation, decisions=decisions_about(operation.id, self._reader))
             if operation != submitted.reported:
                 submitted.reported = operation
                 changed.append(operation)
@@ -169,6 +178,37 @@ class CellHost:
         with suppress(NotDurable):
             self._journal.commit()
         self._backend.close()
+
+    def _continue(self, operation: str, request: OperationRequest) -> None:
+        """Submit an operation that continues another one, and note that at the other one."""
+        if any(each.request.continues == request.continues for each in self._operations.values()):
+            raise RequestError(f"{request.continues} is being continued")
+        try:
+            earlier = find_interrupted(request, self._reader)
+            request = take_over(request, earlier.request)
+            continuation = prepare_continuation(request, self._assign(request), self._reader, self.library)
+        except DatabaseError as error:
+            raise RequestError(str(error)) from error
+        submitted = self._submit(operation, request, continuation)
+        if continuation.assumed:
+            with recorded_changes(self.world, submitted.publisher, self._backend.clock.now):
+                self.world.commit(continuation.assumed, f"{request.owner}: {request.why}", "assumed")
+        assert earlier.ended is not None, "it was interrupted"
+        self._journal.end_operation(structs.replace(earlier.ended, decisions=(), continued_by=operation))
+
+    def _submit(self, operation: str, request: OperationRequest, continuation: Continuation) -> _Submitted:
+        """Submit a run to the loop."""
+        gate = Gate(parse_breakpoints(request.breakpoints, self.library))
+        if request.step:
+            gate.step("into", ())
+        settings = RunSettings(request.approve, request.deadline_s, request.ask_after_failure, request.priority)
+        prepared, plan = continuation.prepared, self.loop.start_preparation
+        start = plan if prepared is None else prepare_after(prepared, plan)
+        self._journal.add_operation(operation, request)
+        publisher = Publisher(operation, (self._journal.record,))
+        run = self.loop.submit(continuation.assignment, (publisher,), settings, gate, operation, start)
+        self._operations[operation] = _Submitted(request, run, publisher, self.library.hash)
+        return self._operations[operation]
 
     def _assign(self, request: OperationRequest) -> Assignment:
         state = self.world.snapshot()
@@ -221,11 +261,13 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
     choice = StoreChoice(str(folder / WORLD))
     with closing(open_chosen_store(choice, str(folder / WORLD), scene)) as store:
         state, sequence = read_or_fill(store, choice, scene, library.vocabulary, reporter)
-        with closing(CellJournal(settings.journal, store)) as journal:
-            with closing(JournalReader(settings.journal)) as reader:
-                world = restore_world(store, state, sequence, journal, reader)
-                end_interrupted(settings.name, reader, journal)
-            host = CellHost(settings, library, world, journal, scene)
+        with (
+            closing(CellJournal(settings.journal, store)) as journal,
+            closing(JournalReader(settings.journal)) as reader,
+        ):
+            world = restore_world(store, state, sequence, journal, reader)
+            end_interrupted(settings.name, reader, journal)
+            host = CellHost(settings, library, world, journal, reader, scene)
             try:
                 yield host
             finally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 
+from skillc.cells.continuing import decisions_about
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader, RecordedOperation
 from skillc.cells.operation import OperationStatus
@@ -49,4 +50,5 @@ def _describe(cell: str, operation: RecordedOperation, reader: JournalReader, fi
         verified=ended.verified,
         failure=ended.failure,
         library_hash=started.hash,
+        decisions=decisions_about(operation.id, reader) if ended.status == "interrupted" else (),
     )

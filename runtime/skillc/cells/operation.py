@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.states import State
+from skillc_runtime.recording.states import Decision, State
 
 
 class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
@@ -20,6 +20,9 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     decision instead of another plan. The operation fails if it has not ended `deadline_s` of the cell's time after its
     submission. It pauses before its first call with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is
     who requested it.
+
+    A request that `continues` an operation that was interrupted names nothing else to do; `decision` says how, and
+    `why` a step counts as done that is skipped.
     """
 
     task: str | None = None
@@ -33,6 +36,9 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     step: bool = False
     breakpoints: tuple[str, ...] = ()
     priority: Annotated[int, msgspec.Meta(ge=-100, le=100)] = 0
+    continues: str = ""
+    decision: Decision = "replan"
+    why: Annotated[str, msgspec.Meta(max_length=500)] = ""
 
 
 class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
@@ -40,7 +46,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
 
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
-    it runs.
+    it runs. `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
     """
 
     id: str
@@ -53,6 +59,8 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     verified: bool | None = None
     failure: Failure | None = None
     library_hash: str = ""
+    decisions: tuple[Decision, ...] = ()
+    continued_by: str = ""
 
 
 CellState: TypeAlias = Literal["off", "operational", "fault"]

@@ -86,10 +86,12 @@ class CellLoop:
         settings: RunSettings | None = None,
         gate: Gate | None = None,
         run_id: str = "",
+        start_preparation: StartPreparation | None = None,
     ) -> TaskRun:
         """Add a task run; it begins with the next tick, or when other runs give back the devices that it needs.
 
         `gate` has its breakpoints. Its id is the name of the task with a number unless `run_id` is given.
+        `start_preparation` prepares it in place of that of the loop.
         """
         name = run_id or f"{assignment.name}-{next(self._numbers)}"
         heard = (Listeners(listeners),) if listeners else ()
@@ -104,7 +106,8 @@ class CellLoop:
         )
         settings = settings or RunSettings()
         self._claims.add(name, settings.priority)
-        run = TaskRun(name, assignment, context, self._claims, self.start_preparation, settings)
+        start = start_preparation or self.start_preparation
+        run = TaskRun(name, assignment, context, self._claims, start, settings)
         insort(self.runs, run, key=lambda each: -each.settings.priority)
         return run
 

@@ -63,6 +63,12 @@ def prepare_here(library: SkillLibrary) -> StartPreparation:
     return lambda assignment, failures: Ready(replan_task(assignment, library, failures))
 
 
+def prepare_after(prepared: PreparedTask, start: StartPreparation) -> StartPreparation:
+    """Return what answers with a prepared task first, and then does as `start`."""
+    first = [prepared]
+    return lambda assignment, failures: Ready(first.pop()) if first else start(assignment, failures)
+
+
 @dataclass(frozen=True, slots=True)
 class Outdated:
     """The world has changed since a task was prepared, so that it cannot run, for the `times`th time."""

@@ -9,3 +9,7 @@ EndState: TypeAlias = Literal["succeeded", "failed", "stopped", "interrupted"]
 
 State: TypeAlias = Literal["queued", "planning", "planned", "running", "pausing", "paused", "stopping"] | EndState
 """The states of a task run; `queued` if it waits for devices, `planned` if its plan waits for approval."""
+
+Decision: TypeAlias = Literal["replan", "retry", "skip"]
+"""How an interrupted run is continued: by planning again for the world as it is, beginning with the step that was
+running, or counting that step as done."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import cast
 
 from skillc_model.skills import SkillLibrary
@@ -22,6 +23,14 @@ def record_steps(plan: Plan, library: SkillLibrary) -> tuple[PlanStep, ...]:
     )
 
 
+def restore_steps(recorded: Sequence[PlanStep]) -> tuple[Step, ...]:
+    """Return the steps of a plan from a recording."""
+    return tuple(
+        Step(each.skill, {name: value.iri for name, value in each.arguments.items() if isinstance(value, LabelledIri)})
+        for each in recorded
+    )
+
+
 def record_plan(solved: Solved, library: SkillLibrary) -> ArrivedPlan:
     """Return a plan for a recording; of what was left out only the kinds and reasons, because it may be a million."""
     return ArrivedPlan(
@@ -37,12 +46,8 @@ def record_plan(solved: Solved, library: SkillLibrary) -> ArrivedPlan:
 
 def restore_plan(recorded: ArrivedPlan) -> Solved:
     """Return a plan from a recording; it describes itself as before, but names no members of what was left out."""
-    steps = tuple(
-        Step(each.skill, {name: value.iri for name, value in each.arguments.items() if isinstance(value, LabelledIri)})
-        for each in recorded.steps
-    )
     return Solved(
-        plan=Plan(steps, recorded.duration_s),
+        plan=Plan(restore_steps(recorded.steps), recorded.duration_s),
         optimal=cast(Optimal, recorded.optimal),
         planner=recorded.planner,
         left_out=tuple(LeftOut((), each.why, each.harmless, each.kind) for each in recorded.left_out),
