@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from skillc.api.library import tasks as tasks
     from skillc.api.operation import Operation as Operation
     from skillc.api.picture import Figure as Figure
+    from skillc.api.picture import Film as Film
     from skillc.api.picture import Picture as Picture
     from skillc.api.planning import Plan as Plan
     from skillc.api.planning import PlannedStep as PlannedStep
@@ -57,6 +58,7 @@ _MODULES = {
     "DiagnosticsError": "skillc.services.errors",
     "EventStream": "skillc.api.event_stream",
     "Figure": "skillc.api.picture",
+    "Film": "skillc.api.picture",
     "Library": "skillc.api.library",
     "Operation": "skillc.api.operation",
     "Picture": "skillc.api.picture",

@@ -28,6 +28,8 @@ RUN_CELLS = (
     "import skillc",
     "run = skillc.run('contact:press_button', backend='kinematic', out='run'); run",
     "run.figures[0]",
+    "run.film",
+    "skillc.open_scene('ur5e_whiteboard')",
     "operation = skillc.start('contact:press_button', backend='kinematic'); (await operation).status",
 )
 
@@ -51,9 +53,10 @@ def test_a_notebook_shows_libraries_plans_and_tables(tmp_path: object) -> None:
 
 @pytest.mark.sim
 def test_a_notebook_runs_tasks(tmp_path: object) -> None:
-    run, figure, status = _execute(RUN_CELLS, tmp_path)
+    run, figure, film, scene, status = _execute(RUN_CELLS, tmp_path)
     assert "succeeded" in run["text/html"] and "<svg" in run["text/html"]
-    assert "image/png" in figure
+    assert "image/png" in figure and "<video " in film["text/html"]
+    assert scene["text/plain"] == "Scene('ur5e_whiteboard.ttl')"
     assert status["text/plain"] == "'succeeded'"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,3 +50,14 @@ class Figure:
 
     def _repr_png_(self) -> bytes:
         return self.path.read_bytes()
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """The film of a run, in a file; notebooks play it."""
+
+    path: Path
+
+    def _repr_html_(self) -> str:
+        content = b64encode(self.path.read_bytes()).decode("ascii")
+        return f'<video controls loop style="max-width: 100%" src="data:video/mp4;base64,{content}"></video>'

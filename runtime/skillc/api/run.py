@@ -12,7 +12,7 @@ import msgspec
 
 from skillc.api.boundary import AnyPath, NoticeList, api_call, require_choice, require_path, require_text
 from skillc.api.frames import make_frame, make_table, read_signal_frame
-from skillc.api.picture import Figure
+from skillc.api.picture import Figure, Film
 from skillc.services.errors import ServiceError
 from skillc.services.recordings import answer_question, find_recording, read_envelopes, read_result
 from skillc.services.story_text import format_answer, format_overview
@@ -82,6 +82,14 @@ class Run:
         if self.folder is None:
             return ()
         return tuple(Figure(path) for path in sorted(self.folder.glob("*.png")) if path.with_suffix(".svg").exists())
+
+    @property
+    def film(self) -> Film | None:
+        """Its film; None if there is none: without a folder or a GL library nothing is filmed."""
+        from skillc_runtime.film.film import FILM
+
+        path = None if self.folder is None else self.folder / FILM
+        return Film(path) if path is not None and path.exists() else None
 
     @property
     def report(self) -> Path | None:

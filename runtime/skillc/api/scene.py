@@ -71,6 +71,9 @@ class Scene:
         self._folders = catalogue.user_folders()
         self.warnings = warnings
 
+    def __repr__(self) -> str:
+        return f"Scene({self.name!r})"
+
     def __enter__(self) -> Scene:
         return self
 

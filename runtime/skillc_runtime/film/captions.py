@@ -69,7 +69,10 @@ def draw_strip(text: StripText, width: int) -> NDArray[np.uint8]:
     first = upper if text.small else STRIP_PIXELS / 2
     draw.text((width - EDGE, upper), text.force, FORCE, load_font(LARGE, bold=True), anchor="rm")
     draw.text((width - EDGE, lower), text.time, DIM, load_font(SMALL), anchor="rm")
-    room = width - 3 * EDGE - max(draw.textlength(text.force, load_font(LARGE, bold=True)), 1.0)
+    beside = draw.textlength(text.force, load_font(LARGE, bold=True))
+    if not text.small:  # the line is in the middle, beside both at the right
+        beside = max(beside, draw.textlength(text.time, load_font(SMALL)))
+    room = width - 3 * EDGE - beside
     draw.text(
         (EDGE, first), shorten(draw, text.large, room, LARGE, True), TEXT, load_font(LARGE, bold=True), anchor="lm"
     )
