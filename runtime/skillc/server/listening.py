@@ -73,9 +73,11 @@ class Listening:
         """Return a socket that listens; ServiceError if the address cannot be used."""
         family = socket.AF_INET6 if ":" in self.host else socket.AF_INET
         try:
-            return socket.create_server((self.host, self.port), family=family)
+            listener = socket.create_server((self.host, self.port), family=family)
         except OSError as error:
             raise ServiceError(f"{self.host}:{self.port} cannot be listened to: {error.strerror}") from error
+        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)  # asyncio sets it only for explicit TCP sockets
+        return listener
 
 
 def _is_address(text: str) -> bool:

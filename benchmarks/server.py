@@ -1,0 +1,190 @@
+"""Compares what a server costs: requests with the least one, the loop of a cell with and without clients that watch.
+
+A cell without physics runs the shipped task `clean_table`. CPU times are those of the processes.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from statistics import median, quantiles
+from typing import Any
+
+import httpx
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed
+
+CELL, TASK = "iiwa_table", "clean_table"
+REQUESTS, STOPS, OPERATIONS = 400, 20, 60
+WATCHERS = (0, 1, 8, 64)
+TICK_S = 0.01
+READY_S = 60.0
+
+
+@contextmanager
+def serving(folder: Path) -> Iterator[tuple[httpx.Client, int, float]]:
+    """Serve the cell; yield a client, the id of the process of the server, and the time until it was ready, in s."""
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    command = (sys.executable, "-m", "skillc", "serve", "wiping", "--cell", f"{CELL}.ttl", "--backend", "kinematic")
+    process = subprocess.Popen((*command, "--state", folder, "--bind", f"127.0.0.1:{port}"), stderr=subprocess.DEVNULL)
+    url = f"http://127.0.0.1:{port}/api/v1"
+    try:
+        began = time.monotonic()
+        wait_for(lambda: is_up(url))
+        token = (folder / "admin.token").read_text().strip()
+        with httpx.Client(base_url=url, headers={"Authorization": f"Bearer {token}"}, timeout=60.0) as client:
+            wait_for(lambda: client.get(f"/cells/{CELL}").json()["state"] == "operational")
+            yield client, process.pid, time.monotonic() - began
+    finally:
+        process.send_signal(signal.SIGTERM)
+        process.wait(60.0)
+
+
+def is_up(url: str) -> bool:
+    """Whether the server answers."""
+    try:
+        return httpx.get(f"{url}/health").status_code == 200
+    except httpx.TransportError:
+        return False
+
+
+def wait_for(condition: Callable[[], bool]) -> None:
+    """Wait until a condition holds."""
+    end = time.monotonic() + READY_S
+    while not condition():
+        assert time.monotonic() < end, "the server is not ready"
+        time.sleep(0.02)
+
+
+def measure_requests(client: httpx.Client) -> None:
+    """Print the time of requests of an idle server, relative to that of /health, which needs nothing."""
+    times = dict[str, list[float]]()
+    for _ in range(REQUESTS):
+        for path in ("/health", f"/cells/{CELL}", f"/cells/{CELL}/operations"):
+            began = time.perf_counter()
+            client.get(path)
+            times.setdefault(path, []).append(time.perf_counter() - began)
+            time.sleep(0.004)
+    least = median(times["/health"])
+    for path, found in times.items():
+        p99 = quantiles(found, n=100)[98]
+        print(f"GET {path}: median {median(found) / least:.1f} x /health, p99 {p99 / least:.1f} x ({p99 * 1e3:.1f} ms)")
+
+
+def measure_stops(client: httpx.Client) -> None:
+    """Print how many ticks pass from the request of a stop to the event that it was taken, at real pace."""
+    client.put(f"/cells/{CELL}/pace", json={"factor": 1.0})
+    ticks = list[float]()
+    for _ in range(STOPS):
+        operation = submit(client)
+        wait_for(lambda operation=operation: state_of(client, operation) == "running")
+        requested_ns = time.time_ns()
+        client.post(f"/operations/{operation}/stop", json={})
+        wait_for(lambda operation=operation: state_of(client, operation) == "stopped")
+        events = client.get(f"/operations/{operation}/events").json()
+        taken = next(each["wall_time_ns"] for each in events if each["event"]["type"] == "requested")
+        ticks.append((taken - requested_ns) * 1e-9 / TICK_S)
+    client.put(f"/cells/{CELL}/pace", json={"factor": None})
+    print(f"stop: taken after {median(ticks):.2f} ticks of {TICK_S * 1e3:g} ms in the median, {max(ticks):.2f} at most")
+
+
+def measure_watchers() -> None:
+    """Print the CPU time of a whole task with clients that watch it, relative to that of the cell without."""
+    alone = None
+    for number in WATCHERS:
+        with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as (client, server, _):
+            cell = find_cell(server)
+            before = cpu_s(cell), cpu_s(server)
+            latencies = asyncio.run(run_watched(client, number))
+            spent = cpu_s(cell) - before[0], cpu_s(server) - before[1]
+        alone = alone or spent
+        late = f", events {median(latencies) * 1e3:.0f} ms old in the median" if latencies else ""
+        ratios = f"cell {spent[0] / alone[0]:.2f} x, server {spent[1] / alone[0]:.2f} x the cell"
+        print(f"{number} clients watch: {ratios}{late}")
+
+
+async def run_watched(client: httpx.Client, number: int) -> list[float]:
+    """Run the task, watched by a number of clients; return the ages of the events that they get, in s."""
+    token = client.headers["authorization"].partition(" ")[2]
+    url = str(client.base_url.join("events")).replace("http", "ws")
+    operation = await asyncio.to_thread(submit, client)
+
+    async def watch() -> list[float]:
+        ages = list[float]()
+        async with connect(url) as stream:
+            await stream.send(json.dumps({"token": token, "operation": operation}))
+            try:
+                while True:
+                    for each in json.loads(await stream.recv()):
+                        ages.append(time.time() - each["wall_time_ns"] * 1e-9)
+            except ConnectionClosed:
+                return ages
+
+    found = await asyncio.gather(*(watch() for _ in range(number)))
+    await asyncio.to_thread(wait_for, lambda: state_of(client, operation) == "succeeded")
+    return [age for ages in found for age in ages]
+
+
+def measure_memory(client: httpx.Client, server: int) -> None:
+    """Print how memory and the time of a request grow over many operations."""
+    cell = find_cell(server)
+    before = rss_mb(server), rss_mb(cell)
+    for _ in range(OPERATIONS):
+        operation = submit(client, approve=True)
+        client.post(f"/operations/{operation}/stop", json={})
+        wait_for(lambda operation=operation: state_of(client, operation) == "stopped")
+    grown = rss_mb(server) / before[0], rss_mb(cell) / before[1]
+    print(f"memory after {OPERATIONS} operations: server {grown[0]:.2f} x, cell {grown[1]:.2f} x")
+
+
+def submit(client: httpx.Client, **more: Any) -> str:
+    """Submit the task; return the id of the operation."""
+    answer = client.post(f"/cells/{CELL}/operations", json={"task": TASK, **more})
+    assert answer.status_code == 201, answer.text
+    return str(answer.json()["id"])
+
+
+def state_of(client: httpx.Client, operation: str) -> str:
+    """Return the state of an operation."""
+    return str(client.get(f"/operations/{operation}").json()["state"])
+
+
+def find_cell(server: int) -> int:
+    """Return the id of the process of the cell."""
+    children = Path(f"/proc/{server}/task/{server}/children").read_text().split()
+    return next(int(each) for each in children if b"skillc.cells.process" in Path(f"/proc/{each}/cmdline").read_bytes())
+
+
+def cpu_s(process: int) -> float:
+    """Return the CPU time of a process in s."""
+    user, system = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
+
+def rss_mb(process: int) -> float:
+    """Return the memory of a process in MB."""
+    return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as (client, server, ready_s):
+        print(f"from start to ready: {ready_s:.1f} s")
+        measure_requests(client)
+        measure_stops(client)
+        measure_memory(client, server)
+    measure_watchers()
+
+
+if __name__ == "__main__":
+    main()
