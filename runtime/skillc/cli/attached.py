@@ -49,12 +49,12 @@ class EventQueue:
     def _receive(self) -> None:
         try:
             for each in self._operation.events():
-                self._waiting.put(each)
+                self._waiting.put(each)  # wait ends: at once, the queue has no limit
         except ServiceError as error:
             self.error = str(error)
         except CancelledError:
             pass  # the connection is closed: nobody wants to know any more
-        self._waiting.put(None)
+        self._waiting.put(None)  # wait ends: at once, the queue has no limit
 
 
 def attach(cell: ServerCell, operation: ServerOperation) -> int:

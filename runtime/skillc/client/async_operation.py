@@ -148,7 +148,7 @@ class AsyncOperation:
         return self.status
 
     def __await__(self) -> Generator[Any, None, OperationStatus]:
-        return self.wait().__await__()
+        return self.wait().__await__()  # wait ends: with the operation, or whoever awaits it cancels it
 
     async def _command(self, command: Command) -> None:
         path = join("operations", self.id, "commands")

@@ -88,7 +88,7 @@ async def _receive(connection: Connection, hello: dict[str, object], kind: type[
 async def _read(socket: ClientConnection) -> str | bytes | None:
     """Return the next message; None if there are no more. RefusedError if the server refuses the request."""
     try:
-        return await socket.recv()
+        return await socket.recv()  # wait ends: with the connection, whose pings find a server that is gone
     except ConnectionClosed as closed:
         if closed.rcvd is not None and closed.rcvd.code == ENDED:
             return None

@@ -47,7 +47,7 @@ class LoopThread:
         """End the thread, and what goes on in it."""
         self.run(_end_tasks())
         self._loop.call_soon_threadsafe(self._loop.stop)
-        self._thread.join()
+        self._thread.join()  # wait ends: with the loop, which is stopped and has no tasks
         self._loop.close()
 
 
@@ -58,7 +58,7 @@ async def _next(items: AsyncGenerator[T, None]) -> T:
 async def _close(items: AsyncGenerator[Any, None]) -> None:
     """Close a generator, once it has stopped after an interrupt cancelled it."""
     assert isinstance(items, AsyncGeneratorType), "what `async def` with `yield` returns"
-    while items.ag_running:
+    while items.ag_running:  # wait ends: it was cancelled, and stops in the next round of the loop
         await asyncio.sleep(0.0)
     await items.aclose()
 

@@ -102,7 +102,7 @@ def wait_for_end(operation: ServerOperation) -> int:
     Who interrupts that is reminded that the operation goes on.
     """
     try:
-        status = operation.wait()
+        status = operation.wait()  # wait ends: with the operation, by an interrupt, or when the server is away too long
     except KeyboardInterrupt:
         remark_going_on(operation.id)
         raise

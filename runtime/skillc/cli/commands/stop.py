@@ -47,6 +47,7 @@ def command(operation: str | None, everything: bool, cell: str | None, why: str)
             found = [server.operation(operation)]
             found[0].stop(why)
         for each in found:
+            # wait ends: when the cell is at rest, by an interrupt, or when the server is away too long
             remark_status(each.wait())
 
 
