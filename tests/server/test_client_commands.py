@@ -45,7 +45,9 @@ def test_a_task_is_planned_approved_paused_stepped_and_stopped(here: RunningServ
     listed = json.loads(type_in("ps", "--json").stdout)
     assert [each["state"] for each in listed["operations"]] == ["planned"]
     assert listed["operations"][0]["request"]["priority"] == 2
-    assert type_in("approve", name).stderr == f"{name}: running\n"
+    approved = type_in("approve", name)
+    assert approved.exit_code == 0 and approved.stderr.startswith((f"{name}: queued", f"{name}: running"))
+    here.wait_for(name, "running")
     assert type_in("pause", "--why", "a look").stderr == f"{name}: paused: a look\n"
     refused = type_in("approve")
     assert (refused.exit_code, refused.stdout) == (1, "")

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from skillc.cells.operation import OperationStatus
     from skillc.client.operation import ServerOperation
     from skillc.client.server import Server
+    from skillc_runtime.recording.states import Decision
 
 SERVER = "Server"
 _URL, _TOKEN_FILE = "skillc.cli.server", "skillc.cli.token_file"
@@ -77,6 +78,30 @@ def make_operation_command(help: str, act: Callable[[ServerOperation], None], ex
             remark_status(found.status)
 
     return command
+
+
+def make_decision_command(help: str, decision: Decision, act: Callable[[ServerOperation], None]) -> click.Command:
+    """Return a command that decides about an operation that failed or was interrupted, and prints how it is then."""
+
+    @click.command(cls=Command, help=help)
+    @operation_argument
+    @server_options
+    def command(operation: str | None) -> None:
+        decide(operation, decision, act)
+
+    return command
+
+
+def decide(operation: str | None, decision: Decision, act: Callable[[ServerOperation], None], why: str = "") -> None:
+    """Give an operation a command; one that was interrupted is continued by another one, whose id is printed."""
+    with connect_server() as server:
+        found = server.operation(operation)
+        if found.last_status.state == "interrupted":
+            found = found.continue_as(decision, why)
+            click.echo(found.id)
+        else:
+            act(found)
+        remark_status(found.status)
 
 
 def remark_status(status: OperationStatus) -> None:

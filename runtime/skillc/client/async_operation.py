@@ -6,8 +6,9 @@ import asyncio
 from collections.abc import AsyncGenerator, Generator
 from contextlib import aclosing
 from typing import Any, Literal
+from uuid import uuid4
 
-from skillc.cells.operation import OperationStatus
+from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.client.connection import Connection, join
 from skillc.client.errors import UnavailableError
 from skillc.client.feed import follow_operation
@@ -19,7 +20,7 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import StateChanged, TaskEnded
-from skillc_runtime.recording.states import State
+from skillc_runtime.recording.states import Decision, State
 
 Depth = Literal["into", "over", "out"]
 STEPS: dict[Depth, Command] = {
@@ -130,6 +131,16 @@ class AsyncOperation:
     async def replan(self) -> None:
         """Halt what runs and plan again."""
         await self._command(commands.Replan())
+
+    async def continue_as(self, decision: Decision = "replan", why: str = "") -> AsyncOperation:
+        """Continue it after it was interrupted, and return the operation that does.
+
+        `status.decisions` are those that there are; `why` is why a step that is skipped counts as done.
+        """
+        request = OperationRequest(continues=self.id, decision=decision, why=why)
+        path = join("cells", self.status.cell, "operations")
+        status = await self._connection.send("POST", path, OperationStatus, request, key=str(uuid4()))
+        return AsyncOperation(self._connection, status)
 
     async def give(self, command: Command) -> None:
         """Give any command, without waiting for what it leads to."""

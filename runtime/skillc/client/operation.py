@@ -9,7 +9,7 @@ from skillc.client.async_operation import AsyncOperation, Depth
 from skillc.client.loop_thread import LoopThread
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.states import State
+from skillc_runtime.recording.states import Decision, State
 
 
 class ServerOperation:
@@ -101,6 +101,13 @@ class ServerOperation:
     def replan(self) -> None:
         """Halt what runs and plan again."""
         self._loop.run(self._operation.replan())
+
+    def continue_as(self, decision: Decision = "replan", why: str = "") -> ServerOperation:
+        """Continue it after it was interrupted, and return the operation that does.
+
+        `status.decisions` are those that there are; `why` is why a step that is skipped counts as done.
+        """
+        return ServerOperation(self._loop, self._loop.run(self._operation.continue_as(decision, why)))
 
     def give(self, command: Command) -> None:
         """Give any command, without waiting for what it leads to."""

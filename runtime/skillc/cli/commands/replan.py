@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from skillc.cli.server_access import make_operation_command
+from skillc.cli.server_access import make_decision_command
 
-command = make_operation_command(
-    "Halt what runs in OPERATION, which is paused or planned, and plan again.", lambda operation: operation.replan()
+command = make_decision_command(
+    "Halt what runs in OPERATION, which is paused or planned, and plan again. If OPERATION was interrupted, another "
+    "one continues it with a new plan; its id is printed.",
+    "replan",
+    lambda operation: operation.replan(),
 )
