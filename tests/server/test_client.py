@@ -146,6 +146,10 @@ def test_a_server_that_is_started_again_is_followed_on(tmp_path: Path) -> None:
         waiter.join(60.0)
         assert ends == ["interrupted"] and isinstance(found[-1].event, TaskEnded)
         assert [each.sequence for each in found] == list(range(1, operation.status.events + 1))
+        again = operation.continue_as("replan")
+        with pytest.raises(skillc.RefusedError):
+            operation.continue_as("retry")
+        assert (again.wait(60.0).state, operation.status.continued_by) == ("succeeded", again.id)
         assert next(each for each in states if isinstance(each, CellStatus)).state in ("off", "operational")
         server.process.send_signal(signal.SIGTERM)
         server.process.wait(30.0)
