@@ -16,7 +16,6 @@ import av
 from PIL import Image
 
 from docs.pages import ROOT
-from docs.terminal_pictures import write_terminal_pictures
 from operating.monitors import Monitor
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
@@ -138,6 +137,9 @@ def main(names: Iterable[str]) -> None:
         write_task_picture(picture)
         print(picture.file.relative_to(ROOT), file=sys.stderr)
     if not wanted:
+        # This needs a pseudo terminal, which Windows does not have.
+        from docs.terminal_pictures import write_terminal_pictures
+
         write_robots_picture()
         for file in write_terminal_pictures():
             print(file.relative_to(ROOT), file=sys.stderr)
