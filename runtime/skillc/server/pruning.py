@@ -1,4 +1,4 @@
-"""Forgets old operations of a server, with all that is kept of them."""
+"""Forgets old operations of a server, with their events."""
 
 from __future__ import annotations
 
@@ -23,12 +23,7 @@ def prune(state: Path, before_ns: int | None, max_bytes: int | None) -> dict[str
 
 
 def _prune_cell(cell: Path, before_ns: int | None, max_bytes: int | None) -> int:
-    count = 0
     try:
-        for operation in prune_journal(cell / JOURNAL, before_ns, max_bytes):
-            for file in cell.glob(f"*/{operation}.*"):
-                file.unlink(missing_ok=True)
-            count += 1
+        return sum(1 for _ in prune_journal(cell / JOURNAL, before_ns, max_bytes))
     except DatabaseError as error:
         raise ServiceError(str(error)) from error
-    return count

@@ -69,7 +69,7 @@ def restore(backup: Path, state: Path) -> None:
 @click.option("--older-than", "days", type=click.FloatRange(min=0.0), metavar="DAYS", help="Forget older operations.")
 @click.option("--larger-than", "size", type=Size(), help="Forget the oldest operations until a cell uses this size.")
 def prune(state: Path, days: float | None, size: int | None) -> None:
-    """Forget operations that have ended, with their events and recordings, also while a server uses the state.
+    """Forget operations that have ended, with their events, also while a server uses the state.
 
     The worlds of the cells and the audit log stay.
     """
