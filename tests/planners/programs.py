@@ -15,6 +15,7 @@ SMALL = Limits(memory_bytes=256 * 2**20, file_bytes=2**20)
 HANG = "sleep 600 & echo $! > {pids}/$$; echo $$ >> {pids}/$$; wait"
 CRASH = "kill -SEGV $$"
 GARBAGE = "head -c 100000 /dev/urandom"
+LONG_LINE = "head -c 100000 /dev/zero | tr '\\0' x"
 ENDLESS = "yes '(fly to the moon)'"
 FILL = "yes > big"
 HOG = f"exec {sys.executable} -c 'x = bytearray(2**30)'"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from planners.programs import CRASH, ENDLESS, FILL, GARBAGE, HANG, HOG, SMALL, ends, program, started
+from planners.programs import CRASH, ENDLESS, FILL, GARBAGE, HANG, HOG, LONG_LINE, SMALL, ends, program, started
 from planning.samples import CLEANED, LAB, WIPING
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.aries.solver import Aries
@@ -44,6 +44,7 @@ BROKEN = {
     CRASH: "ended by signal 11",
     GARBAGE: "",
     HANG: "ran out of time",
+    LONG_LINE: "",
     ENDLESS: "",
     FILL: "",
     HOG: "MemoryError",

@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import TypeAlias
 
+from skillc_dsl.rendering.printable import printable
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.platforms.memory import physical_bytes
 from skillc_runtime.platforms.sandbox import NOT_STARTED, end_sandboxed, start_sandboxed
@@ -20,6 +21,9 @@ POLL_S = 0.005
 
 TAIL_BYTES = 2**16
 """How much of the end of a program's output is read: the whole may not fit into memory."""
+
+LONGEST_LINE = 200
+"""How many characters of a line of a program's output a message shows; a broken program may print no line ends."""
 
 MOST_BYTES = 6 * 2**30
 """The most memory that a program may use, in bytes, however much there is."""
@@ -33,6 +37,12 @@ class Limits:
 
     memory_bytes: int
     file_bytes: int
+
+
+def quote_line(line: str) -> str:
+    """Return a line of a program's output for a message: without control characters, LONGEST_LINE at most."""
+    shown = printable(line.strip())
+    return shown if len(shown) <= LONGEST_LINE else f"{shown[:LONGEST_LINE]}\N{HORIZONTAL ELLIPSIS}"
 
 
 def make_workplace() -> TemporaryDirectory[str]:
@@ -59,8 +69,8 @@ class ProcessEnded:
 
     @property
     def last_line(self) -> str:
-        """The last line of the output that is not empty, or "nothing"."""
-        return next((line.strip() for line in reversed(self.output.splitlines()) if line.strip()), "nothing")
+        """The last line of the output that is not empty, as a message can show it, or "nothing"."""
+        return next((quote_line(line) for line in reversed(self.output.splitlines()) if line.strip()), "nothing")
 
 
 @dataclass(frozen=True, slots=True)

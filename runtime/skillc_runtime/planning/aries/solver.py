@@ -25,6 +25,7 @@ from skillc_runtime.planning.process import (
     RunningProcess,
     machine_limits,
     make_workplace,
+    quote_line,
     wait_for_end,
 )
 from skillc_runtime.planning.schedule import Schedule, TimedStep
@@ -121,7 +122,8 @@ def _read_result(outcome: ProcessResult, flat: FlatProblem) -> Schedule | _NoSch
         case ProcessEnded(0, output) if _NO_PLAN in output:
             return _NoSchedule()
         case ProcessEnded(code, output):
-            panic = next((line for line in output.splitlines() if "panicked" in line), outcome.last_line)
+            panics = (quote_line(line) for line in output.splitlines() if "panicked" in line)
+            panic = next(panics, outcome.last_line)
             how = f"was ended by signal {-code}" if code < 0 else f"ended with code {code}, its output: {panic}"
             return GaveUp(f"aries gave up: it {how}")
         case ProcessNotStarted(why):
