@@ -15,9 +15,10 @@ from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
+from skillc.cells.reality import RealityKeeper, build_again
 from skillc.cells.world import restore_world
 from skillc.services.assignments import assign_call, assign_goal, assign_task
-from skillc.services.backends import BackendName, make_backend
+from skillc.services.backends import BackendName
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import RequestError
 from skillc.services.libraries import compile_valid, find_task
@@ -84,12 +85,13 @@ class CellHost:
         reader: JournalReader,
         scene: Path,
     ) -> None:
-        """Build the cell; SheetError or FrameError if its scene cannot be simulated."""
+        """Build the cell; SheetError or FrameError if its scene cannot be simulated, DatabaseError of `build_again`."""
         self.settings, self.library = settings, library
         self.world, self._journal, self._reader = world, journal, reader
-        self._backend = make_backend(settings.backend, world, settings.seed)
+        self._backend = build_again(settings.backend, world, settings.seed, reader)
+        self._reality = RealityKeeper(self._backend, journal)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
-        self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=journal.commit)
+        self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
         self._operations: dict[str, _Submitted] = {}
 
     def describe(self, pace: float | None) -> CellStatus:
@@ -114,7 +116,7 @@ class CellHost:
         if self.loop.fault is None:
             raise RequestError(f"{self.settings.name} has no fault")
         try:
-            self._journal.commit()
+            self._commit()
         except NotDurable as error:
             raise RequestError(str(error)) from error
         self.loop.fault = None
@@ -176,8 +178,13 @@ class CellHost:
         """End all operations at once, and release the devices; an end that cannot be written is, at the next start."""
         self.loop.close(reason)
         with suppress(NotDurable):
-            self._journal.commit()
+            self._commit()
         self._backend.close()
+
+    def _commit(self) -> None:
+        """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""
+        self._reality.keep(standing=not self.loop.runs)
+        self._journal.commit()
 
     def _continue(self, operation: str, request: OperationRequest) -> None:
         """Submit an operation that continues another one, and note that at the other one."""

@@ -50,6 +50,10 @@ class Drawing(Protocol):
 class Simulation(Backend, Protocol):
     """A backend that knows the true state of its cell, and how it looks."""
 
+    def save(self) -> bytes:
+        """Return the true state of the cell, from which it can be built again with everything at rest."""
+        ...
+
     @property
     def ground_truth(self) -> GroundTruth:
         """The true state of the cell."""

@@ -21,6 +21,7 @@ from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Tra
 _INSERT_OPERATION = "INSERT INTO operations (id, submitted_ns, request) VALUES (?, ?, ?)"
 _END_OPERATION = "UPDATE operations SET ended = ? WHERE id = ?"
 _INSERT_EVENT = "INSERT INTO events (operation, sequence, envelope) VALUES (?, ?, ?)"
+_SET_STATE = "INSERT OR REPLACE INTO cell_state (name, value) VALUES (?, ?)"
 _INSERT_TRANSACTION = "INSERT INTO transactions (sequence, origin, evidence, changes, undo) VALUES (?, ?, ?, ?, ?)"
 
 
@@ -32,9 +33,10 @@ class _Pending:
     ended: list[tuple[bytes, str]] = field(default_factory=list)
     events: list[tuple[str, int, bytes]] = field(default_factory=list)
     writes: list[tuple[int, ChangeEvent]] = field(default_factory=list)
+    states: dict[str, bytes] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
-        return bool(self.operations or self.ended or self.events or self.writes)
+        return bool(self.operations or self.ended or self.events or self.writes or self.states)
 
 
 class CellJournal:
@@ -79,6 +81,15 @@ class CellJournal:
         """Record an event; a recorder for the publisher of a run."""
         self._pending.events.append((envelope.run, envelope.sequence, self._encoder.encode(envelope)))
 
+    def set_state(self, name: str, value: bytes) -> None:
+        """Record what the cell needs when it is started again, in place of what was recorded under this name."""
+        self._pending.states[name] = value
+
+    @property
+    def has_writes(self) -> bool:
+        """Whether the next commit makes writes to the world durable."""
+        return bool(self._pending.writes)
+
     def append(self, event: ChangeEvent, after: int) -> bool:
         """Record a write to the world as the transaction after number `after`; nobody else writes."""
         self._pending.writes.append((after + 1, event))
@@ -122,6 +133,7 @@ class CellJournal:
             self._connection.executemany(_INSERT_EVENT, pending.events)
             self._connection.executemany(_INSERT_TRANSACTION, rows)
             self._connection.executemany(_END_OPERATION, pending.ended)
+            self._connection.executemany(_SET_STATE, pending.states.items())
             self._connection.execute("COMMIT")
         except BaseException:
             if self._connection.in_transaction:

@@ -51,6 +51,9 @@ class JournalReader:
         self._connection = open_for_reading(path, SCHEMA)
         self._decoder = msgspec.json.Decoder(Envelope)
 
+    def __str__(self) -> str:
+        return str(self._path)
+
     def close(self) -> None:
         """Close the file."""
         self._connection.close()
@@ -80,6 +83,12 @@ class JournalReader:
         query = "SELECT coalesce(max(sequence), 0) FROM events WHERE operation = ?"
         with self._reading() as connection:
             return int(connection.execute(query, (operation,)).fetchone()[0])
+
+    def state(self, name: str) -> bytes | None:
+        """Return what the cell recorded last under a name; None if it never did."""
+        with self._reading() as connection:
+            row = connection.execute("SELECT value FROM cell_state WHERE name = ?", (name,)).fetchone()
+            return None if row is None else bytes(row[0])
 
     def writes(self) -> tuple[JournalledWrite, ...]:
         """Return the writes to the world, in order."""

@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+import sqlite3
+
 from skillc.cells.database import Schema
 
+_CELL_STATE = """CREATE TABLE cell_state (
+    name  TEXT PRIMARY KEY,
+    value BLOB NOT NULL
+) WITHOUT ROWID"""
+
+
+def _add_cell_state(connection: sqlite3.Connection) -> None:
+    connection.execute(_CELL_STATE)
+
+
 SCHEMA = Schema(
-    format=1,
-    tables="""
+    format=2,
+    tables=f"""{_CELL_STATE};
 CREATE TABLE operations (
     id           TEXT PRIMARY KEY,
     submitted_ns INTEGER NOT NULL,              -- wall time, ns since 1970-01-01 UTC
@@ -28,4 +40,5 @@ CREATE TABLE transactions (
     undo     TEXT NOT NULL                      -- the changes that lead back to the version before
 )
 """,
+    migrations={1: _add_cell_state},
 )

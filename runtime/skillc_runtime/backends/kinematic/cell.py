@@ -12,9 +12,10 @@ from skillc_runtime.backends.kinematic.riders import Riders
 from skillc_runtime.backends.kinematic.touch import Touch
 from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, SimulatedCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
+from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_scene_again
 from skillc_runtime.backends.simulation.contact_bits import SOLID
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
-from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.evidence import Evidence
@@ -35,13 +36,15 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         timestep_s: float = 0.002,
         steps_per_command: int = 1,
         reality: Callable[[SceneSpec], Variation] = exact_variation,
+        checkpoint: Checkpoint | None = None,
     ) -> None:
         """Build the cell; controllers run every `steps_per_command` steps.
 
+        With a checkpoint of an earlier cell, all is as it was there.
         Raises SheetError or FrameError if facts are missing or contradict the models.
         """
-        scene = read_scene_spec(world.snapshot())
-        super().__init__(world, scene, reality(scene), timestep_s, steps_per_command)
+        scene = read_scene_again(world.snapshot(), checkpoint)
+        super().__init__(world, scene, reality(scene), timestep_s, steps_per_command, checkpoint)
 
     def _weigh_evidence(self, changes: Sequence[Change], stated: Evidence) -> Evidence:
         """Let only what does not depend on contact count as sensed or reported: where bases are, and device states."""
@@ -63,7 +66,7 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
         for facts in self.scene.arms:
             palm = None if facts.gripper is None else names[facts.gripper.individual]
-            name, start = names[facts.individual], self.variation.start(facts)
+            name, start = names[facts.individual], self._start(facts)
             arm = KinematicArm(facts, name, palm, self.model, self.data, start, self._steps_per_command)
             arms[facts.individual] = arm
             if facts.gripper is not None:

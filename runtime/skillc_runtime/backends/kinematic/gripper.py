@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.checkpoint import SavedGrip
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
@@ -35,7 +36,7 @@ class KinematicGripper(ModelledGripper):
         data: Any,
     ) -> None:
         super().__init__(facts, names, things, arm, model, data, FingerSensor())
-        self._in_palm = np.zeros(7)
+        self._held_in_palm = np.zeros(7)
 
     @property
     def _true_opening_m(self) -> float:
@@ -71,11 +72,11 @@ class KinematicGripper(ModelledGripper):
 
     def move_held(self, centre: Array, twist: Array) -> None:
         """Place a held object in the palm; twist (6,): of the palm, [angular; linear] at `centre` (3,) in the world."""
-        in_palm, data, palm = self._in_palm, self._data, self._palm
+        in_palm, data, palm = self._held_in_palm, self._data, self._palm
         place_held(self._free_position, self._free_speed, in_palm, data.xpos[palm], data.xquat[palm], centre, twist)
 
-    def _hold(self, thing: str, in_palm: Pose) -> None:
-        self._in_palm[:3], self._in_palm[3:] = in_palm.position, quaternion_from_rotation(in_palm.rotation)
+    def _hold(self, thing: str, in_palm: Pose, grip: SavedGrip | None) -> None:
+        self._held_in_palm[:3], self._held_in_palm[3:] = in_palm.position, quaternion_from_rotation(in_palm.rotation)
         free = self._model.joint(part_name(self._names[thing], "free"))
         self._free_position = self._data.qpos[free.qposadr[0] : free.qposadr[0] + 7]
         self._free_speed = self._data.qvel[free.dofadr[0] : free.dofadr[0] + 6]
@@ -83,6 +84,14 @@ class KinematicGripper(ModelledGripper):
     def _let_go(self, thing: str) -> None:
         """Leave the object where it is, at rest."""
         self._free_speed[:] = 0.0
+
+    def _save_grip(self) -> None:
+        """A grasp holds."""
+
+    def _restore_fingers(self, opening_m: float, force_n: float) -> None:
+        """Let the fingers rest at an opening in m; the force in N has no effect."""
+        self._set_fingers(opening_m)
+        self._goal = opening_m
 
     def _is_at_force_limit(self) -> bool:
         """Return whether the fingers were stopped by what they touch."""

@@ -8,8 +8,7 @@ from skillc_runtime.backends.mujoco.wrist import Wrist
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.backends.simulation.variation import Variation
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
 
 
 class SimulatedArm(ModelledArm):
@@ -22,14 +21,16 @@ class SimulatedArm(ModelledArm):
         gripper: str | None,
         model: Any,
         data: Any,
-        reality: Variation,
+        start: Array,
+        seed: int,
         steps_per_command: int = 1,
     ) -> None:
-        noise = make_joint_noise(facts, reality.seed)
+        """Place the joints at `start` (nv,) in rad; the noise of the sensors follows from the seed."""
+        noise = make_joint_noise(facts, seed)
         self._wrist: Wrist | None = None
-        super().__init__(facts, name, gripper, model, data, reality.start(facts), steps_per_command, noise)
+        super().__init__(facts, name, gripper, model, data, start, steps_per_command, noise)
         if self._feels_force and gripper is not None:
-            time_s, noise = facts.sheet.number("forceTorqueTime"), make_wrist_noise(facts, reality.seed)
+            time_s, noise = facts.sheet.number("forceTorqueTime"), make_wrist_noise(facts, seed)
             self._wrist = Wrist(model, data, gripper, time_s, self._gain, self._readings, noise)
             self.carry_nothing()
 

@@ -11,7 +11,8 @@ from skillc_runtime.backends.mujoco.cargo import InertialCargo
 from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.simulation.cell import ModelledCell
-from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_scene_again
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.frames import relocation_changes, size
@@ -34,13 +35,16 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         timestep_s: float = 0.001,
         steps_per_command: int = 1,
         reality: Callable[[SceneSpec, int], Variation] = draw_variation,
+        checkpoint: Checkpoint | None = None,
     ) -> None:
         """Build the cell; controllers run every `steps_per_command` steps, `reality` draws how it differs from facts.
 
+        With a checkpoint of an earlier cell of the same seed, all is as it was there.
+
         Raises SheetError or FrameError if facts are missing or contradict the models.
         """
-        scene = read_scene_spec(world.snapshot())
-        super().__init__(world, scene, reality(scene, seed), timestep_s, steps_per_command)
+        scene = read_scene_again(world.snapshot(), checkpoint)
+        super().__init__(world, scene, reality(scene, seed), timestep_s, steps_per_command, checkpoint)
 
     def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
         names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
@@ -48,7 +52,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             gripper = facts.gripper
             palm = None if gripper is None else names[gripper.individual]
             name, steps = names[facts.individual], self._steps_per_command
-            arm = SimulatedArm(facts, name, palm, self.model, self.data, self.variation, steps)
+            arm = SimulatedArm(facts, name, palm, self.model, self.data, self._start(facts), self.variation.seed, steps)
             arms[facts.individual] = arm
             if gripper is not None:
                 hands[facts.individual] = SimulatedGripper(

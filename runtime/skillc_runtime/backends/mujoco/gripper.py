@@ -9,10 +9,12 @@ from __future__ import annotations
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from skillc_runtime.backends.mujoco.grip import Grip, make_grip
 from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.checkpoint import SavedGrip
 from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name, weld_name
@@ -41,7 +43,7 @@ class SimulatedGripper(ModelledGripper):
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self._data.ctrl[self._actuator] = self._target = self._goal
-        self._still_since = 0.0
+        self._still_since, self._limit_n = 0.0, float(model.actuator_forcerange[self._actuator, 1])
         self._grip: Grip | None = None
         self._present: Any = None
 
@@ -73,8 +75,7 @@ class SimulatedGripper(ModelledGripper):
 
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""
-        force = min(force_n, self._facts.max_force_n)
-        self._model.actuator_forcerange[self._actuator] = (-force, force)
+        self._limit(min(force_n, self._facts.max_force_n))
         self._goal = min(max(opening_m, 0.0), self._facts.max_opening_m)
         self._target, self._idle, self._still_since = self._true_opening_m, False, self._data.time
 
@@ -106,7 +107,7 @@ class SimulatedGripper(ModelledGripper):
     def lose(self) -> None:
         """Remove the weld of the carried object; contact and friction hold it as they can, and the fingers close on."""
         self.drop()
-        self.move(0.0, float(self._model.actuator_forcerange[self._actuator, 1]))
+        self.move(0.0, self._limit_n)
 
     def loss_message(self) -> str | None:
         """Return a message if the fingers have closed further than on what counts as held, else None."""
@@ -117,12 +118,19 @@ class SimulatedGripper(ModelledGripper):
             f"{self._held_at_m * 1e3:.0f} mm to {self.opening_m * 1e3:.0f} mm"
         )
 
-    def _hold(self, thing: str, in_palm: Pose) -> None:
+    def _limit(self, force_n: float) -> None:
+        """Limit the force of the fingers."""
+        self._limit_n, self._model.actuator_forcerange[self._actuator] = force_n, (-force_n, force_n)
+
+    def _hold(self, thing: str, in_palm: Pose, grip: SavedGrip | None) -> None:
         """Activate the weld."""
         equality = self._model.equality(weld_name(self._name, self._names[thing])).id
-        force = abs(float(self._data.actuator_force[self._actuator]))
-        normals, friction = self._contacts_with(thing)
-        self._grip = make_grip(self._data, equality, self._palm, normals, friction, force)
+        if grip is None:
+            force = abs(float(self._data.actuator_force[self._actuator]))
+            normals, friction = self._contacts_with(thing)
+            self._grip = make_grip(self._data, equality, self._palm, normals, friction, force)
+        else:
+            self._grip = Grip(equality, self._palm, np.array(grip.pressing), grip.force_n, grip.bears_n)
         row, turn = self._model.eq_data[equality], quaternion_from_rotation(in_palm.rotation)
         row[:3], row[3:6], row[6:10], row[10] = 0.0, in_palm.position, turn, 1.0
         self._data.eq_active[equality] = 1
@@ -132,8 +140,18 @@ class SimulatedGripper(ModelledGripper):
         equality = self._model.equality(weld_name(self._name, self._names[thing])).id
         self._data.eq_active[equality], self._grip = 0, None
 
+    def _save_grip(self) -> SavedGrip | None:
+        """Return how friction holds what is carried."""
+        if self._grip is None:
+            return None
+        x, y, z = self._grip.pressing.tolist()
+        return SavedGrip((x, y, z), self._grip.force_n, self._grip.bears_n)
+
+    def _restore_fingers(self, opening_m: float, force_n: float) -> None:
+        """Let the fingers rest at an opening in m, with at most a force in N."""
+        self._limit(force_n)
+        self._goal = self._target = self._data.ctrl[self._actuator] = opening_m
+
     def _is_at_force_limit(self) -> bool:
         """Return whether the servo pushes with its greatest force."""
-        return bool(
-            abs(self._data.actuator_force[self._actuator]) > 0.95 * self._model.actuator_forcerange[self._actuator, 1]
-        )
+        return bool(abs(self._data.actuator_force[self._actuator]) > 0.95 * self._limit_n)

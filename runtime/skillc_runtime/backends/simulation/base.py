@@ -79,6 +79,12 @@ class SimulatedBase:
         """Why the base stopped by itself on the way to the last goal; None if it did not."""
         return self._fault
 
+    def place(self, pose: Pose) -> None:
+        """Put a base that is at rest somewhere else."""
+        self._pose = pose
+        self._data.mocap_pos[self._mocap] = pose.position
+        self._data.mocap_quat[self._mocap] = quaternion_from_rotation(pose.rotation)
+
     def drive_to(self, goal: Pose) -> None:
         """Begin to drive: brake if the base moves, rotate towards the goal, drive straight, rotate to its heading.
 
@@ -116,12 +122,10 @@ class SimulatedBase:
         leg, before = self._legs[0], self._pose
         if self._steps % STEPS_PER_CHECK == 0 and self._is_blocked(leg.at(self._time)):
             return None
-        self._pose = leg.at(self._time)
+        self.place(leg.at(self._time))
         if self._time >= leg.profile.duration:
             self._legs, self._time = self._legs[1:], 0.0
             self._done = not self._legs and not self._stopped
-        self._data.mocap_pos[self._mocap] = self._pose.position
-        self._data.mocap_quat[self._mocap] = quaternion_from_rotation(self._pose.rotation)
         return self._pose @ before.inverse()
 
     def _is_blocked(self, pose: Pose) -> bool:

@@ -13,6 +13,13 @@ from skillc_runtime.backends.simulation.base import SimulatedBase
 from skillc_runtime.backends.simulation.button import SimulatedButton, make_buttons
 from skillc_runtime.backends.simulation.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cargo import Cargo
+from skillc_runtime.backends.simulation.checkpoint import (
+    Checkpoint,
+    encode_checkpoint,
+    read_posture,
+    restore_cell,
+    save_cell,
+)
 from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
@@ -23,7 +30,7 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
-from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.variation import Variation
@@ -53,14 +60,15 @@ class ModelledCell(ABC, Generic[A, G]):
     cargo_type: type[Cargo] = Cargo
 
     def __init__(
-        self, world: WorldModel, scene: SceneSpec, variation: Variation, timestep_s: float, steps_per_command: int
-    ) -> None:
-        """Build the cell; controllers run every `steps_per_command` steps.
+        self, world: WorldModel, scene: SceneSpec, variation: Variation, timestep_s: float, steps_per_command: int,
+        checkpoint: Checkpoint | None = None,
+    ) -> None:  # fmt: skip
+        """Build the cell, as it was at a checkpoint; controllers run every `steps_per_command` steps.
 
         Raises SheetError or FrameError if facts are missing or contradict the models.
         """
         log_warnings()
-        self._world, self.scene, self.variation = world, scene, variation
+        self._world, self.scene, self.variation, self._restored = world, scene, variation, checkpoint
         self.model: Any = build_model(scene, variation, timestep_s)
         self.data: Any = mujoco.MjData(self.model)
         self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
@@ -72,12 +80,14 @@ class ModelledCell(ABC, Generic[A, G]):
         bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
         self._bases = DeviceMap("mobile base", bases, names)
         self._cargo = {r: self.cargo_type(scene, r, self._hands, self.model, self.data) for r in self._bases}
+        poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
+        self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
+        if checkpoint is not None:
+            restore_cell(checkpoint, self.model, self.data, self._bases, self._grippers, self.coverage)
         self._prepare()
         drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
         self._drivers = DeviceMap("arm", drivers, names)
         self._stopper = DeviceStopper(self._drivers, self._grippers, self._bases, names)
-        poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
-        self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
         self._observers = {
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
         }
@@ -88,16 +98,9 @@ class ModelledCell(ABC, Generic[A, G]):
         self.people = make_people(scene, variation, self._drivers, self.data)
         self._touches = TouchRecorder(scene, self.model, self.data, self._held_things)
         self.ground_truth: GroundTruth = SimulatedTruth(
-            scene,
-            variation,
-            self._observers,
-            self.coverage,
-            self._buttons,
-            self.people,
-            self._touches,
-            self._grippers,
+            scene, variation, self._observers, self.coverage, self._buttons, self.people, self._touches, self._grippers,
             self.data,
-        )
+        )  # fmt: skip
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
@@ -189,6 +192,11 @@ class ModelledCell(ABC, Generic[A, G]):
         for changes, origin, evidence in reports:
             self._world.commit(changes, origin, evidence)
 
+    def save(self) -> bytes:
+        """Return the true state of the cell as an encoded checkpoint, from which it can be built again."""
+        cell = save_cell(self.scene, self.model, self.data, self._bases, self._grippers, self.coverage)
+        return encode_checkpoint(cell)
+
     def stop_all(self, reason: str) -> None:
         """Stop all devices; arms report the reason as a fault."""
         self._stopper.abort(reason)
@@ -211,6 +219,10 @@ class ModelledCell(ABC, Generic[A, G]):
     def _weigh_evidence(self, changes: Sequence[Change], stated: Evidence) -> Evidence:
         """Return the evidence that counts for changes of the world model, of what their writer states."""
         return stated
+
+    def _start(self, arm: ArmSpec) -> Array:
+        """Return the posture (nv,) in rad in which an arm is built."""
+        return read_posture(self._restored, self.scene.names[arm.individual], self.variation.start(arm))
 
     @abstractmethod
     def _make_arms(self) -> tuple[dict[str, A], dict[str, G]]:

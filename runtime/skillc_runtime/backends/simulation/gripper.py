@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.names import part_name
@@ -18,7 +19,6 @@ from skillc_runtime.world.space.bodies import RigidBody
 
 OPPOSING = -0.7
 """Cosine below which two contact normals count as opposite sides."""
-
 
 NOTHING: frozenset[int] = frozenset()
 
@@ -51,6 +51,7 @@ class ModelledGripper(ABC):
         self._tool_centre = model.site(part_name(self._name, "tcp")).id
         self.pads = frozenset(_pads(model, self._name))
         self._holding, self._held_at_m, self._carried = "", 0.0, ""
+        self._in_tool_centre, self._payload_kg, self._limit_n = Pose.of((0.0, 0.0, 0.0)), 0.0, 0.0
         self._idle, self._goal = True, facts.first_opening_m
         self._set_fingers(facts.first_opening_m)
 
@@ -136,18 +137,37 @@ class ModelledGripper(ABC):
         """
         if not self.blocked:
             raise RuntimeError(f"nothing keeps the fingers of {self._name} from closing")
-        held = self._things.get(thing)
-        if held is None:
+        if thing not in self._things:
             raise RuntimeError(
                 f"{self._names.get(thing, thing)} cannot be held: it had no body when the cell was built. "
                 "A thing to handle needs a pose and skiros:SizeX, SizeY and SizeZ in the scene"
             )
-        self._holding, self._held_at_m = thing, self.opening_m
+        self._count(thing, self.opening_m, in_tool_centre, mass_kg)
         self._carry(next((each for each in (thing, *self._things) if self.touches(each)), ""))
-        block = self._model.body(part_name(self._names[thing], "block")).id
-        centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
-        payload = Payload(mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
-        self._arm.carry(payload, in_tool_centre @ working_face(held.size))
+
+    def save(self) -> SavedGripper:
+        """Return the state of the gripper, at rest."""
+        carried = bool(self._carried)
+        in_palm = self._in_palm(self._carried) if carried else Pose.of((0.0, 0.0, 0.0))
+        return SavedGripper(
+            opening_m=self._true_opening_m,
+            force_n=self._limit_n,
+            carried=self._carried,
+            in_palm=list_numbers(in_palm),
+            grip=self._save_grip() if carried else None,
+            counted=self._holding,
+            counted_at_m=self._held_at_m,
+            in_tool_centre=list_numbers(self._in_tool_centre),
+            mass_kg=self._payload_kg,
+        )
+
+    def restore(self, saved: SavedGripper) -> None:
+        """Take the state of an earlier gripper, once positions are computed; it does not hold what has no body here."""
+        self._restore_fingers(saved.opening_m, saved.force_n)
+        if saved.carried in self._things:
+            self._fix(saved.carried, make_pose(saved.in_palm), saved.grip)
+        if saved.counted in self._things:
+            self._count(saved.counted, saved.counted_at_m, make_pose(saved.in_tool_centre), saved.mass_kg)
 
     def detach(self) -> None:
         """Hold nothing; the arm's payload and tool centre point become those of the empty gripper."""
@@ -167,10 +187,22 @@ class ModelledGripper(ABC):
         """Let an object, which the fingers touch, move with the palm; none if empty."""
         self.drop()
         if thing:
-            block = self._model.body(part_name(self._names[thing], "block")).id
-            self._hold(thing, self._pose(self._palm).inverse() @ self._pose(block))
-            self._carried = thing
-            self._set_grip_contact(thing, False)
+            self._fix(thing, self._in_palm(thing), None)
+
+    def _fix(self, thing: str, in_palm: Pose, grip: SavedGrip | None) -> None:
+        """Let an object move with the palm; `grip` is how friction holds it, None if that is to be measured."""
+        self._hold(thing, in_palm, grip)
+        self._carried = thing
+        self._set_grip_contact(thing, False)
+
+    def _count(self, thing: str, opening_m: float, in_tool_centre: Pose, mass_kg: float) -> None:
+        """Count an object as held between fingers with a measured opening; it is the arm's payload."""
+        self._holding, self._held_at_m = thing, opening_m
+        self._in_tool_centre, self._payload_kg = in_tool_centre, mass_kg
+        block = self._model.body(part_name(self._names[thing], "block")).id
+        centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
+        payload = Payload(mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
+        self._arm.carry(payload, in_tool_centre @ working_face(self._things[thing].size))
 
     def _has_closed_further(self) -> bool:
         """Whether the fingers have closed so far since they took hold that what they held is not between them."""
@@ -203,8 +235,16 @@ class ModelledGripper(ABC):
         """Return whether the fingers press with the force that they were given."""
 
     @abstractmethod
-    def _hold(self, thing: str, in_palm: Pose) -> None:
-        """Fix an object to the palm, at its true pose there."""
+    def _hold(self, thing: str, in_palm: Pose, grip: SavedGrip | None) -> None:
+        """Fix an object to the palm, at its true pose there; how friction holds it is measured if `grip` is None."""
+
+    @abstractmethod
+    def _save_grip(self) -> SavedGrip | None:
+        """Return how friction holds what is carried; None if that is not computed."""
+
+    @abstractmethod
+    def _restore_fingers(self, opening_m: float, force_n: float) -> None:
+        """Let the fingers rest at an opening in m, with at most a force in N."""
 
     @abstractmethod
     def _let_go(self, thing: str) -> None:
@@ -225,6 +265,11 @@ class ModelledGripper(ABC):
         self._model.geom_conaffinity[handles] = met[handles] & (~0 if on else ~PAD)
         if not on:
             self.stop()
+
+    def _in_palm(self, thing: str) -> Pose:
+        """Return the true pose of an object in the palm."""
+        block = self._model.body(part_name(self._names[thing], "block")).id
+        return self._pose(self._palm).inverse() @ self._pose(block)
 
     def _contacts_with(self, thing: str) -> tuple[list[Array], float]:
         """Return the contact normals (3,), in the world, of pads on an object, and the least friction."""

@@ -1,0 +1,139 @@
+"""A simulated cell goes on where it was when its process died: what was held is held, what was done is done."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+from msgspec import structs
+
+from running_cells.test_operations import run_all
+from skillc.cells.database import DatabaseError
+from skillc.cells.host import CellHost, CellSettings, open_cell
+from skillc.cells.operation import OperationRequest
+from skillc.services.backends import BackendName
+from skillc.services.library_files import SHIPPED
+from skillc.services.reporting import SilentReporter
+from skillc_ontology import catalogue
+from skillc_runtime.backends.simulation.cell import ModelledCell
+from skillc_runtime.motion.pose import Array
+
+SORTING = "sorting", "sort_parts", str(SHIPPED / "sorting" / "panda.ttl")
+TABLE = "wiping", "clean_table", str(catalogue.scene_path("iiwa_table"))
+PEG = "contact", "insert_peg", str(catalogue.scene_path("panda_peg"))
+
+
+def make_settings(folder: Path, case: tuple[str, str, str], backend: BackendName) -> CellSettings:
+    library, _, scene = case
+    return CellSettings(
+        name="cell", scene=scene, library=library, folder=str(folder / "state"), backend=backend, seed=3
+    )
+
+
+def reality(host: CellHost) -> ModelledCell:  # type: ignore[type-arg]
+    assert isinstance(host.loop.backend, ModelledCell)
+    return host.loop.backend
+
+
+def find_places(host: CellHost) -> dict[str, Array]:
+    """Return where things really are (3,), in m, and the postures (nv,) of the arms in rad."""
+    cell = reality(host)
+    things = {each.individual: cell.ground_truth.body_pose(each.individual).position for each in cell.scene.graspable}
+    return things | {name: each.state().q.copy() for name, each in cell.arms.items()}
+
+
+@contextmanager
+def crashed(settings: CellSettings, task: str, ticks: int) -> Iterator[tuple[CellHost, CellHost]]:
+    """Yield a cell after some ticks of a task, and the same again, from a copy of what its disk had then."""
+    image = Path(settings.folder).with_name("image")
+    with open_cell(settings, SilentReporter()) as host:
+        host.submit("first", OperationRequest(task=task))
+        while host.loop.ticks < ticks:
+            if not host.tick():
+                host.loop.wait(0.1)
+        shutil.copytree(settings.folder, image)
+        with open_cell(structs.replace(settings, folder=str(image)), SilentReporter()) as again:
+            yield host, again
+
+
+@pytest.mark.parametrize(
+    ("case", "backend", "moments"),
+    [
+        (SORTING, "kinematic", (450, 2800)),
+        pytest.param(SORTING, "mujoco", (400, 2900), marks=pytest.mark.sim),
+        pytest.param(TABLE, "mujoco", (500, 4000), marks=pytest.mark.sim),
+        pytest.param(PEG, "mujoco", (500, 2500), marks=pytest.mark.sim),
+    ],
+)
+def test_what_was_interrupted_at_any_moment_is_continued_from_there(
+    case: tuple[str, str, str], backend: BackendName, moments: tuple[int, int], tmp_path: Path
+) -> None:
+    for number in range(3):
+        ticks = Random(number).randint(*moments)
+        settings = make_settings(tmp_path / str(number), case, backend)
+        with crashed(settings, case[1], ticks) as (before, again):
+            held = [hand.carries for hand in reality(before)._grippers.values()]
+            assert [hand.carries for hand in reality(again)._grippers.values()] == held, ticks
+            again.submit("again", OperationRequest(continues="first"))
+            (ended,) = run_all(again)
+            assert ended.state == "succeeded", (ticks, ended.reason)
+            cell = reality(again)
+            truth = {each: hand.carries for each, hand in cell._grippers.items()}
+            assert {each: hand.holding for each, hand in cell._grippers.items()} == truth
+            assert all(each.wiped_share > 0.99 for each in cell.coverage.values())
+
+
+@pytest.mark.parametrize("ticks", [700, 1250])
+def test_a_cell_that_dies_in_the_air_is_there_again_and_at_rest(ticks: int, tmp_path: Path) -> None:
+    with crashed(make_settings(tmp_path, SORTING, "kinematic"), SORTING[1], ticks) as (before, again):
+        where, later = find_places(before), find_places(again)
+        assert max(float(np.abs(where[each] - later[each]).max()) for each in where) < 1.0, "as of the last second"
+        assert reality(again).is_at_rest()
+        for _ in range(50):
+            again.loop.backend.advance(0.01)
+        assert all(np.allclose(find_places(again)[each], later[each], atol=1e-6) for each in later)
+
+
+def test_a_cell_that_was_closed_is_exactly_where_it_was(tmp_path: Path) -> None:
+    settings = make_settings(tmp_path, SORTING, "kinematic")
+    with open_cell(settings, SilentReporter()) as host:
+        host.submit("first", OperationRequest(task=SORTING[1]))
+        for _ in range(700):
+            if not host.tick():
+                host.loop.wait(0.1)
+        host.stop("first", "enough")
+        run_all(host)
+        where = find_places(host)
+    with open_cell(settings, SilentReporter()) as again:
+        assert all(np.allclose(find_places(again)[each], where[each], atol=1e-9) for each in where)
+
+
+def test_a_simulation_that_cannot_be_read_is_refused_with_a_sentence(tmp_path: Path) -> None:
+    settings = make_settings(tmp_path, SORTING, "kinematic")
+    with open_cell(settings, SilentReporter()) as host:
+        host.tick()
+    with closing(sqlite3.connect(settings.journal, isolation_level=None)) as database:
+        database.execute("UPDATE cell_state SET value = x'00'")
+    with (
+        pytest.raises(DatabaseError, match=r"journal\.sqlite has a simulation that cannot be read .*restore a backup"),
+        open_cell(settings, SilentReporter()),
+    ):
+        pass
+
+
+def test_a_journal_of_the_first_format_is_migrated_and_a_copy_kept(tmp_path: Path) -> None:
+    settings = make_settings(tmp_path, SORTING, "kinematic")
+    with open_cell(settings, SilentReporter()) as host:
+        host.tick()
+    with closing(sqlite3.connect(settings.journal, isolation_level=None)) as database:
+        database.execute("DROP TABLE cell_state")
+        database.execute("PRAGMA user_version = 1")
+    with open_cell(settings, SilentReporter()) as host:
+        assert host.describe(None).state == "operational"
+    assert settings.journal.with_name("journal.sqlite.format-1").exists()
