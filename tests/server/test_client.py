@@ -44,6 +44,7 @@ def test_an_operation_is_commanded_like_one_of_the_program(server: RunningServer
         connected.operation().id
     )
     operation.approve()
+    wait_until(lambda: operation.state, lambda state: state == "running")
     operation.pause("look")
     assert (operation.state, operation.reason) == ("paused", "look")
     with pytest.raises(skillc.RefusedError, match=r"`approve` is not possible while the task is paused; it allows"):
