@@ -133,6 +133,7 @@ def test_a_journal_of_the_first_format_is_migrated_and_a_copy_kept(tmp_path: Pat
         host.tick()
     with closing(sqlite3.connect(settings.journal, isolation_level=None)) as database:
         database.execute("DROP TABLE cell_state")
+        database.execute("ALTER TABLE transactions DROP COLUMN written_ns")
         database.execute("PRAGMA user_version = 1")
     with open_cell(settings, SilentReporter()) as host:
         assert host.describe(None).state == "operational"

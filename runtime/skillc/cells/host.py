@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
@@ -16,6 +16,8 @@ from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.reality import RealityKeeper, build_again
+from skillc.cells.snapshot import CellSnapshot, encode_snapshot
+from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
 from skillc.services.assignments import assign_call, assign_goal, assign_task
 from skillc.services.backends import BackendName
@@ -25,6 +27,7 @@ from skillc.services.libraries import compile_valid, find_task
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
+from skillc.services.world_edits import read_edits
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import CellOrigin
@@ -34,14 +37,15 @@ from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import prepare_after
-from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
-from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.transactions import StoreError
+from skillc_runtime.world.state.world_state import WorldState
 
 JOURNAL, WORLD = "journal.sqlite", "world"
 """The files of a cell in its folder."""
@@ -92,7 +96,8 @@ class CellHost:
         self._reality = RealityKeeper(self._backend, journal)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
         self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
-        self._operations: dict[str, _Submitted] = {}
+        self._operations: dict[str, SubmittedOperation] = {}
+        self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
 
     def describe(self, pace: float | None) -> CellStatus:
         """Return the cell as it is now; `pace` is what its ticks are limited to."""
@@ -150,6 +155,22 @@ class CellHost:
         elif (submitted := self._operations.get(operation)) is not None:
             self.loop.stop(reason, submitted.run)
 
+    def take_snapshot(self) -> bytes:
+        """Return what the cell knows now, encoded; the same again while nothing is written."""
+        state = self.world.snapshot()
+        if self._snapshot[0] is not state:
+            known = CellSnapshot(self.library, state, self.world.ledger, self.world.sequence)
+            self._snapshot = state, encode_snapshot(known)
+        return self._snapshot[1]
+
+    def edit(self, edits: Sequence[str], origin: str) -> None:
+        """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
+        changes = read_edits(edits, self.world.snapshot())
+        try:
+            self.world.commit(changes, origin, None)
+        except (WorldError, StoreError) as error:
+            raise RequestError(str(error)) from error
+
     def take_changed(self) -> tuple[OperationStatus, ...]:
         """Return the operations that have changed since this was called last.
 
@@ -203,7 +224,7 @@ class CellHost:
         assert earlier.ended is not None, "it was interrupted"
         self._journal.end_operation(structs.replace(earlier.ended, decisions=(), continued_by=operation))
 
-    def _submit(self, operation: str, request: OperationRequest, continuation: Continuation) -> _Submitted:
+    def _submit(self, operation: str, request: OperationRequest, continuation: Continuation) -> SubmittedOperation:
         """Submit a run to the loop."""
         gate = Gate(parse_breakpoints(request.breakpoints, self.library))
         if request.step:
@@ -214,7 +235,7 @@ class CellHost:
         self._journal.add_operation(operation, request)
         publisher = Publisher(operation, (self._journal.record,))
         run = self.loop.submit(continuation.assignment, (publisher,), settings, gate, operation, start)
-        self._operations[operation] = _Submitted(request, run, publisher, self.library.hash)
+        self._operations[operation] = SubmittedOperation(request, run, publisher, self.library.hash)
         return self._operations[operation]
 
     def _assign(self, request: OperationRequest) -> Assignment:
@@ -231,29 +252,6 @@ class CellHost:
 
     def _plan(self, assignment: Assignment, failures: FailedSteps) -> PlanningJob:
         return PlanningJob(assignment, self.library, failures)
-
-
-class _Submitted:
-    """An operation of a host."""
-
-    def __init__(self, request: OperationRequest, run: TaskRun, publisher: Publisher, library_hash: str) -> None:
-        self.request, self.run, self.publisher, self.library_hash = request, run, publisher, library_hash
-        self.reported: OperationStatus | None = None
-
-    def describe(self, cell: str) -> OperationStatus:
-        run = self.run
-        return OperationStatus(
-            id=run.id,
-            cell=cell,
-            request=self.request,
-            state=run.state,
-            reason=run.waits_for or run.reason,
-            allowed=run.allowed,
-            events=self.publisher.sequence,
-            verified=run.verified,
-            failure=run.failure,
-            library_hash=self.library_hash,
-        )
 
 
 @contextmanager

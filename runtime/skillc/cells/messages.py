@@ -42,13 +42,25 @@ class Acknowledge(_Message, tag="acknowledge", frozen=True, kw_only=True):
     """The cause of a fault is removed: take operations again."""
 
 
+class TakeSnapshot(_Message, tag="snapshot", frozen=True, kw_only=True):
+    """Answer with what the cell knows now; see `snapshot.py`."""
+
+
+class Edit(_Message, tag="edit", frozen=True, kw_only=True):
+    """Change the world in one transaction; the edits are statements, `who` makes them, and `why`."""
+
+    edits: tuple[str, ...]
+    who: str
+    why: str
+
+
 class End(_Message, tag="end", frozen=True, kw_only=True):
     """Stop everything and end the process."""
 
     reason: str
 
 
-Message: TypeAlias = Submit | Give | SetPace | Acknowledge | End
+Message: TypeAlias = Submit | Give | SetPace | Acknowledge | TakeSnapshot | Edit | End
 
 
 class CellRequest(msgspec.Struct, frozen=True):
@@ -77,10 +89,11 @@ class Refused(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class CellAnswer(_Message, tag="answer", frozen=True, kw_only=True):
-    """The answer to a request: done, and durable, unless it was refused."""
+    """The answer to a request: done, and durable, unless it was refused; `result` is what it asked for."""
 
     number: int
     refused: Refused | None = None
+    result: bytes = b""
 
 
 class Happened(_Message, tag="happened", frozen=True, kw_only=True):

@@ -11,6 +11,7 @@ from skillc.cells.messages import (
     Acknowledge,
     CellAnswer,
     CellRequest,
+    Edit,
     End,
     Give,
     Happened,
@@ -18,6 +19,7 @@ from skillc.cells.messages import (
     SetPace,
     StatusChanged,
     Submit,
+    TakeSnapshot,
 )
 from skillc.cells.operation import CellStatus
 from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
@@ -109,6 +111,11 @@ class CellService:
                     self._pending.append(_Pending(number))
                 case Acknowledge():
                     self._host.acknowledge()
+                    self._pending.append(_Pending(number))
+                case TakeSnapshot():
+                    self._outbox.send(CellAnswer(number=number, result=self._host.take_snapshot()))
+                case Edit(edits=edits, who=who, why=why):
+                    self._host.edit(edits, f"{who}: {why}")
                     self._pending.append(_Pending(number))
                 case End(reason=reason):
                     self._end(reason)

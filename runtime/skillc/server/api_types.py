@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import msgspec
 
@@ -26,6 +26,9 @@ class ProblemDetails(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tr
     allowed: tuple[str, ...] | None = None
 
 
+EditText: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=2000)]
+
+
 class PaceSetting(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """How fast the cell's time may pass: `factor` times real time; null for as fast as it computes."""
 
@@ -42,6 +45,22 @@ class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Why an operation is stopped."""
 
     reason: Annotated[str, msgspec.Meta(max_length=500)] = "stopped"
+
+
+class WorldQuery(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A SPARQL query, SELECT, ASK or CONSTRUCT; the prefixes of the vocabulary are declared."""
+
+    sparql: Annotated[str, msgspec.Meta(min_length=1, max_length=20_000)]
+
+
+class WorldEdit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Changes that are made together or not at all, and why.
+
+    Each is `SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`, as of `skillc scene edit`.
+    """
+
+    edits: Annotated[tuple[EditText, ...], msgspec.Meta(min_length=1, max_length=200)]
+    why: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
 
 
 class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -17,6 +17,7 @@ from skillc.server.metrics import Metrics
 from skillc.server.problems import ApiRefusal
 from skillc.server.state import ServerState
 from skillc.server.supervisor import CellSupervisor
+from skillc.workers.pool import Workers
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ class ServerContext:
     cells: dict[str, CellSupervisor]
     hub: EventHub
     leases: Leases = field(default_factory=Leases)
+    workers: Workers = field(default_factory=Workers)
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
     metrics: Metrics = field(init=False)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from skillc.server.endpoint import ApiEndpoint
-from skillc.server.routes import audit, cells, leases, metrics, operations, tokens
+from skillc.server.routes import audit, cells, leases, metrics, operations, tokens, world
 
 PREFIX = "/api/v1"
 ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *cells.ENDPOINTS,
     *leases.ENDPOINTS,
     *operations.ENDPOINTS,
+    *world.ENDPOINTS,
     *tokens.ENDPOINTS,
     *audit.ENDPOINTS,
     *metrics.ENDPOINTS,

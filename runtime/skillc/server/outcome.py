@@ -33,10 +33,11 @@ async def command_cell(call: ApiCall, cell: CellSupervisor, message: Message) ->
     raise_refused(await cell.request(message))
 
 
-def raise_refused(refused: Refused | None) -> None:
-    """Raise ApiRefusal if a cell has refused a request."""
-    if refused is not None:
-        raise ApiRefusal(_find_status(refused), refused.reason, refused.allowed or None)
+def raise_refused(answer: Refused | bytes) -> bytes:
+    """Return what a cell has answered; ApiRefusal if it has refused a request."""
+    if isinstance(answer, Refused):
+        raise ApiRefusal(_find_status(answer), answer.reason, answer.allowed or None)
+    return answer
 
 
 def _find_status(refused: Refused) -> HTTPStatus:

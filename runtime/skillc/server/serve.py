@@ -67,7 +67,8 @@ async def _serve(
             log("cell", cell=news.status.name, state=news.status.state, reason=news.status.reason)
 
     cells = {each.name: CellSupervisor(each, publish) for each in settings}
-    application = Application(ServerContext(state, cells, hub), listening.find_hosts(port), listening.proxy)
+    context = ServerContext(state, cells, hub)
+    application = Application(context, listening.find_hosts(port), listening.proxy)
     server = uvicorn.Server(_configure(application.asgi, listening))
     address = f"{listening.scheme}://{listening.host}:{port}{PREFIX}"
     reporter.say(f"serving at {address}; the token of the command line is in {state.token_file.resolve()}")
@@ -75,6 +76,7 @@ async def _serve(
     try:
         await server.serve(sockets=[listener])
     finally:
+        context.workers.close()
         for task in going:
             task.cancel()
         for task in going:

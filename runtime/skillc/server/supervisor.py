@@ -62,14 +62,15 @@ class CellSupervisor:
         finally:
             await self._end()
 
-    async def request(self, message: Message) -> Refused | None:
-        """Give a message to the cell, and return why it was refused; None if it is done and durable."""
+    async def request(self, message: Message) -> Refused | bytes:
+        """Give a message to the cell; return why it was refused, else what it asks for: it is done and durable."""
         if self._cell is None or not self.ready:
             return Refused(kind="off", reason=f"{self.settings.name} is off: {self.status.reason}")
         try:
-            return (await self._cell.request(message)).refused
+            answer = await self._cell.request(message)
         except CellGone as error:
             return Refused(kind="off", reason=f"{error}; whether it has done what was requested, its journal says")
+        return answer.refused or answer.result
 
     def stop(self, reason: str, operation: str | None = None) -> None:
         """Stop an operation in the next tick, or all; a cell that is off has nothing to stop."""

@@ -35,7 +35,7 @@ def edit_file(scene: Path, state: WorldState, edits: Sequence[str]) -> str:
     file = SceneFile(scene, state)
     prefixes = file.prefixes
     for text in edits:
-        _apply(file.editor, text, _parse(text, prefixes, state.vocabulary), state)
+        _apply(file.editor, text, parse_edit(text, prefixes, state.vocabulary), state)
     if not file.write():
         return f"{scene} already states this"
     return f"{scene}: {len(edits)} edit{'s' * (len(edits) > 1)} applied"
@@ -70,7 +70,7 @@ def _not_written(text: str, edit: Edit, state: WorldState) -> str:
     return f"the scene file does not state `{said}`"
 
 
-def _parse(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> Edit:
+def parse_edit(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> Edit:
     """Parse an edit; ServiceError if it is not a valid one."""
     said = text.strip().removesuffix(".").strip()
     wanted = not said.startswith("not ")

@@ -72,7 +72,7 @@ class OpenScene:
         if state is self.state:
             return self
         own = (self.individuals | (state.individuals - self.state.individuals)) & state.individuals
-        return replace(self, state=state, document=_stored_document(self.document.path, state), individuals=own)
+        return replace(self, state=state, document=describe_state(self.document.path, state), individuals=own)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +117,7 @@ def open_scene(
     compiled = compile_valid(find_library(named) if named else default_library())
     with open_world(store, path, compiled.vocabulary, reporter) as world:
         state = world.snapshot()
-        document = Document.read(path) if path and not store.place else _stored_document(store.name, state)
+        document = Document.read(path) if path and not store.place else describe_state(store.name, state)
         own = read_contents([document]).subjects & state.individuals
         labels = {**read_contents(sheet_documents()).labels, **read_contents([document]).labels}
         meant = state.individuals if everything else own
@@ -168,7 +168,7 @@ def query_scene(scene: OpenScene, sparql: str) -> QueryAnswer:
 def _run_query(scene: OpenScene, sparql: str) -> QueryAnswer | str:
     """Return the answer to a query, or why there is none."""
     try:
-        return run_query([scene.document, *sheet_documents()], sparql, scene.state.vocabulary)
+        return query_document(scene.document, sparql, scene.state.vocabulary)
     except QueryError as error:
         return str(error)
 
@@ -178,6 +178,11 @@ def compare_scenes(scene: OpenScene, other: Path, reporter: Reporter) -> SceneDi
     state = load_world(find_scene(other), scene.vocabulary, reporter)
     ours, theirs = frozenset(all_triples(scene.state)), frozenset(all_triples(state))
     return SceneDiff(_texts(ours - theirs, scene.state.vocabulary), _texts(theirs - ours, state.vocabulary))
+
+
+def query_document(document: Document, sparql: str, vocabulary: Vocabulary) -> QueryAnswer:
+    """Answer a query over a document and the shipped ontology; QueryError if that is not possible."""
+    return run_query([document, *sheet_documents()], sparql, vocabulary)
 
 
 def list_facts(scene: OpenScene) -> list[FactText]:
@@ -227,8 +232,8 @@ def _library_beside(scene: Path | None) -> Path | None:
     return scene.parent if any(scene.parent.glob("*.skill")) or find_root(scene.parent) else None
 
 
-def _stored_document(place: str, state: WorldState) -> Document:
-    """Return a document of the facts of a stored world that the shipped ontology does not state."""
+def describe_state(place: str, state: WorldState) -> Document:
+    """Return a document of the facts of a world that the shipped ontology does not state."""
     shipped = frozenset(all_triples(load_documents(sheet_documents(), state.vocabulary)))
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_triples(state) if fact not in shipped)))
 

@@ -28,6 +28,15 @@ def available_bytes() -> int | None:
     return max(min(known), 0) if known else None
 
 
+def limit_memory(most_bytes: int) -> None:
+    """Let this process use an address space of `most_bytes` at most, where the system has such a limit."""
+    if sys.platform != "win32":
+        import resource
+
+        _, hard = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (most_bytes if hard < 0 else min(most_bytes, hard), hard))
+
+
 def _of_machine() -> int | None:
     with suppress(OSError, ValueError):
         fields = dict(line.split(":", 1) for line in _MEMORY.read_text("ascii").splitlines())

@@ -22,7 +22,8 @@ _INSERT_OPERATION = "INSERT INTO operations (id, submitted_ns, request) VALUES (
 _END_OPERATION = "UPDATE operations SET ended = ? WHERE id = ?"
 _INSERT_EVENT = "INSERT INTO events (operation, sequence, envelope) VALUES (?, ?, ?)"
 _SET_STATE = "INSERT OR REPLACE INTO cell_state (name, value) VALUES (?, ?)"
-_INSERT_TRANSACTION = "INSERT INTO transactions (sequence, origin, evidence, changes, undo) VALUES (?, ?, ?, ?, ?)"
+_INSERT_TRANSACTION = """INSERT INTO transactions (sequence, origin, evidence, changes, undo, written_ns)
+VALUES (?, ?, ?, ?, ?, ?)"""
 
 
 @dataclass(slots=True)
@@ -32,7 +33,7 @@ class _Pending:
     operations: list[tuple[str, int, bytes]] = field(default_factory=list)
     ended: list[tuple[bytes, str]] = field(default_factory=list)
     events: list[tuple[str, int, bytes]] = field(default_factory=list)
-    writes: list[tuple[int, ChangeEvent]] = field(default_factory=list)
+    writes: list[tuple[int, ChangeEvent, int]] = field(default_factory=list)
     states: dict[str, bytes] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
@@ -92,7 +93,7 @@ class CellJournal:
 
     def append(self, event: ChangeEvent, after: int) -> bool:
         """Record a write to the world as the transaction after number `after`; nobody else writes."""
-        self._pending.writes.append((after + 1, event))
+        self._pending.writes.append((after + 1, event, time.time_ns()))
         return True
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
@@ -115,9 +116,9 @@ class CellJournal:
         self._pending = _Pending()
         self._pass_on(pending.writes)
 
-    def _pass_on(self, writes: list[tuple[int, ChangeEvent]]) -> None:
+    def _pass_on(self, writes: list[tuple[int, ChangeEvent, int]]) -> None:
         """Give durable writes to the store."""
-        for sequence, event in writes:
+        for sequence, event, _ in writes:
             try:
                 accepted = self._store.append(event, sequence - 1)
             except StoreError as error:
@@ -126,7 +127,7 @@ class CellJournal:
                 raise NotDurable(f"{self._store} was written to by others; only the cell may write to it")
 
     def _write(self, pending: _Pending) -> None:
-        rows = [_make_row(sequence, event) for sequence, event in pending.writes]
+        rows = [_make_row(*each) for each in pending.writes]
         self._connection.execute("BEGIN IMMEDIATE")
         try:
             self._connection.executemany(_INSERT_OPERATION, pending.operations)
@@ -141,6 +142,6 @@ class CellJournal:
             raise
 
 
-def _make_row(sequence: int, event: ChangeEvent) -> tuple[int, str, str | None, str, str]:
+def _make_row(sequence: int, event: ChangeEvent, written_ns: int) -> tuple[int, str, str | None, str, str, int]:
     undo = changes_back(event.changes, event.before, event.after)
-    return sequence, event.origin, event.evidence, encode_changes(event.changes), encode_changes(undo)
+    return sequence, event.origin, event.evidence, encode_changes(event.changes), encode_changes(undo), written_ns

@@ -35,11 +35,15 @@ class RecordedOperation:
 
 @dataclass(frozen=True, slots=True)
 class JournalledWrite:
-    """A write to the world, its evidence, and the changes that lead back to the version before it."""
+    """A write to the world, its evidence, and the changes that lead back to the version before it.
+
+    It was made at the wall time `written_ns` in ns since 1970; 0 if that is not known.
+    """
 
     transaction: Transaction
     evidence: Evidence | None
     undo: tuple[Change, ...]
+    written_ns: int
 
 
 class JournalReader:
@@ -92,9 +96,17 @@ class JournalReader:
 
     def writes(self) -> tuple[JournalledWrite, ...]:
         """Return the writes to the world, in order."""
-        query = "SELECT sequence, origin, changes, evidence, undo FROM transactions ORDER BY sequence"
+        return self._select_writes("ORDER BY sequence")
+
+    def latest_writes(self, before: int, limit: int) -> tuple[JournalledWrite, ...]:
+        """Return the last writes to the world before a number, the last one first."""
+        where = "WHERE sequence < ? ORDER BY sequence DESC LIMIT ?"
+        return self._select_writes(where, before, limit)
+
+    def _select_writes(self, which: str, *values: int) -> tuple[JournalledWrite, ...]:
+        query = f"SELECT sequence, origin, changes, evidence, undo, written_ns FROM transactions {which}"
         with self._reading() as connection:
-            return tuple(_make_write(*row) for row in connection.execute(query).fetchall())
+            return tuple(_make_write(*row) for row in connection.execute(query, values).fetchall())
 
     def _select(self, which: str, *values: object) -> tuple[RecordedOperation, ...]:
         with self._reading() as connection:
@@ -116,5 +128,8 @@ def _make_operation(name: str, submitted_ns: int, request: bytes, ended: bytes |
     return RecordedOperation(name, submitted_ns, msgspec.json.decode(request, type=OperationRequest), end)
 
 
-def _make_write(sequence: int, origin: str, changes: str, evidence: Evidence | None, undo: str) -> JournalledWrite:
-    return JournalledWrite(Transaction(sequence, origin, decode_changes(changes)), evidence, decode_changes(undo))
+def _make_write(
+    sequence: int, origin: str, changes: str, evidence: Evidence | None, undo: str, written_ns: int
+) -> JournalledWrite:
+    transaction = Transaction(sequence, origin, decode_changes(changes))
+    return JournalledWrite(transaction, evidence, decode_changes(undo), written_ns)

@@ -14,6 +14,7 @@ _CELL_STATE = """CREATE TABLE cell_state (
 
 def _add_cell_state(connection: sqlite3.Connection) -> None:
     connection.execute(_CELL_STATE)
+    connection.execute("ALTER TABLE transactions ADD COLUMN written_ns INTEGER NOT NULL DEFAULT 0")
 
 
 SCHEMA = Schema(
@@ -37,7 +38,8 @@ CREATE TABLE transactions (
     origin   TEXT NOT NULL,
     evidence TEXT,                              -- how the facts are known; NULL for what a person states
     changes  TEXT NOT NULL,                     -- store/change_json.py
-    undo     TEXT NOT NULL                      -- the changes that lead back to the version before
+    undo     TEXT NOT NULL,                     -- the changes that lead back to the version before
+    written_ns INTEGER NOT NULL DEFAULT 0       -- wall time, ns since 1970-01-01 UTC; 0 if it is not known
 )
 """,
     migrations={1: _add_cell_state},

@@ -11,7 +11,7 @@ from typing import Annotated
 import msgspec
 from msgspec import structs
 
-from skillc.cells.messages import Give, Submit
+from skillc.cells.messages import Give, Refused, Submit
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.server.api_types import StopReason
 from skillc.server.context import open_journal
@@ -70,10 +70,10 @@ async def submit_operation(call: ApiCall) -> OperationStatus:
     content = b"\0".join((cell.settings.name.encode(), call.content))
     if call.key is not None and (first := _claim(call, content, operation)) != operation:
         return call.server.find_operation(first)[1]
-    refused = await cell.request(Submit(operation=operation, request=request))
-    if refused is not None and call.key is not None and refused.kind != "off":
+    answer = await cell.request(Submit(operation=operation, request=request))
+    if isinstance(answer, Refused) and call.key is not None and answer.kind != "off":
         call.server.keys.release(call.client.name, call.key)
-    raise_refused(refused)
+    raise_refused(answer)
     return call.server.find_operation(operation)[1]
 
 

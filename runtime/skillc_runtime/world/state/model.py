@@ -54,6 +54,11 @@ class WorldModel:
         """Return the current version, which never changes."""
         return self._state
 
+    @property
+    def sequence(self) -> int:
+        """The number of the last transaction in its store, with those that it had before."""
+        return self._sequence
+
     def subscribe(self, listener: Listener) -> Callable[[], None]:
         """Call the listener after every write; return a function that ends the subscription."""
         self._listeners.append(listener)

@@ -1,0 +1,31 @@
+"""What a cell knows at one instant, for processes that answer questions about it: its library and its world."""
+
+from __future__ import annotations
+
+import pickle
+from dataclasses import dataclass
+from typing import cast
+
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.world.state.evidence import EvidenceLedger
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class CellSnapshot:
+    """The library of a cell, a version of its world, the evidence for its facts, and the number of its last write."""
+
+    library: SkillLibrary
+    state: WorldState
+    ledger: EvidenceLedger
+    sequence: int
+
+
+def encode_snapshot(snapshot: CellSnapshot) -> bytes:
+    """Return a snapshot for another process of this program."""
+    return pickle.dumps(snapshot, pickle.HIGHEST_PROTOCOL)
+
+
+def decode_snapshot(encoded: bytes) -> CellSnapshot:
+    """Read what a cell has encoded; nothing else may be read with this, since a pickle can contain code."""
+    return cast(CellSnapshot, pickle.loads(encoded))

@@ -1,0 +1,31 @@
+"""An operation that goes on in a cell, and how it is reported."""
+
+from __future__ import annotations
+
+from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.recording.publisher import Publisher
+
+
+class SubmittedOperation:
+    """A run that was submitted; `reported` is what was reported of it last."""
+
+    def __init__(self, request: OperationRequest, run: TaskRun, publisher: Publisher, library_hash: str) -> None:
+        self.request, self.run, self.publisher, self.library_hash = request, run, publisher, library_hash
+        self.reported: OperationStatus | None = None
+
+    def describe(self, cell: str) -> OperationStatus:
+        """Return how it is in the cell of this name."""
+        run = self.run
+        return OperationStatus(
+            id=run.id,
+            cell=cell,
+            request=self.request,
+            state=run.state,
+            reason=run.waits_for or run.reason,
+            allowed=run.allowed,
+            events=self.publisher.sequence,
+            verified=run.verified,
+            failure=run.failure,
+            library_hash=self.library_hash,
+        )

@@ -1,0 +1,94 @@
+"""The world of a cell: its facts, queries, edits, and who has written what."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from typing import Annotated, TypeVar
+
+import msgspec
+
+from skillc.cells.messages import Edit, TakeSnapshot
+from skillc.server.api_types import WorldEdit, WorldQuery
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.outcome import UNAVAILABLE, command_cell, raise_refused
+from skillc.server.problems import ApiRefusal
+from skillc.workers.jobs import Job, ListFacts, ListWrites, QueryRows, QueryWorld, WorldFacts, WorldWrite
+from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
+
+QUERY_S = 10.0
+"""How long the answer to a query may take."""
+MAX_NUMBER = 2**63 - 1
+T = TypeVar("T")
+Name = Annotated[str, msgspec.Meta(max_length=500)]
+
+
+class FactPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Which facts: about an individual, or those of a class; names are IRIs or `prefix:name`."""
+
+    subject: Name | None = None
+    type: Name | None = None
+    offset: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
+    limit: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 200
+
+
+class WritePage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Which writes: those before a number, the last one first, and how many at most."""
+
+    before: Annotated[int, msgspec.Meta(ge=0, le=MAX_NUMBER)] | None = None
+    limit: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 100
+
+
+async def list_facts(call: ApiCall) -> WorldFacts:
+    page: FactPage = call.query
+    return await ask_about(call, ListFacts(page.subject, page.type, page.offset, page.limit), WorldFacts, QUERY_S)
+
+
+async def query_world(call: ApiCall) -> QueryRows:
+    return await ask_about(call, QueryWorld(call.body.sparql), QueryRows, QUERY_S)
+
+
+async def edit_world(call: ApiCall) -> None:
+    wanted: WorldEdit = call.body
+    cell = call.server.find_cell(call.path["cell"])
+    await command_cell(call, cell, Edit(edits=wanted.edits, who=call.client.name, why=wanted.why))
+
+
+async def list_writes(call: ApiCall) -> tuple[WorldWrite, ...]:
+    page: WritePage = call.query
+    journal = str(call.server.find_cell(call.path["cell"]).settings.journal)
+    job = ListWrites(journal, MAX_NUMBER if page.before is None else page.before, page.limit)
+    return await ask_about(call, job, tuple[WorldWrite, ...], QUERY_S)
+
+
+async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float) -> T:
+    """Let a worker do a job for what the cell knows now; ApiRefusal if there is no answer."""
+    snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(TakeSnapshot()))
+    try:
+        return await call.server.workers.answer(job, snapshot, kind, seconds)
+    except JobFailed as error:
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+    except (JobTimedOut, TooManyJobs) as error:
+        raise ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error)) from error
+
+
+NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
+PATH = "/cells/{cell}/world"
+REFUSALS = (NOT_FOUND, CONFLICT, *UNAVAILABLE)
+ENDPOINTS = (
+    ApiEndpoint(
+        "GET", PATH, "view", "List facts of the world of a cell", list_facts, WorldFacts, query=FactPage,
+        refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "POST", f"{PATH}/query", "view", "Answer a SPARQL query about the world of a cell", query_world, QueryRows,
+        body=WorldQuery, refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "POST", f"{PATH}/edits", "edit", "Change the world of a cell in one transaction", edit_world,
+        body=WorldEdit, status=HTTPStatus.NO_CONTENT, refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/history", "view", "List who has written what to the world of a cell, and when", list_writes,
+        tuple[WorldWrite, ...], query=WritePage, refusals=REFUSALS,
+    ),
+)  # fmt: skip

@@ -1,0 +1,112 @@
+"""What workers do: they answer one job after the other, each from a snapshot of a cell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import assert_never
+
+import msgspec
+
+from skillc.cells.database import DatabaseError
+from skillc.cells.journal.reading import JournalReader
+from skillc.cells.snapshot import CellSnapshot, decode_snapshot
+from skillc.services.errors import ServiceError
+from skillc.services.scenes import describe_state, query_document
+from skillc.workers.jobs import Job, ListFacts, ListWrites, QueryRows, QueryWorld, WorldFact, WorldFacts, WorldWrite
+from skillc_runtime.platforms.memory import limit_memory
+from skillc_runtime.scene.load import load_documents, sheet_documents
+from skillc_runtime.scene.query import QueryError
+from skillc_runtime.world.state.elements import elements_of, find_elements
+from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
+from skillc_runtime.world.state.labelled import label_change, label_fact
+from skillc_runtime.world.state.names import NoSuchName, resolve_individual
+
+MEMORY_BYTES = 4 * 2**30
+"""The largest address space of a worker."""
+MAX_ROWS = 10_000
+"""How many rows of the answer to a query are returned."""
+
+
+class JobRefused(msgspec.Struct, frozen=True):
+    """Why a job cannot be done."""
+
+    why: str
+
+
+def answer_job(request: tuple[Job, bytes]) -> bytes | JobRefused:
+    """Return the answer to a job for an encoded snapshot, as JSON, or why there is none."""
+    limit_memory(MEMORY_BYTES)
+    job, snapshot = request
+    try:
+        return msgspec.json.encode(_answer(job, decode_snapshot(snapshot)))
+    except (ServiceError, QueryError, NoSuchName, DatabaseError) as error:
+        return JobRefused(str(error))
+    except MemoryError:
+        return JobRefused("it needs too much memory; ask for less")
+
+
+def _answer(job: Job, known: CellSnapshot) -> QueryRows | WorldFacts | tuple[WorldWrite, ...]:
+    match job:
+        case QueryWorld(sparql):
+            return _query(sparql, known)
+        case ListFacts():
+            return _list_facts(job, known)
+        case ListWrites():
+            return _list_writes(job, known)
+        case _:
+            assert_never(job)
+
+
+def _query(sparql: str, known: CellSnapshot) -> QueryRows:
+    answer = query_document(describe_state("world", known.state), sparql, known.state.vocabulary)
+    return QueryRows(known.sequence, answer.columns, answer.rows[:MAX_ROWS], len(answer.rows) > MAX_ROWS)
+
+
+def _list_facts(job: ListFacts, known: CellSnapshot) -> WorldFacts:
+    facts = list(_find_facts(job, known))
+    shown = facts[job.offset : job.offset + job.limit]
+    return WorldFacts(known.sequence, len(facts), tuple(_describe(each, known) for each in shown))
+
+
+def _list_writes(job: ListWrites, known: CellSnapshot) -> tuple[WorldWrite, ...]:
+    with closing(JournalReader(Path(job.journal))) as reader:
+        found = reader.latest_writes(job.before, job.limit)
+    return tuple(
+        WorldWrite(
+            sequence=each.transaction.sequence,
+            written_ns=each.written_ns,
+            origin=each.transaction.origin,
+            evidence=each.evidence,
+            changes=tuple(label_change(change, known.state.vocabulary) for change in each.transaction.changes),
+        )
+        for each in found
+    )
+
+
+def _find_facts(job: ListFacts, known: CellSnapshot) -> Iterator[Fact]:
+    """Yield the stated facts that are asked for, by individual."""
+    state = known.state
+    if job.subject is not None:
+        found = elements_of(state, [resolve_individual(job.subject, state)])
+    else:
+        shipped = _find_shipped(known)
+        every = find_elements(state, job.cls) if job.cls is not None else elements_of(state, state.individuals)
+        found = tuple(each for each in every if each.iri not in shipped)
+    for each in found:
+        if job.cls is None or each.is_a(job.cls):
+            yield from (ClassFact(each.iri, cls) for cls in each.types)
+            yield from (RelationFact(each.iri, relation, other) for relation, other in each.relations)
+            yield from (PropertyFact(each.iri, value.property) for value in each.properties)
+
+
+def _find_shipped(known: CellSnapshot) -> frozenset[str]:
+    """Return the individuals of data sheets."""
+    return load_documents(sheet_documents(), known.state.vocabulary).individuals
+
+
+def _describe(fact: Fact, known: CellSnapshot) -> WorldFact:
+    write = known.ledger.deciding_write(fact, known.state)
+    labelled = label_fact(fact, known.state)
+    return WorldFact(labelled) if write is None else WorldFact(labelled, write.evidence, write.origin)
