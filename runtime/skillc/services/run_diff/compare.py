@@ -1,0 +1,159 @@
+"""Compares two recorded runs: what they were given, what they decided, how they ended, and what was measured."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from skillc.services.reporting import Reporter
+from skillc.services.run_diff.calls import (
+    compare_choices,
+    compare_durations,
+    compare_outcomes,
+    compare_plans,
+    pair_calls,
+)
+from skillc.services.run_diff.difference import Difference, Leaf, Part, RunDiff, compare_mappings, find_difference
+from skillc.services.run_diff.recorded import RecordedRunData, read_recorded_run
+from skillc.services.run_diff.signals import compare_signals
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.recording.events import Requested, TaskStarted
+from skillc_runtime.recording.known_facts import format_status
+
+
+def compare_runs(one: Path, other: Path, reporter: Reporter) -> RunDiff:
+    """Compare two runs, given their folders or recordings. ServiceError if one cannot be read."""
+    first, second = read_recorded_run(one, reporter), read_recorded_run(other, reporter)
+    pairs = pair_calls(first.history, second.history)
+    about, same = _about_run(first.start), _about_run(second.start)
+    requests = _list_requests(first), _list_requests(second)
+    differences = (
+        *compare_mappings("settings", about, same),
+        *_compare_requests(*requests),
+        *compare_plans(first.history, second.history),
+        *compare_choices(pairs),
+        *find_difference("outcomes", "task", (_describe_end(first), _describe_end(second))),
+        *compare_outcomes(pairs),
+        *_compare_measures(first.result, second.result),
+        *_by_size([*_compare_time(first, second), *compare_durations(pairs)]),
+        *_by_size(compare_signals(first.signals or {}, second.signals or {})),
+    )
+    compared: dict[Part, int] = {
+        "settings": len(about),
+        "requests": max(map(len, requests)),
+        "plan": min(len(each.history.attempts) for each in (first, second)),
+        "choices": len(pairs),
+        "outcomes": len(pairs) + 1,
+        "measures": len(_list_works(first.result).keys() & _list_works(second.result).keys()),
+        "times": len(pairs) + 1,
+        "signals": len((first.signals or {}).keys() & (second.signals or {})),
+    }
+    return RunDiff((first.name, second.name), compared, differences, tuple(_list_notes(first, second)))
+
+
+def _about_run(start: TaskStarted) -> dict[str, Leaf]:
+    """Return what a run was given at its start."""
+    settings = msgspec.structs.asdict(start.settings)
+    return {
+        "task": start.task,
+        "objective": _describe_objective(start),
+        "minimise": start.minimise or None,
+        "library": start.library,
+        "library hash": start.hash[:12],
+        "scene": start.scene,
+        "backend": start.backend,
+        "seed": start.seed,
+        **settings,
+        "breakpoints": ", ".join(start.breakpoints) or None,
+        "begins with a pause": start.stepped,
+    }
+
+
+def _describe_objective(start: TaskStarted) -> str:
+    """Return the goal or the body as JSON, with the local names of what it is about: no vocabulary is recorded."""
+    text = msgspec.json.encode(start.body if start.goal is None else start.goal).decode()
+    return re.sub(r"[a-z]+://[^\"\s]*[#/]", "", text)
+
+
+def _list_requests(run: RecordedRunData) -> list[str]:
+    return [_describe_request(event) for event in run.events if isinstance(event, Requested)]
+
+
+def _compare_requests(first: list[str], second: list[str]) -> tuple[Difference, ...]:
+    """Return the first request that differs: those after it depend on what it did."""
+    pairs = enumerate(zip_longest(first, second), 1)
+    return next(
+        (found for number, pair in pairs if (found := find_difference("requests", f"request {number}", pair))), ()
+    )
+
+
+def _describe_request(event: Requested) -> str:
+    fields = ", ".join(
+        f"{name}: {value}" for name, value in msgspec.to_builtins(event.command).items() if name != "type"
+    )
+    refused = ", refused" if event.refused else ""
+    return f"{event.command.name} in tick {event.tick}{f' ({fields})' if fields else ''}{refused}"
+
+
+def _describe_end(run: RecordedRunData) -> str:
+    if not run.history.status:
+        return "the recording ends before the task"
+    status = format_status(run.history.status, run.history.verified)
+    return f"{status}: {run.result.failure}" if run.result.failure else status
+
+
+def _compare_time(first: RecordedRunData, second: RecordedRunData) -> tuple[Difference, ...]:
+    ends = round(first.history.last, 6), round(second.history.last, 6)
+    return find_difference("times", "whole run", ends, abs(ends[0] - ends[1]))
+
+
+def _compare_measures(first: TaskResult, second: TaskResult) -> Iterator[Difference]:
+    """Yield the numbers of the pieces of work that differ; work that one run has not done is one difference."""
+    works, others = _list_works(first), _list_works(second)
+    for name in dict.fromkeys((*works, *others)):
+        if name in works and name in others:
+            yield from compare_mappings("measures", works[name], others[name])
+        else:
+            yield from find_difference(
+                "measures", name, ("done" if name in works else None, "done" if name in others else None)
+            )
+
+
+def _list_works(result: TaskResult) -> dict[str, dict[str, Leaf]]:
+    """Return the numbers of the pieces of work of a run, by name, as its report has them."""
+    found: dict[str, dict[str, Leaf]] = {}
+    for kind, works in (("wiping", result.wipings), ("work", result.works), ("placement", result.placements)):
+        for number, work in enumerate(works, 1):
+            name = f"{work.__struct_config__.tag or kind} {number}"
+            found[name] = {f"{name}: {field}": each for field, each in _list_numbers(msgspec.to_builtins(work))}
+    return found
+
+
+def _list_numbers(value: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
+    for name, each in value.items():
+        if isinstance(each, int | float):
+            yield name, each
+        elif isinstance(each, list) and all(isinstance(number, float) for number in each):
+            yield from ((f"{name}[{index}]", number) for index, number in enumerate(each))
+
+
+def _by_size(found: Iterable[Difference]) -> list[Difference]:
+    return sorted(found, key=lambda each: (-each.size, each.what))
+
+
+def _list_notes(first: RecordedRunData, second: RecordedRunData) -> Iterator[str]:
+    for run in (first, second):
+        if run.signals is None:
+            yield f"{run.name} has no signals to compare; `skillc run --signals csv` records them"
+    if first.signals is not None and second.signals is not None:
+        for run, names in (
+            (first, first.signals.keys() - second.signals),
+            (second, second.signals.keys() - first.signals),
+        ):
+            if names:
+                yield f"{len(names)} signals are in {run.name} only"

@@ -1,0 +1,75 @@
+"""Reads what is compared of a recorded run."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from skillc.services.errors import RequestError, ServiceError
+from skillc.services.recordings import find_recording, read_envelopes, read_result
+from skillc.services.reporting import Reporter
+from skillc.services.signal_files import read_signal_dictionary
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.recording.events import Event, TaskStarted
+from skillc_runtime.recording.history import RunHistory
+from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.signals.signal import CLOCK
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedRunData:
+    """A run as it was recorded; `signals` has the samples (n,) of each column, None if none were recorded."""
+
+    name: str
+    start: TaskStarted
+    events: tuple[Event, ...]
+    history: RunHistory
+    result: TaskResult
+    signals: Mapping[str, Array] | None
+
+
+def read_recorded_run(run: Path, reporter: Reporter) -> RecordedRunData:
+    """Read a run, given its folder or its recording. ServiceError if that is not possible."""
+    path = find_recording(run)
+    envelopes = read_envelopes(path, reporter)
+    result = read_result(path, envelopes)
+    events = tuple(each.event for each in envelopes)
+    history = read_history(events)
+    assert history is not None, "a run without history has no result"
+    start = next(event for event in events if isinstance(event, TaskStarted))
+    return RecordedRunData(str(run), start, events, history, result, _read_signals(path.parent))
+
+
+def _read_signals(folder: Path) -> Mapping[str, Array] | None:
+    """Return the columns of the signals in a folder; None if there are none. ServiceError if they cannot be read."""
+    try:
+        dictionary = read_signal_dictionary(folder)
+    except RequestError:
+        return None
+    file = folder / dictionary.file
+    try:
+        columns = _read_parquet(file) if file.suffix == ".parquet" else _read_csv(file)
+    except (OSError, ValueError, ImportError) as error:
+        raise ServiceError(f"{file} cannot be read: {error}") from error
+    return {name: values for name, values in columns.items() if name != CLOCK.column}
+
+
+def _read_csv(file: Path) -> dict[str, Array]:
+    with file.open(encoding="utf-8", newline="") as lines:
+        header, *rows = list(csv.reader(lines)) or [[]]
+    whole = [row for row in rows if len(row) == len(header)]
+    table = np.array([[float(cell) if cell else np.nan for cell in row] for row in whole])
+    return dict(zip(header, table.T, strict=True)) if whole else {}
+
+
+def _read_parquet(file: Path) -> dict[str, Array]:
+    import pyarrow.parquet as pq
+
+    table: Any = pq.read_table(file)
+    return {name: table.column(name).to_numpy(zero_copy_only=False) for name in table.column_names}

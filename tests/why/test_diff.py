@@ -1,0 +1,139 @@
+"""`skillc diff`: what is not the same in two recordings, in the order of causes; equal ones say what was compared."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from msgspec import structs
+
+from execution.test_repeat import recording
+from skillc.cli.main import skillc
+from skillc_runtime.recording import commands
+from skillc_runtime.recording.events import (
+    Event,
+    ImplementationChosen,
+    PlanMade,
+    Requested,
+    TaskEnded,
+    TaskStarted,
+)
+from skillc_runtime.recording.reasons import ParameterReason
+from skillc_runtime.recording.signals.files import CsvSink, ParquetSink, write_dictionary
+from skillc_runtime.recording.signals.signal import CLOCK, Signal
+from skillc_runtime.world.state.labelled import LabelledIri
+from why.stories import written
+
+FORCE = Signal(column="Arm/sensor/force_z_n", device="x", origin="sensor", unit="N", frame="", description="force")
+Edit = Callable[[list[Event]], None]
+
+
+def diff(*arguments: object) -> Result:
+    result = CliRunner().invoke(skillc, ["diff", *map(str, arguments)])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def find_differences(folder: Path, edit: Edit) -> list[dict[str, Any]]:
+    """Return the differences that an edit of a recording makes."""
+    events = recording()
+    written(folder / "a", events)
+    edit(events)
+    written(folder / "b", events)
+    found: list[dict[str, Any]] = json.loads(diff(folder / "a", folder / "b", "--json").stdout)["differences"]
+    return found
+
+
+def change(kind: type[Event], number: int = 0, **fields: object) -> Edit:
+    """Return an edit of one event."""
+
+    def edit(events: list[Event]) -> None:
+        place = [place for place, event in enumerate(events) if isinstance(event, kind)][number]
+        events[place] = structs.replace(events[place], **fields)
+
+    return edit
+
+
+def bind_another(events: list[Event]) -> None:
+    place = next(place for place, event in enumerate(events) if isinstance(event, ImplementationChosen))
+    event = events[place]
+    assert isinstance(event, ImplementationChosen) and event.bindings
+    other = LabelledIri("http://example.org/x#z", "x:z")
+    reason = ParameterReason(parameter="left", how="inferred")
+    events[place] = structs.replace(
+        event, bindings={**event.bindings, "left": other}, determined=(*event.determined, reason)
+    )
+
+
+def drop_last_step(events: list[Event]) -> None:
+    place = next(place for place, event in enumerate(events) if isinstance(event, PlanMade))
+    event = events[place]
+    assert isinstance(event, PlanMade)
+    events[place] = structs.replace(event, steps=event.steps[:-1])
+
+
+@pytest.mark.parametrize(
+    ("edit", "part", "what"),
+    [
+        (change(TaskStarted, seed=4), "settings", "seed"),
+        (change(TaskStarted, hash="0123"), "settings", "library hash"),
+        (change(Requested, command=commands.Pause("tea")), "requests", "request 1"),
+        (change(Requested, 2, tick=99999), "requests", "request 3"),
+        (change(PlanMade, planner="guess"), "plan", "planner of plan 1"),
+        (drop_last_step, "plan", "step 4"),
+        (change(ImplementationChosen, implementation="other"), "choices", "1 "),
+        (bind_another, "choices", "1 "),
+        (change(TaskEnded, time=1e3), "times", "whole run"),
+        (change(TaskEnded, status="failed", verified=None), "outcomes", "task"),
+    ],
+)
+def test_the_first_difference_is_what_was_changed(tmp_path: Path, edit: Edit, part: str, what: str) -> None:
+    first = find_differences(tmp_path, edit)[0]
+    assert first["part"] == part and first["what"].startswith(what), first
+    assert first["first"] != first["second"]
+
+
+def test_a_run_differs_in_nothing_from_itself(tmp_path: Path) -> None:
+    assert find_differences(tmp_path, lambda _: None) == []
+    result = diff(tmp_path / "a", tmp_path / "b")
+    assert result.exit_code == 0
+    for part in ("settings (", "requests (", "plan (", "choices (", "outcomes (", "times ("):
+        assert part in result.stdout
+    assert result.stdout.startswith("no difference in ") and "signals" not in result.stdout
+    assert "a has no signals to compare" in " ".join(result.stderr.split())
+
+
+@pytest.mark.parametrize("form", ["csv", "parquet"])
+def test_peaks_and_means_of_signals_are_compared(tmp_path: Path, form: str) -> None:
+    find_differences(tmp_path, lambda _: None)
+    forces = {"a": [0.0, -8.0, np.nan], "b": [0.0, -6.0, 1.0]}
+    for name, values in forces.items():
+        columns, file = (CLOCK, FORCE), tmp_path / name / f"signals.{form}"
+        write_dictionary(tmp_path / name, file.name, columns, 0.01)
+        sink = CsvSink(file, columns) if form == "csv" else ParquetSink(file, columns, 0.01)
+        for number, value in enumerate(values):
+            sink.write(np.array([number * 0.01, value]))
+        sink.close()
+    found = json.loads(diff(tmp_path / "a", tmp_path / "b", "--json").stdout)["differences"]
+    assert {(each["part"], each["what"], each["first"], each["second"]) for each in found} == {
+        ("signals", "Arm/sensor/force_z_n peak", 8.0, 6.0),
+        ("signals", "Arm/sensor/force_z_n mean", -4.0, -5.0 / 3.0),
+    }
+
+
+def test_the_text_is_a_table_that_names_both_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    find_differences(Path(), change(TaskStarted, seed=4, backend="mujoco"))
+    lines = [line.split() for line in diff("a", "b").stdout.splitlines()]
+    assert lines == [["a", "b"], ["settings", "backend", "mujoco"], ["seed", "0", "4"]]
+
+
+def test_what_cannot_be_read_is_an_error_of_one_sentence(tmp_path: Path) -> None:
+    find_differences(tmp_path, lambda _: None)
+    result = diff(tmp_path / "a", tmp_path / "nothing")
+    assert result.exit_code == 1 and result.stderr.startswith("error: there is no folder")
