@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from skillc.services.errors import ServiceError
+from skillc.services.recordings import read_signals
 from skillc.services.signal_files import read_signal_dictionary
+from skillc_runtime.recording.signals.files import DICTIONARY
 from skillc_runtime.recording.signals.signal import CLOCK
 
 if TYPE_CHECKING:
@@ -23,11 +25,18 @@ def make_frame(rows: Iterable[Mapping[str, Any]], columns: Sequence[str] | None 
     return import_pandas().DataFrame(list(rows), columns=None if columns is None else list(columns))
 
 
-def read_signal_frame(folder: Path | None) -> pd.DataFrame:
+def read_signal_frame(folder: Path | None, recording: Path | None) -> pd.DataFrame:
     """Return the signals that were recorded in a folder, by the time of the cell in s, with their units in `attrs`.
 
-    RequestError if there are none; ServiceError if they cannot be read, or pandas is not installed.
+    Without them it is the signals of a recording, an MCAP file. RequestError if there are none; ServiceError if they
+    cannot be read, or pandas is not installed.
     """
+    if recording is not None and (folder is None or not (folder / DICTIONARY).exists()):
+        table, pandas = read_signals(recording), import_pandas()
+        index = pandas.Index(table.time_s, name=CLOCK.column)
+        frame = pandas.DataFrame(table.rows, index, [each.column for each in table.signals])
+        frame.attrs["units"] = {each.column: each.unit for each in table.signals}
+        return frame
     dictionary = read_signal_dictionary(folder)
     assert folder is not None, "a folder with signals"
     file, pandas = folder / dictionary.file, import_pandas()

@@ -14,7 +14,7 @@ from skillc.api.boundary import AnyPath, NoticeList, api_call, require_choice, r
 from skillc.api.frames import make_frame, make_table, read_signal_frame
 from skillc.api.picture import Figure, Film
 from skillc.services.errors import ServiceError
-from skillc.services.recordings import answer_question, find_recording, read_envelopes, read_result
+from skillc.services.recordings import answer_question, find_mcap, find_recording, is_mcap, read_envelopes, read_result
 from skillc.services.story_text import format_answer, format_overview
 from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult
 from skillc_runtime.evaluation.report.work_result import WorkResult
@@ -34,12 +34,16 @@ EVENT_COLUMNS = ("sequence", "time_s", "type", "name", "status", "message")
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A run that has ended; `folder` is where it was recorded, None for nowhere. Notebooks show its summary."""
+    """A run that has ended; `folder` is where it was recorded, None for nowhere. Notebooks show its summary.
+
+    `recording` is its MCAP file, None if there is none.
+    """
 
     result: TaskResult
     events: tuple[Envelope, ...] = field(repr=False, default=())
     folder: Path | None = None
     messages: tuple[str, ...] = ()
+    recording: Path | None = None
 
     @property
     def task(self) -> str:
@@ -119,8 +123,9 @@ class Run:
     def to_frame(self, part: Part = "events") -> pd.DataFrame:
         """Return a part as a pandas frame with a row for each event, step, sample of signals, or piece of work.
 
-        `signals` are those that `signals=` recorded, with the time in s as index; `frame.attrs["units"]` has the units
-        of the columns. SkillcError if pandas is not installed, RequestError if no signals were recorded.
+        `signals` are those that `signals=` recorded, else those of each control period in `recording`, with the time
+        in s as index; `frame.attrs["units"]` has the units of the columns. SkillcError if pandas is not installed,
+        RequestError if no signals were recorded.
         """
         require_choice(part, Part, "the part")
         if part == "events":
@@ -129,7 +134,7 @@ class Run:
             return make_frame([dict(zip(STEP_COLUMNS, row, strict=True)) for row in self._step_rows()], STEP_COLUMNS)
         if part == "signals":
             with api_call():
-                return read_signal_frame(self.folder)
+                return read_signal_frame(self.folder, self.recording)
         values: Sequence[msgspec.Struct] = getattr(self.result, part)
         return make_frame(map(_work_row, values))
 
@@ -149,7 +154,7 @@ class Run:
 
 
 def open_run(path: AnyPath) -> Run:
-    """Return the run that was recorded in a folder, or in a file of events.
+    """Return the run that was recorded in a folder, in an MCAP file, or in a file of events.
 
     SkillcError if there is no readable recording.
     """
@@ -158,7 +163,8 @@ def open_run(path: AnyPath) -> Run:
         notes = NoticeList()
         file = find_recording(folder)
         events = read_envelopes(file, notes)
-        return Run(read_result(file, events), events, file.parent, tuple(notes.messages))
+        recording = file if is_mcap(file) else find_mcap(file.parent)
+        return Run(read_result(file, events), events, file.parent, tuple(notes.messages), recording)
 
 
 def _arguments(arguments: Mapping[str, Any]) -> str:

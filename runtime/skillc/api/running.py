@@ -31,6 +31,7 @@ from skillc.services.backends import BackendName
 from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import check_writable
 from skillc.services.planning import prepare_planners, with_minimal_makespan
+from skillc.services.recordings import find_mcap
 from skillc.services.run_report import PRIMITIVE_LOOKS
 from skillc.services.running import RunOptions, run_task
 from skillc.services.signal_files import SignalFormat
@@ -199,7 +200,7 @@ def _work(load: Loading, options: RunOptions, state: OperationState, loaded: thr
             loaded.set()
             ran = run_task(task, watched, monitor, notes)
             folder = watched.out if ran.written else None
-            result = Run(ran.result, tuple(state.events), folder, tuple(notes.messages))
+            result = Run(ran.result, tuple(state.events), folder, tuple(notes.messages), find_mcap(folder))
     except BaseException as problem:  # noqa: BLE001 - the boundary of a thread: whoever waits gets the error
         error = problem
     state.end(result, error)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import msgspec
 
@@ -23,12 +23,17 @@ from skillc_runtime.recording.question import CallSelection, QuestionError, sele
 from skillc_runtime.recording.reader import TraceError, TraceReader
 from skillc_runtime.recording.states import EndState
 
-NAME = "events.jsonl"
+if TYPE_CHECKING:
+    from skillc_runtime.recording.mcap.reader import SignalTable
+
+MCAP_MAGIC = b"\x89MCAP0\r\n"
+NAME, RECORDING = "events.jsonl", "recording.mcap"
+"""The files in the folder of a run that have its events; the second one has all else, too."""
 
 
 def find_recording(run: Path) -> Path:
-    """Return the event file of a run, given its folder or that file. ServiceError if there is none."""
-    path = run / NAME if inspect_path(run).kind == "folder" else run
+    """Return the file with the events of a run, given its folder or that file. ServiceError if there is none."""
+    path = _choose_file(run) if inspect_path(run).kind == "folder" else run
     found = inspect_path(path)
     if found.kind == "missing":
         raise ServiceError(_missing(run))
@@ -37,23 +42,53 @@ def find_recording(run: Path) -> Path:
     return path
 
 
+def _choose_file(folder: Path) -> Path:
+    """Return the file of a folder that is read: the one that has the end of a run whose process was killed."""
+    found = folder / NAME, folder / RECORDING
+    return next((each for each in found if inspect_path(each).kind != "missing"), found[0])
+
+
 def read_run(run: Path, reporter: Reporter) -> RunHistory:
-    """Read the recording of a run, given its folder or its event file. ServiceError if it cannot be read."""
+    """Read the recording of a run, given its folder or a file with its events. ServiceError if it cannot be read."""
     path = find_recording(run)
-    with _reading(path, reporter) as reader:
-        return _require_history(read_history(reader.events), path)
+    with _reading(path, reporter) as envelopes:
+        return _require_history(read_history(each.event for each in envelopes), path)
 
 
 def read_envelopes(path: Path, reporter: Reporter) -> tuple[Envelope, ...]:
-    """Read all events of an event file. ServiceError if it cannot be read."""
-    with _reading(path, reporter) as reader:
-        return tuple(reader)
+    """Read all events of a file. ServiceError if it cannot be read."""
+    with _reading(path, reporter) as envelopes:
+        return tuple(envelopes)
+
+
+def read_signals(path: Path) -> SignalTable:
+    """Read the signals of an MCAP file. ServiceError if it cannot be read."""
+    from skillc_runtime.recording.mcap.reader import read_recording
+
+    with _explaining(path):
+        return read_recording(path).signals()
+
+
+def find_mcap(folder: Path | None) -> Path | None:
+    """Return the MCAP file in the folder of a run; None if there is none."""
+    path = None if folder is None else folder / RECORDING
+    return path if path is not None and path.is_file() else None
+
+
+def is_mcap(path: Path) -> bool:
+    """Whether a file is an MCAP file, by its first bytes or, if there are none, its name."""
+    try:
+        with path.open("rb") as file:
+            begin = file.read(len(MCAP_MAGIC))
+    except OSError:
+        return False
+    return begin == MCAP_MAGIC or path.suffix == ".mcap"
 
 
 def read_result(path: Path, events: Sequence[Envelope]) -> TaskResult:
-    """Return the result beside an event file; without one, what its events say. ServiceError if it cannot be read."""
+    """Return the result beside a file of a run; without one, what its events say. ServiceError if it cannot be read."""
     file = path.with_name(RESULT)
-    if inspect_path(file).kind == "file":
+    if path.name in (NAME, RECORDING) and inspect_path(file).kind == "file":
         try:
             return msgspec.json.decode(file.read_bytes(), type=TaskResult)
         except (OSError, msgspec.MsgspecError) as error:
@@ -68,17 +103,33 @@ def read_result(path: Path, events: Sequence[Envelope]) -> TaskResult:
 
 
 @contextmanager
-def _reading(path: Path, reporter: Reporter) -> Iterator[TraceReader]:
-    """Read a recording in a `with` statement, and report an incomplete last line. ServiceError if it fails."""
-    reader = TraceReader(path)
+def _reading(path: Path, reporter: Reporter) -> Iterator[Iterable[Envelope]]:
+    """Read events in a `with` statement, and report if the file was cut off. ServiceError if it fails."""
+    with _explaining(path):
+        if is_mcap(path):
+            from skillc_runtime.recording.mcap.reader import read_recording
+
+            recorded = read_recording(path)
+            yield recorded.envelopes
+            note = f"note: {recorded.note}" if recorded.note else ""
+        else:
+            reader = TraceReader(path)
+            yield reader
+            cut = f"note: the last line of {path} is incomplete; the recording ends before it"
+            note = cut if reader.is_truncated else ""
+    if note:
+        reporter.say(note)
+
+
+@contextmanager
+def _explaining(path: Path) -> Iterator[None]:
+    """Turn the errors of readers in a `with` statement into ServiceError."""
     try:
-        yield reader
+        yield
     except TraceError as error:
         raise ServiceError(str(error)) from error
     except OSError as error:
         raise ServiceError(f"{path} cannot be read: {error.strerror or error}") from error
-    if reader.is_truncated:
-        reporter.say(f"note: the last line of {path} is incomplete; the recording ends before it")
 
 
 def _require_history(history: RunHistory | None, path: Path) -> RunHistory:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -15,6 +15,7 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
+from skillc.services.run_recordings import describe_contents, recorded_in
 from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, RunSamples, make_samples, report_run
 from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
 from skillc.services.store_polling import StorePoller
@@ -33,7 +34,7 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
-from skillc_runtime.recording.envelope import Recorder
+from skillc_runtime.recording.envelope import Recorder, make_run_id
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -121,11 +122,10 @@ class _Run:
         task, options, cell = self.task, self.options, self.cell
         choices = ChoiceListener()
         start = summarise_start(task.assignment.name, cell)
-        recording = RecordingOptions(
-            options.out, options.tick_timeout_s, options.prints_json, options.run_id, options.recorders
-        )
+        run_id = options.run_id or make_run_id(task.assignment.name)
         with (
-            recorded_run(start, recording, self.reporter) as recorded,
+            self._recorded(run_id) as recorders,
+            recorded_run(start, self._describe_recording(run_id, recorders), self.reporter) as recorded,
             recorded_signals(cell, options.signals, options.out, self.reporter) as hooks,
         ):
             loop, began = self._make_loop(planning, hooks), perf_counter()
@@ -138,6 +138,22 @@ class _Run:
             if options.out is not None:
                 self.monitor.say("writing the report")
             return report_run(execution, choices, task.library, self.samples, options.out, self.reporter)
+
+    def _recorded(self, run_id: str) -> AbstractContextManager[tuple[Recorder, ...]]:
+        """Record the run as an MCAP file, if there is a folder for it."""
+        task, options, state = self.task, self.options, self.cell.cell.world.snapshot()
+        if options.out is None:
+            return nullcontext(())
+        origin = CellOrigin(task.scene, options.seed, options.backend)
+        settings = {"deadline_s": options.deadline_s, "step": options.step, "pause_at": options.pause_at}
+        contents = describe_contents(run_id, task.assignment.name, task.library, state, origin, settings)
+        return recorded_in(options.out, contents, self.cell, state, self.reporter)
+
+    def _describe_recording(self, run_id: str, recorders: tuple[Recorder, ...]) -> RecordingOptions:
+        options = self.options
+        return RecordingOptions(
+            options.out, options.tick_timeout_s, options.prints_json, run_id, (*options.recorders, *recorders)
+        )
 
     def _make_loop(self, planning: PlanningJob, recording: tuple[Callable[[], None], ...]) -> CellLoop:
         def plan_again(assignment: Assignment, failures: FailedSteps) -> PlanningJob:

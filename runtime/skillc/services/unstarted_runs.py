@@ -9,6 +9,7 @@ from skillc.services.errors import ServiceError
 from skillc.services.files import writing_to
 from skillc.services.recordings import NAME
 from skillc.services.reporting import Reporter
+from skillc.services.run_recordings import describe_contents, recorded_in
 from skillc.services.run_report import RunResult
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -37,7 +38,7 @@ def end_unstarted(
     try:
         with writing_to(out):
             out.mkdir(parents=True, exist_ok=True)
-            _record(task, out / NAME, result)
+            _record(task, out / NAME, result, reporter)
             write_result(out, result)
             write_report(out, result, ())
     except ServiceError as error:
@@ -46,11 +47,16 @@ def end_unstarted(
     return RunResult(result)
 
 
-def _record(task: LoadedTask, path: Path, result: TaskResult) -> None:
+def _record(task: LoadedTask, path: Path, result: TaskResult, reporter: Reporter) -> None:
     """Write the events of a task that starts and ends at the same time."""
     stopped = result.status == "stopped"
     failure = Failure(kind="halted" if stopped else "plan", message=result.failure or "")
-    with TraceWriter(path) as writer:
-        publish = Publisher(make_run_id(result.task), (writer,))
-        publish(make_start_event(task.assignment, task.library, CellOrigin(task.scene, result.seed), 0.0))
+    run, state, origin = make_run_id(result.task), task.world.snapshot(), CellOrigin(task.scene, result.seed)
+    contents = describe_contents(run, result.task, task.library, state, origin, {})
+    with (
+        recorded_in(path.parent, contents, None, state, reporter) as recorders,
+        TraceWriter(path) as writer,
+    ):
+        publish = Publisher(run, (writer, *recorders))
+        publish(make_start_event(task.assignment, task.library, origin, 0.0))
         publish(TaskEnded(time=0.0, task=result.task, status="stopped" if stopped else "failed", failure=failure))

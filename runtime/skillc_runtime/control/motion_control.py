@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.feasibility import sample_offsets
 from skillc_runtime.control.workspace_check import check_motion_inside, sample_times
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
+
+NO_REFERENCE = np.full((8, 3), np.nan).tobytes()
 
 
 class MotionControl:
@@ -30,6 +34,11 @@ class MotionControl:
         reference = task.joints.sample(task.now)
         tool, jacobian = task.kinematics.tool_at(reference.q, task.measured.state)
         return Reference.of(tool, jacobian @ reference.dq, jacobian @ reference.ddq).transform(task.base())
+
+    def copy_tool_reference(self) -> bytes:
+        """Return the rows (8, 3) of the tool's reference in base as float64; NaN while the joints are controlled."""
+        task = self._task
+        return task.tool.reference.rows.tobytes() if task.joints is None else NO_REFERENCE
 
     @property
     def path(self) -> Reference:

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.motion.pose import Array
 
 
@@ -62,4 +63,9 @@ class Simulation(Backend, Protocol):
     @property
     def drawing(self) -> Drawing:
         """How the cell is drawn."""
+        ...
+
+    @property
+    def live(self) -> LiveSignals:
+        """What changes in each control period."""
         ...

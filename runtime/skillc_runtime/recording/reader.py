@@ -50,13 +50,11 @@ class TraceReader:
 
     def __iter__(self) -> Iterator[Envelope]:
         self.is_truncated = False
-        run: str | None = None
+        decoder = EnvelopeDecoder(self.path)
         with self.path.open("rb") as file:
             for number, line in enumerate(_read_lines(file), start=1):
                 if line.endswith(b"\n"):
-                    envelope = self._decode(line, number, run)
-                    run = envelope.run
-                    yield envelope
+                    yield decoder.decode(line)
                 elif len(line) == MAX_LINE_BYTES:
                     raise TraceError(f"{self.path}:{number}: this is not an event: the line has no end")
                 else:
@@ -67,16 +65,29 @@ class TraceReader:
         """The events without their envelopes; raises the same errors."""
         return (envelope.event for envelope in self)
 
-    def _decode(self, line: bytes, number: int, run: str | None) -> Envelope:
+
+class EnvelopeDecoder:
+    """Decodes the events of a run, one after the other; TraceError for what is not the next one."""
+
+    def __init__(self, path: Path) -> None:
+        """`path` is the file that messages name."""
+        self._path, self._number = path, 0
+        self._run: str | None = None
+
+    def decode(self, line: bytes) -> Envelope:
+        """Return the next event."""
+        self._number += 1
+        number, run = self._number, self._run
         if number == 1:
             self._check_format(line)
         try:
             envelope = _DECODER.decode(line)
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
-            raise TraceError(f"{self.path}:{number}: this is not an event of skillc: {error}") from error
+            raise TraceError(f"{self._path}:{number}: this is not an event of skillc: {error}") from error
         if envelope.sequence != number or envelope.run != (run or envelope.run):
             found = f"event {envelope.sequence} of {envelope.run}"
-            raise TraceError(f"{self.path}:{number}: event {number} of {run or 'a run'} is expected here, not {found}")
+            raise TraceError(f"{self._path}:{number}: event {number} of {run or 'a run'} is expected here, not {found}")
+        self._run = envelope.run
         return envelope
 
     def _check_format(self, line: bytes) -> None:
@@ -85,7 +96,7 @@ class TraceReader:
         if start is not None and start.type == TaskStarted.__struct_config__.tag and start.format != FORMAT:
             version = "a newer" if start.format > FORMAT else "an older"
             reads = f"format {start.format}; this one reads format {FORMAT}"
-            raise TraceError(f"{self.path}:1: {version} skillc wrote this ({reads})")
+            raise TraceError(f"{self._path}:1: {version} skillc wrote this ({reads})")
 
 
 def _read_start(line: bytes) -> _Start | None:

@@ -16,11 +16,11 @@ from skillc.cli.options import PATH, json_option
 
 
 @click.command(cls=Command)
-@click.argument("run", metavar="RUN_DIR", type=PATH)
+@click.argument("run", metavar="RUN", type=PATH)
 @click.argument("question", required=False)
 @json_option
 def command(run: Path, question: str | None, as_json: bool) -> None:
-    """Explain the run that `skillc run --out RUN_DIR` recorded.
+    """Explain the run that `skillc run --out RUN` recorded: a folder, or an MCAP file.
 
     QUESTION is the number of a step (`2`, or `2.1` for a call inside it), the name of a skill or an implementation
     (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`). Without QUESTION, print an overview.

@@ -22,6 +22,7 @@ from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.devices.sensors import Button, Camera
 from skillc_runtime.devices.simulation import Drawing, Simulation
 from skillc_runtime.world.state.model import WorldModel
@@ -91,6 +92,7 @@ class RealTimeCell:
         self.watchdog: Watchdog = locked(cell.watchdog, self._turn)
         self.ground_truth: GroundTruth = locked(cell.ground_truth, self._turn)
         self.drawing: Drawing = locked(cell.drawing, self._turn)
+        self.live: LiveSignals = cell.live
         self._thread = Thread(target=self._run, name="control", daemon=True)
         self._thread.start()
 

@@ -113,6 +113,16 @@ class ModelledArm:
         live = self._sensing.base
         return Pose(live.position.copy(), live.rotation.copy())
 
+    @property
+    def live_joints(self) -> Array:
+        """The angles (nv,) in rad and speeds (nv,) in rad/s as they were measured last, one a row; not a copy."""
+        return self._joints[: SPEED + 1]
+
+    @property
+    def live_wrench(self) -> Array | None:
+        """The wrench (6,) of a force-torque sensor, in base; not a copy. None without one."""
+        return self._here.wrench if self._feels_force else None
+
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
         noise = self._speed_noise

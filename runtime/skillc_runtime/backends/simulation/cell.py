@@ -24,6 +24,7 @@ from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.live_signals import make_live_signals
 from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.mujoco_warnings import log_warnings
 from skillc_runtime.backends.simulation.names import part_name
@@ -102,6 +103,7 @@ class ModelledCell(ABC, Generic[A, G]):
             self.data,
         )  # fmt: skip
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
+        self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)
         idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
         world.commit(idle, "start of the cell", "reported")
@@ -252,6 +254,8 @@ class ModelledCell(ABC, Generic[A, G]):
                 self.stop_all("the tree is not ticked any more")
             for individual, arm in self._drivers.items():
                 self._control(individual, arm, now)
+            for listen in self.live.listeners:
+                listen()
         self._move_devices(now)
 
     def _move_devices(self, now: float) -> None:

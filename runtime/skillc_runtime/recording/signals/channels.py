@@ -42,30 +42,30 @@ class Channel:
 def find_channels(simulation: Simulation) -> Iterator[Channel]:
     """Yield the channels of all arms, hands, bases, tools and movable things of a cell, in order of IRI."""
     cell, truth, state = simulation.cell, simulation.ground_truth, simulation.cell.world.snapshot()
-    names = _names(state)
+    names = name_devices(state)
     for arm in _known(state, ARM_DEVICE):
         with suppress(KeyError):
             feels = any(state.is_a(each, FORCE_TORQUE_SENSOR) for each in state.objects(arm, HAS_SENSOR))
-            yield from _of_arm(_Columns(names[arm], arm), cell.arm(arm), feels)
+            yield from _of_arm(Columns(names[arm], arm), cell.arm(arm), feels)
         for hand in sorted(state.objects(arm, HAS_GRIPPER)):
             with suppress(KeyError):
                 truth.hand(hand)
-                yield from _of_hand(_Columns(names[hand], hand), hand, truth)
+                yield from _of_hand(Columns(names[hand], hand), hand, truth)
     for base in _known(state, MOBILE_ROBOT):
         with suppress(KeyError):
-            yield _of_base(_Columns(names[base], base), cell.base(base))
+            yield _of_base(Columns(names[base], base), cell.base(base))
     for tool in _known(state, TOOL):
         with suppress(KeyError):
             truth.mean_force_n(tool, 0.0)
-            yield _of_tool(_Columns(names[tool], tool), tool, simulation)
+            yield _of_tool(Columns(names[tool], tool), tool, simulation)
     for thing in _known(state, MANIPULATABLE):
         with suppress(KeyError):
             truth.body_pose(thing)
-            yield _of_thing(_Columns(names[thing], thing), thing, truth)
+            yield _of_thing(Columns(names[thing], thing), thing, truth)
 
 
 @dataclass(frozen=True, slots=True)
-class _Columns:
+class Columns:
     """Makes the signals of a device."""
 
     name: str
@@ -94,7 +94,7 @@ class _Columns:
         )
 
 
-def _of_arm(columns: _Columns, arm: ArmDriver, feels: bool) -> Iterator[Channel]:
+def _of_arm(columns: Columns, arm: ArmDriver, feels: bool) -> Iterator[Channel]:
     joints = [f"joint_{number}" for number in range(1, len(arm.measured.q) + 1)]
     yield Channel(columns.make("sensor", joints, "rad", "", "angle of a joint"), lambda: arm.measured.q)
     tool = columns.pose("estimate", "tool", "the tool centre point, from the joints")
@@ -118,7 +118,7 @@ def _of_arm(columns: _Columns, arm: ArmDriver, feels: bool) -> Iterator[Channel]
     yield Channel(stiff, lambda: arm.compliance.commanded_stiffness)
 
 
-def _of_hand(columns: _Columns, hand: str, truth: GroundTruth) -> Iterator[Channel]:
+def _of_hand(columns: Columns, hand: str, truth: GroundTruth) -> Iterator[Channel]:
     def read() -> Array:
         sample = truth.hand(hand)
         known = (np.nan if each is None else each for each in (sample.finger_force_n, sample.measured_m))
@@ -135,11 +135,11 @@ def _of_hand(columns: _Columns, hand: str, truth: GroundTruth) -> Iterator[Chann
     )
 
 
-def _of_base(columns: _Columns, base: MobileBase) -> Channel:
+def _of_base(columns: Columns, base: MobileBase) -> Channel:
     return Channel(columns.pose("sensor", "base", "the centre of the base"), lambda: _pose_row(base.pose))
 
 
-def _of_tool(columns: _Columns, tool: str, simulation: Simulation) -> Channel:
+def _of_tool(columns: Columns, tool: str, simulation: Simulation) -> Channel:
     truth, clock, before = simulation.ground_truth, simulation.clock, [simulation.clock.now]
 
     def read() -> Array:
@@ -150,7 +150,7 @@ def _of_tool(columns: _Columns, tool: str, simulation: Simulation) -> Channel:
     return Channel(columns.make("truth", ["contact_force"], "N", "", what), read)
 
 
-def _of_thing(columns: _Columns, thing: str, truth: GroundTruth) -> Channel:
+def _of_thing(columns: Columns, thing: str, truth: GroundTruth) -> Channel:
     return Channel(columns.pose("truth", "body", "the body"), lambda: _pose_row(truth.body_pose(thing)))
 
 
@@ -162,7 +162,7 @@ def _known(state: WorldState, cls: str) -> list[str]:
     return sorted(state.instances(cls)) if cls in state.vocabulary.classes else []
 
 
-def _names(state: WorldState) -> Mapping[str, str]:
+def name_devices(state: WorldState) -> Mapping[str, str]:
     """Return the name of each individual in columns: its local name, with its prefix if it is not the only one."""
     several = Counter(map(local_name, state.individuals))
     short = state.vocabulary.short

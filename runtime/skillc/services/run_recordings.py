@@ -1,0 +1,77 @@
+"""Records runs as MCAP files: what a run is made of, and its file while it goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from skillc.services.files import writing_to
+from skillc.services.recordings import RECORDING
+from skillc.services.reporting import Reporter
+from skillc.services.schemas import read_schema
+from skillc_model.codec import dumps
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.execution.attempt import CellOrigin
+from skillc_runtime.recording.envelope import Recorder
+from skillc_runtime.recording.mcap.contents import LIBRARY, SCENE, SETTINGS, RunContents
+from skillc_runtime.recording.mcap.recording_file import RecordingFile
+from skillc_runtime.recording.mcap.signal_tap import SignalTap
+from skillc_runtime.recording.signals.channels import name_devices
+from skillc_runtime.scene.load import load_sheets
+from skillc_runtime.scene.saving import SaveError, format_scene
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def describe_contents(
+    run: str, task: str, library: SkillLibrary, state: WorldState, origin: CellOrigin, settings: Mapping[str, Any]
+) -> RunContents:
+    """Return what a run is made of: with its library, its world at the start as a scene, and its settings."""
+    attachments = {LIBRARY: dumps(library), SETTINGS: msgspec.json.encode(dict(settings))}
+    try:
+        attachments[SCENE] = format_scene(state, load_sheets(state.vocabulary)).encode()
+    except SaveError as error:
+        attachments[SCENE] = f"# The world cannot be written as a scene: {error}\n".encode()
+    metadata = {
+        "skillc": version("skillc"),
+        "run": run,
+        "task": task,
+        "library": library.name,
+        "library_hash": library.hash,
+        "scene": origin.scene,
+        "seed": str(origin.seed),
+        "backend": origin.backend,
+    }
+    return RunContents(metadata, attachments, read_schema("events").encode())
+
+
+def open_recording(path: Path, contents: RunContents, tap: SignalTap | None, state: WorldState) -> RecordingFile:
+    """Begin the recording of a run; `tap` samples its cell, whose individuals `state` has. OSError."""
+    names = name_devices(state)
+    signals = () if tap is None else tap.layout.describe(lambda device: names[device])
+    return RecordingFile(path, contents, tap, signals)
+
+
+@contextmanager
+def recorded_in(
+    folder: Path, contents: RunContents, simulation: Simulation | None, state: WorldState, reporter: Reporter
+) -> Iterator[tuple[Recorder, ...]]:
+    """Record a run in a `with` statement in a folder; yields who gets the events.
+
+    ServiceError if the folder cannot be written to.
+    """
+    with writing_to(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        tap = None if simulation is None else SignalTap(simulation.live)
+        recording = open_recording(folder / RECORDING, contents, tap, state)
+    try:
+        yield (recording,)
+    finally:
+        recording.close()
+        if recording.problem is not None:
+            reporter.say(f"warning: {recording.problem}")

@@ -1,0 +1,48 @@
+"""Offers what changes in each control period of a simulated cell."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.names import face_sensor_name
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.devices.live import LiveArm, LiveBodies, LiveSensors, LiveSignals
+
+
+def make_live_signals(
+    scene: SceneSpec,
+    period_s: float,
+    arms: Mapping[str, ModelledArm],
+    drivers: Mapping[str, CompliantArmDriver],
+    model: Any,
+    data: Any,
+) -> LiveSignals:
+    """Return the live signals of a cell; its arrays stay where they are."""
+    sensors, positions, quaternions = data.sensordata, data.xpos, data.xquat
+    faces = ((each.individual, face_sensor_name(scene.names[each.individual], "touch")) for each in scene.tools)
+    return LiveSignals(
+        period_s=period_s,
+        now=lambda: float(data.time),
+        arms=tuple(_describe_arm(each, arms[each], drivers[each]) for each in sorted(arms)),
+        sensors=LiveSensors(
+            sensors.size,
+            sensors.tobytes,
+            tuple(sorted((tool, int(model.sensor(sensor).adr[0])) for tool, sensor in faces)),
+        ),
+        bodies=LiveBodies(positions.tobytes, quaternions.tobytes),
+    )
+
+
+def _describe_arm(individual: str, arm: ModelledArm, driver: CompliantArmDriver) -> LiveArm:
+    measured, wrench = arm.live_joints, arm.live_wrench
+    return LiveArm(
+        individual=individual,
+        joints=measured.shape[1],
+        measured=measured.tobytes,
+        wrench=None if wrench is None else wrench.tobytes,
+        reference=driver.motion.copy_tool_reference,
+        base=lambda: arm.base,
+    )

@@ -1,0 +1,62 @@
+"""What changes in each control period of a cell, as copies of memory: reading costs a fraction of a microsecond."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from skillc_runtime.motion.pose import Pose
+
+ReadBytes = Callable[[], bytes]
+"""Returns a copy of an array of float64."""
+
+
+@dataclass(frozen=True, slots=True)
+class LiveArm:
+    """An arm with `joints` joints, in its base frame, whose pose in the world `base` returns.
+
+    measured (2, joints): angles in rad, speeds in rad/s. wrench (6,): N and N m, on the tool, by a force-torque
+    sensor; None without one. reference (8, 3): the rows of `Reference`; NaN while the joints are controlled.
+    """
+
+    individual: str
+    joints: int
+    measured: ReadBytes
+    wrench: ReadBytes | None
+    reference: ReadBytes
+    base: Callable[[], Pose]
+
+
+@dataclass(frozen=True, slots=True)
+class LiveSensors:
+    """The sensors of a simulation, (count,); `faces` has of each tool where those of its working face begin.
+
+    These are the normal force in N, position (3,) m, unit quaternion (4,), velocity (3,) m/s, true and in the world.
+    """
+
+    count: int
+    read: ReadBytes
+    faces: tuple[tuple[str, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LiveBodies:
+    """The bodies of the model of a simulation: positions (n, 3) in m and unit quaternions (n, 4) in the world."""
+
+    positions: ReadBytes
+    quaternions: ReadBytes
+
+
+@dataclass(frozen=True, slots=True)
+class LiveSignals:
+    """What a cell offers: the time in s, arms in order of IRI, sensors, bodies; `listeners` are called in each period.
+
+    `period_s` is the control period. Listeners are called after the controllers; they must neither wait nor raise.
+    """
+
+    period_s: float
+    now: Callable[[], float]
+    arms: Sequence[LiveArm]
+    sensors: LiveSensors
+    bodies: LiveBodies
+    listeners: list[Callable[[], None]] = field(default_factory=list)

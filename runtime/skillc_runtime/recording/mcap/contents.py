@@ -1,0 +1,57 @@
+"""What is in the MCAP file of a run: its channels, its metadata and its attachments."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import msgspec
+
+from skillc_runtime.recording.mcap.signal_block import SignalBlock
+from skillc_runtime.recording.signals.signal import Signal
+
+PROFILE = "skillc"
+EVENTS, SIGNALS = "/events", "/signals"
+"""The topics of the channels."""
+
+METADATA = "skillc"
+"""The name of the metadata record of a run."""
+
+ENVELOPE_SCHEMA, BLOCK_SCHEMA = "skillc.Envelope", "skillc.SignalBlock"
+
+LIBRARY, SCENE, SETTINGS = "library.json", "scene.ttl", "settings.json"
+"""The attachments."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunContents:
+    """What a run was made of: `metadata` is text by name, `attachments` are files by name.
+
+    `envelope_schema` is the JSON Schema of an event.
+    """
+
+    metadata: Mapping[str, str]
+    attachments: Mapping[str, bytes] = field(default_factory=dict)
+    envelope_schema: bytes = b"{}"
+
+
+def media_type(attachment: str) -> str:
+    """Return the media type of an attachment."""
+    return "text/turtle" if attachment.endswith(".ttl") else "application/json"
+
+
+def make_block_schema() -> bytes:
+    """Return the JSON Schema of a block of signals, which is stored as MessagePack."""
+    (_,), components = msgspec.json.schema_components((SignalBlock,), ref_template="#/$defs/{name}")
+    return json.dumps({**components["SignalBlock"], "$defs": components}).encode()
+
+
+def encode_signals(signals: tuple[Signal, ...]) -> str:
+    """Return signals as the text in the metadata of their channel."""
+    return msgspec.json.encode(signals).decode()
+
+
+def decode_signals(text: str) -> tuple[Signal, ...]:
+    """Return the signals in the metadata of a channel; msgspec.DecodeError if there are none."""
+    return msgspec.json.decode(text, type=tuple[Signal, ...])

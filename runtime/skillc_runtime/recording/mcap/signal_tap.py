@@ -1,0 +1,175 @@
+"""Samples the signals of a cell in each control period, for as many recordings as there are.
+
+The loop of the cell only copies memory. What the copies mean is worked out in the threads of the recordings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillc_runtime.devices.live import LiveArm, LiveSignals
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.recording.signals.channels import WORLD, XYZ, Columns
+from skillc_runtime.recording.signals.signal import Signal
+
+BLOCK_ROWS = 200
+"""How many samples are handed over at once."""
+
+POSES_S = 0.02
+"""The time between two samples of the poses of all bodies, in s of the cell."""
+
+
+@dataclass(frozen=True, slots=True)
+class SampledBlock:
+    """Copies of memory: `rows` samples from `first_s` on, in s of the cell; the base of each arm at their end.
+
+    `poses` are the positions (n, 3) in m and quaternions (n, 4) of all bodies at times in s.
+    """
+
+    first_s: float
+    rows: int
+    content: bytearray
+    bases: tuple[Pose, ...]
+    poses: tuple[tuple[float, bytes, bytes], ...]
+
+
+class SignalTap:
+    """Samples the signals of a cell while there is somebody in `sinks`, who gets blocks and must not wait."""
+
+    def __init__(self, live: LiveSignals) -> None:
+        self.layout = SampleLayout(live)
+        self._live, self._row_bytes = live, self.layout.row_bytes
+        self._reads = (*(read for arm in live.arms for read in _reads(arm)), live.sensors.read)
+        self._per_pose = max(1, round(POSES_S / live.period_s))
+        self._sinks: list[Callable[[SampledBlock], None]] = []
+        self._content, self._first_s = bytearray(), 0.0
+        self._poses: list[tuple[float, bytes, bytes]] = []
+        self._due = 0
+
+    def add(self, sink: Callable[[SampledBlock], None]) -> None:
+        """Pass samples on to a sink from now on."""
+        self.flush()
+        self._sinks.append(sink)
+        if len(self._sinks) == 1:
+            self._live.listeners.append(self._sample)
+
+    def remove(self, sink: Callable[[SampledBlock], None]) -> None:
+        """Pass the last samples on to a sink, and no more."""
+        self.flush()
+        self._sinks.remove(sink)
+        if not self._sinks:
+            self._live.listeners.remove(self._sample)
+
+    def flush(self) -> None:
+        """Pass on what was sampled."""
+        rows = len(self._content) // self._row_bytes
+        if not rows:
+            return
+        bases = tuple(arm.base() for arm in self._live.arms)
+        block = SampledBlock(self._first_s, rows, self._content, bases, tuple(self._poses))
+        self._begin_block()
+        for sink in self._sinks:
+            sink(block)
+
+    def _begin_block(self) -> None:
+        self._content, self._poses, self._due = bytearray(), [], 0
+
+    def _sample(self) -> None:
+        """Copy what is there in one control period; this is all that most periods cost."""
+        if not self._due:
+            self._sample_poses()
+        self._due -= 1
+        content = self._content
+        for read in self._reads:
+            content += read()
+
+    def _sample_poses(self) -> None:
+        """Copy the poses of bodies; begin another block where that is due."""
+        if len(self._content) >= BLOCK_ROWS * self._row_bytes:
+            self.flush()
+        now, bodies = self._live.now(), self._live.bodies
+        if not self._content:
+            self._first_s = now
+        self._due = self._per_pose
+        self._poses.append((now, bodies.positions(), bodies.quaternions()))
+
+
+class SampleLayout:
+    """What the copies of a tap mean: `signals` are the columns of `rows_of`."""
+
+    def __init__(self, live: LiveSignals) -> None:
+        self.period_ns = round(live.period_s * 1e9)
+        self._arms, self._sensors = tuple(live.arms), live.sensors
+        self._width = sum(_width(arm) for arm in self._arms) + live.sensors.count
+
+    @property
+    def row_bytes(self) -> int:
+        """The memory of one sample."""
+        return 8 * self._width
+
+    def describe(self, names: Callable[[str], str]) -> tuple[Signal, ...]:
+        """Return the signals; `names` are those of devices in columns, by IRI."""
+        signals: list[Signal] = []
+        for arm in self._arms:
+            signals += _describe_arm(Columns(names(arm.individual), arm.individual), arm)
+        for tool, _ in self._sensors.faces:
+            signals += _describe_tool(Columns(names(tool), tool))
+        return tuple(signals)
+
+    def rows_of(self, block: SampledBlock) -> Array:
+        """Return the samples (n, m) of a block."""
+        content = np.frombuffer(block.content).reshape(block.rows, self._width)
+        columns: list[Array] = []
+        start = 0
+        for arm, base in zip(self._arms, block.bases, strict=True):
+            columns += _convert_arm(arm, base, content[:, start : start + _width(arm)])
+            start += _width(arm)
+        columns += (content[:, start + first : start + first + 4] for _, first in self._sensors.faces)
+        return np.concatenate([np.empty((block.rows, 0)), *columns], axis=1)
+
+    def faces_of(self, block: SampledBlock) -> Iterator[tuple[str, Array]]:
+        """Yield each tool with what its face felt and where it was in each sample, (n, 8): N, m, quaternion."""
+        content = np.frombuffer(block.content).reshape(block.rows, self._width)
+        start = self._width - self._sensors.count
+        for tool, first in self._sensors.faces:
+            yield tool, content[:, start + first : start + first + 8]
+
+
+def _reads(arm: LiveArm) -> Iterator[Callable[[], bytes]]:
+    yield arm.measured
+    yield arm.reference
+    if arm.wrench is not None:
+        yield arm.wrench
+
+
+def _width(arm: LiveArm) -> int:
+    return 2 * arm.joints + 24 + (0 if arm.wrench is None else 6)
+
+
+def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
+    """Yield the columns of an arm with its base at this pose."""
+    joints = 2 * arm.joints
+    yield content[:, :joints]
+    yield content[:, joints : joints + 3] @ base.rotation.T + base.position
+    if arm.wrench is not None:
+        yield (content[:, joints + 24 :].reshape(-1, 2, 3) @ base.rotation.T).reshape(-1, 6)
+
+
+def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
+    joints = [f"joint_{number}" for number in range(1, arm.joints + 1)]
+    yield from columns.make("sensor", joints, "rad", "", "angle of a joint")
+    yield from columns.make("sensor", joints, "rad/s", "", "speed of a joint")
+    what = "position of the tool's reference; not known while the joints are controlled"
+    yield from columns.make("command", [f"tool_{axis}" for axis in XYZ], "m", WORLD, what)
+    if arm.wrench is not None:
+        what = "on the tool, by the force-torque sensor"
+        yield from columns.make("sensor", [f"force_{axis}" for axis in XYZ], "N", WORLD, f"force {what}")
+        yield from columns.make("sensor", [f"torque_{axis}" for axis in XYZ], "N m", WORLD, f"torque {what}")
+
+
+def _describe_tool(columns: Columns) -> Iterator[Signal]:
+    yield from columns.make("truth", ["contact_force"], "N", "", "normal force of the contacts of the working face")
+    yield from columns.make("truth", [f"face_{axis}" for axis in XYZ], "m", WORLD, "middle of the working face")
