@@ -50,6 +50,12 @@ def describe_contents(
     return RunContents(metadata, attachments, read_schema("events").encode())
 
 
+def make_tap(simulation: Simulation) -> SignalTap | None:
+    """Return what samples the signals of a cell; None if it has no devices that have any."""
+    tap = SignalTap(simulation.live)
+    return tap if tap.layout.row_bytes else None
+
+
 def open_recording(path: Path, contents: RunContents, tap: SignalTap | None, state: WorldState) -> RecordingFile:
     """Begin the recording of a run; `tap` samples its cell, whose individuals `state` has. OSError."""
     names = name_devices(state)
@@ -67,7 +73,7 @@ def recorded_in(
     """
     with writing_to(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        tap = None if simulation is None else SignalTap(simulation.live)
+        tap = None if simulation is None else make_tap(simulation)
         recording = open_recording(folder / RECORDING, contents, tap, state)
     try:
         yield (recording,)
