@@ -46,7 +46,8 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
 
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
-    it runs. `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
+    it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `decisions` are how it can be
+    continued if it was interrupted, `continued_by` is the operation that does.
     """
 
     id: str
@@ -59,6 +60,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     verified: bool | None = None
     failure: Failure | None = None
     library_hash: str = ""
+    devices: tuple[str, ...] | None = ()
     decisions: tuple[Decision, ...] = ()
     continued_by: str = ""
 

@@ -28,4 +28,5 @@ class SubmittedOperation:
             verified=run.verified,
             failure=run.failure,
             library_hash=self.library_hash,
+            devices=None if (held := run.devices) is None else tuple(sorted(held)),
         )

@@ -11,8 +11,9 @@ from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.server.access.leases import Lease
-from skillc.server.api_types import LeaseRequest, PaceSetting, StopAll
+from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopAll
 from skillc.services.errors import RequestError
+from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.execution.pace import FAST
 
 OPERATIONS = 100
@@ -77,6 +78,14 @@ class AsyncCell:
             self._path("operations"), tuple[OperationStatus, ...], limit=limit, ongoing=str(ongoing).lower()
         )
         return tuple(AsyncOperation(self._connection, each) for each in found)
+
+    async def library(self) -> LibraryDescription:
+        """Return what its next operation runs: the skills and tasks of its library."""
+        return await self._connection.get(self._path("library"), LibraryDescription)
+
+    async def robots(self) -> tuple[DeviceStatus, ...]:
+        """Return its robots, arms, grippers, cameras and sensors, and which operation holds each."""
+        return await self._connection.get(self._path("robots"), tuple[DeviceStatus, ...])
 
     async def set_pace(self, pace: float | str) -> CellStatus:
         """Let its time pass `fast`, as fast as it computes, `real`, as real time, or so many times as fast."""

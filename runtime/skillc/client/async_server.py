@@ -13,7 +13,7 @@ from skillc.client.connection import Connection, join
 from skillc.client.feed import Status, follow_states
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
-from skillc.server.api_types import MadeToken, NewToken
+from skillc.server.api_types import MadeToken, NewToken, VersionInfo
 from skillc.services.errors import RequestError
 
 
@@ -25,6 +25,10 @@ class AsyncServer:
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
+
+    async def version(self) -> VersionInfo:
+        """Return its version of skillc and of the API."""
+        return await self._connection.get("/version", VersionInfo)
 
     async def cells(self) -> tuple[CellStatus, ...]:
         """Return how its cells are."""

@@ -10,6 +10,8 @@ from skillc.client.async_cell import OPERATIONS, AsyncCell
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.server.access.leases import Lease
+from skillc.server.api_types import DeviceStatus
+from skillc.workers.libraries import LibraryDescription
 
 
 class ServerCell:
@@ -63,6 +65,14 @@ class ServerCell:
         """Return its last operations, the last one first; with `ongoing` all that have not ended, and no others."""
         found = self._loop.run(self._cell.operations(limit, ongoing))
         return tuple(ServerOperation(self._loop, each) for each in found)
+
+    def library(self) -> LibraryDescription:
+        """Return what its next operation runs: the skills and tasks of its library."""
+        return self._loop.run(self._cell.library())
+
+    def robots(self) -> tuple[DeviceStatus, ...]:
+        """Return its robots, arms, grippers, cameras and sensors, and which operation holds each."""
+        return self._loop.run(self._cell.robots())
 
     def set_pace(self, pace: float | str) -> CellStatus:
         """Let its time pass `fast`, as fast as it computes, `real`, as real time, or so many times as fast."""

@@ -13,6 +13,7 @@ from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
+from skillc.server.api_types import VersionInfo
 
 
 class Server:
@@ -23,6 +24,10 @@ class Server:
 
     def __init__(self, server: AsyncServer) -> None:
         self._loop, self._server = LoopThread(), server
+
+    def version(self) -> VersionInfo:
+        """Return its version of skillc and of the API."""
+        return self._loop.run(self._server.version())
 
     def cells(self) -> tuple[CellStatus, ...]:
         """Return how its cells are."""

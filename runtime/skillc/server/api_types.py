@@ -8,6 +8,7 @@ import msgspec
 
 from skillc.server.access.roles import Role
 from skillc.server.values import Name, Reason
+from skillc.workers.devices import Device
 
 MAX_PACE = 1000.0
 MAX_LEASE_S = 3600.0
@@ -45,6 +46,20 @@ class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Why an operation is stopped."""
 
     reason: Annotated[str, msgspec.Meta(max_length=500)] = "stopped"
+
+
+class VersionInfo(msgspec.Struct, frozen=True):
+    """The version of skillc, and that of the API."""
+
+    skillc: str
+    api: str
+
+
+class DeviceStatus(msgspec.Struct, frozen=True):
+    """A device, and the operation that holds it; null if it is free."""
+
+    device: Device
+    held_by: str | None
 
 
 class WorldQuery(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

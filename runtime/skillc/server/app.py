@@ -32,7 +32,7 @@ from skillc.server.requests import decode_body, find_client, read_body, read_key
 
 REQUESTS_PER_S, BURST = 200.0, 400.0
 """How many requests a client may make; stops are not counted."""
-FAILURES_PER_S, FAILURES = 0.2, 20.0
+FAILURES_PER_S, FAILURES = 0.2, 100.0
 """How many requests without a valid token an address may make."""
 
 AUDITED_REFUSALS = (HTTPStatus.UNAUTHORIZED, HTTPStatus.FORBIDDEN, HTTPStatus.TOO_MANY_REQUESTS)

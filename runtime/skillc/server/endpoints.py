@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc.server.endpoint import ApiEndpoint
-from skillc.server.routes import audit, cells, leases, metrics, operations, tokens, world
+from skillc.server.routes import audit, cells, leases, libraries, metrics, operations, tokens, world
 
 PREFIX = "/api/v1"
 ENDPOINTS: tuple[ApiEndpoint, ...] = (
@@ -11,6 +11,7 @@ ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *leases.ENDPOINTS,
     *operations.ENDPOINTS,
     *world.ENDPOINTS,
+    *libraries.ENDPOINTS,
     *tokens.ENDPOINTS,
     *audit.ENDPOINTS,
     *metrics.ENDPOINTS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
-from typing import assert_never
+from typing import TypeAlias, assert_never
 
 import msgspec
 
@@ -14,7 +14,20 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot
 from skillc.services.errors import ServiceError
 from skillc.services.scenes import describe_state, query_document
-from skillc.workers.jobs import Job, ListFacts, ListWrites, QueryRows, QueryWorld, WorldFact, WorldFacts, WorldWrite
+from skillc.workers.devices import Device, list_devices
+from skillc.workers.jobs import (
+    DescribeLibrary,
+    Job,
+    ListDevices,
+    ListFacts,
+    ListWrites,
+    QueryRows,
+    QueryWorld,
+    WorldFact,
+    WorldFacts,
+    WorldWrite,
+)
+from skillc.workers.libraries import LibraryDescription, describe_library
 from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError
@@ -47,7 +60,10 @@ def answer_job(request: tuple[Job, bytes]) -> bytes | JobRefused:
         return JobRefused("it needs too much memory; ask for less")
 
 
-def _answer(job: Job, known: CellSnapshot) -> QueryRows | WorldFacts | tuple[WorldWrite, ...]:
+Answer: TypeAlias = QueryRows | WorldFacts | tuple[WorldWrite, ...] | LibraryDescription | tuple[Device, ...]
+
+
+def _answer(job: Job, known: CellSnapshot) -> Answer:
     match job:
         case QueryWorld(sparql):
             return _query(sparql, known)
@@ -55,6 +71,10 @@ def _answer(job: Job, known: CellSnapshot) -> QueryRows | WorldFacts | tuple[Wor
             return _list_facts(job, known)
         case ListWrites():
             return _list_writes(job, known)
+        case DescribeLibrary():
+            return describe_library(known.library)
+        case ListDevices():
+            return list_devices(known.state)
         case _:
             assert_never(job)
 

@@ -36,7 +36,15 @@ class ListWrites(msgspec.Struct, frozen=True, tag="writes"):
     limit: int
 
 
-Job: TypeAlias = QueryWorld | ListFacts | ListWrites
+class DescribeLibrary(msgspec.Struct, frozen=True, tag="library"):
+    """Describe the library of the cell."""
+
+
+class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
+    """List the devices of the cell."""
+
+
+Job: TypeAlias = QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices
 
 
 class WorldFact(msgspec.Struct, frozen=True, omit_defaults=True):

@@ -89,6 +89,11 @@ class TaskRun:
         return self._next.waits_for
 
     @property
+    def devices(self) -> frozenset[str] | None:
+        """The devices, by IRI, that it holds; None for the whole cell."""
+        return self._claims.devices_of(self.id)
+
+    @property
     def tree(self) -> TreeRun | None:
         """The tree that runs; None between attempts."""
         return self._attempt.tree if self._attempt is not None else None

@@ -1,0 +1,59 @@
+"""What a cell can do: its library and its devices; and the version of the server."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from importlib.metadata import version
+
+from skillc.server.api_types import DeviceStatus, VersionInfo
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.openapi import VERSION
+from skillc.server.outcome import UNAVAILABLE
+from skillc.server.routes.world import QUERY_S, ask_about
+from skillc.workers.devices import Device
+from skillc.workers.jobs import DescribeLibrary, ListDevices
+from skillc.workers.libraries import LibraryDescription
+
+
+async def show_version(call: ApiCall) -> VersionInfo:
+    return VersionInfo(version("skillc"), VERSION)
+
+
+async def show_library(call: ApiCall) -> LibraryDescription:
+    return await ask_about(call, DescribeLibrary(), LibraryDescription, QUERY_S)
+
+
+async def list_robots(call: ApiCall) -> tuple[DeviceStatus, ...]:
+    devices = await ask_about(call, ListDevices(), tuple[Device, ...], QUERY_S)
+    operations = call.server.find_cell(call.path["cell"]).operations.values()
+    held = {each.id: each.devices for each in operations if each.devices != ()}
+    return tuple(DeviceStatus(each, _find_holder(each.iri, held)) for each in devices)
+
+
+def _find_holder(device: str, held: dict[str, tuple[str, ...] | None]) -> str | None:
+    """Return the operation that holds a device, by itself or with the whole cell."""
+    return next((each for each, devices in held.items() if devices is None or device in devices), None)
+
+
+REFUSALS = (HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE)
+ENDPOINTS = (
+    ApiEndpoint("GET", "/version", "view", "Show the versions of skillc and of the API", show_version, VersionInfo),
+    ApiEndpoint(
+        "GET",
+        "/cells/{cell}/library",
+        "view",
+        "Describe the library of a cell",
+        show_library,
+        LibraryDescription,
+        refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "GET",
+        "/cells/{cell}/robots",
+        "view",
+        "List the devices of a cell, and which operation holds each",
+        list_robots,
+        tuple[DeviceStatus, ...],
+        refusals=REFUSALS,
+    ),
+)

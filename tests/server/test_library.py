@@ -1,0 +1,66 @@
+"""What a cell can do, by its API: skills, tasks, devices and which operation holds them."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from pathlib import Path
+
+import skillc
+from server.running import RunningServer
+from skillc.services.libraries import compile_valid
+from skillc.services.library_files import find_library, find_scene
+from skillc.services.reporting import SilentReporter
+from skillc.services.stores import load_world
+from skillc.workers.devices import Figure, list_devices
+from skillc.workers.libraries import describe_library
+
+
+def test_skills_and_tasks_are_described(server: RunningServer) -> None:
+    found = server.client.get("/cells/yard/library").json()
+    assert found["hash"] == server.client.get("/cells/yard").json()["library_hash"]
+    load = next(each for each in found["skills"] if each["name"] == "Load")
+    assert load["pre"] == ["from contain crate", "not cart contain _", "from != cart"]
+    assert [(each["name"], each["direction"], each["type"]) for each in load["parameters"]] == [
+        ("cart", "in", "lab:Cart"),
+        ("crate", "in", "skiros:Product"),
+        ("from", "infer", "skiros:Location"),
+    ]
+    assert [each["name"] for each in load["implementations"]] == ["by_hand"]
+    tasks = {each["name"]: each for each in found["tasks"]}
+    assert list(tasks) == ["carry", "carry_all", "carry_two"]
+    assert (tasks["carry"]["doc"], tasks["carry"]["goal"]) == ("Bring one crate to a place.", "to contain crate")
+
+
+def test_the_python_client_has_library_robots_and_version(server: RunningServer) -> None:
+    with skillc.connect(f"http://127.0.0.1:{server.port}", server.token) as connected:
+        assert connected.version().skillc == version("skillc")
+        cell = connected.cell()
+        assert cell.library().hash == cell.status.library_hash and cell.robots() == ()
+
+
+def test_devices_have_what_their_data_sheets_state() -> None:
+    library = compile_valid(find_library(Path("wiping")))
+    state = load_world(find_scene(Path("iiwa_table.ttl")), library.vocabulary, SilentReporter())
+    found = {each.label: each for each in list_devices(state)}
+    assert {name: each.kind for name, each in found.items()} == {
+        "lab:Robot-1": "robot",
+        "lab:Iiwa-1": "arm",
+        "lab:Robotiq-1": "gripper",
+    }
+    arm = found["lab:Iiwa-1"]
+    assert arm.part_of == found["lab:Robot-1"].iri and arm.controller == "impedance"
+    assert Figure("skillc:contactForceLimit", 80.0, "N") in arm.figures, arm.figures
+
+
+def test_a_device_is_held_by_the_operation_that_runs(server: RunningServer) -> None:
+    server.put_back()
+    operation = server.submit(task="carry_all")["id"]
+    assert server.wait_for(operation, "running")["devices"] is None, "a call that names no robot needs the whole cell"
+    server.client.post(f"/operations/{operation}/stop", json={})
+    assert server.wait_for(operation, "stopped")["devices"] == []
+
+
+def test_implementations_add_conditions() -> None:
+    described = describe_library(compile_valid(find_library(Path("wiping"))))
+    added = {each.name: each.pre for skill in described.skills for each in skill.implementations if each.pre}
+    assert added, "some implementations need more than their skill"
