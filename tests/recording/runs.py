@@ -28,7 +28,7 @@ def publish(events: Sequence[Event], *recorders: Recorder) -> None:
 
 def write_recording(path: Path, events: Sequence[Event] = EVENTS) -> RecordingFile:
     """Write a recording without signals, with a chunk for every few events."""
-    recording = RecordingFile(path, CONTENTS)
+    recording = RecordingFile(path, lambda: CONTENTS)
     publish(events, recording)
     recording.close()
     return recording

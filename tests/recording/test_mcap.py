@@ -21,6 +21,7 @@ import skillc
 from recording.runs import CONTENTS, EVENTS, publish, write_recording
 from skillc.cli.main import skillc as program
 from skillc_model.codec import loads
+from skillc_runtime.recording.mcap.contents import RunContents
 from skillc_runtime.recording.mcap.reader import read_recording
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
 from skillc_runtime.recording.mcap.signal_block import QUANTA, SignalBlock, decode_columns, encode_columns
@@ -172,13 +173,16 @@ def test_something_else_is_refused_in_a_sentence(content: bytes, tmp_path: Path)
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a disk that is always full is needed")
 def test_a_full_disk_ends_the_recording_and_not_the_run() -> None:
-    with pytest.raises(OSError, match="No space"):
-        write_recording(Path("/dev/full"))
+    assert write_recording(Path("/dev/full")).problem == "/dev/full is incomplete: No space left on device"
+
+
+def describe_late() -> RunContents:
+    time.sleep(0.2)
+    return CONTENTS
 
 
 def test_a_disk_that_does_not_keep_up_ends_the_recording_and_not_the_run(tmp_path: Path) -> None:
-    recording = RecordingFile(tmp_path / "a.mcap", CONTENTS)
-    recording._stream.add = lambda item: time.sleep(0.05)  # type: ignore[method-assign]
+    recording = RecordingFile(tmp_path / "a.mcap", describe_late)
     publish(EVENTS * 20, recording)
     recording.close()
     assert recording.problem is not None and "the disk is too slow" in recording.problem

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.execution.cell_loop import TooManyRequests
+from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.task_state import ENDS
 
 CRATES = [f"lab:crate-{number}" for number in range(4)]
@@ -39,6 +41,8 @@ def test_operations_wait_for_the_cell_by_priority_up_to_a_number(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("skillc.cells.host.MAX_OPERATIONS", 4)
+    # One planner at once: with two, the first operation can have its plan, and the cart, before the one that is urgent.
+    monkeypatch.setattr("skillc.cells.host.PlanningQueue", partial(PlanningQueue, limit=1))
     with opened(tmp_path) as host:
         for number, priority in enumerate((0, 0, 7, -1)):
             call = f"Load(cart: lab:Cart-1, crate: {CRATES[number]})"

@@ -16,6 +16,7 @@ from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.reality import RealityKeeper, build_again
+from skillc.cells.recordings import CellRecordings
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
@@ -88,6 +89,7 @@ class CellHost:
         journal: CellJournal,
         reader: JournalReader,
         scene: Path,
+        reporter: Reporter,
     ) -> None:
         """Build the cell; SheetError or FrameError if its scene cannot be simulated, DatabaseError of `build_again`."""
         self.settings, self.library = settings, library
@@ -95,6 +97,7 @@ class CellHost:
         self._backend = build_again(settings.backend, world, settings.seed, reader)
         self._reality = RealityKeeper(self._backend, journal)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
+        self._recordings = CellRecordings(Path(settings.folder), self._backend, origin, reporter)
         self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
@@ -178,6 +181,7 @@ class CellHost:
         """
         changed = []
         for submitted in tuple(self._operations.values()):
+            self._recordings.update(submitted)
             operation = submitted.describe(self.settings.name)
             if operation.state == "interrupted":
                 operation = structs.replace(operation, decisions=decisions_about(operation.id, self._reader))
@@ -187,6 +191,7 @@ class CellHost:
         if ended := [each for each in changed if each.state in ENDS]:
             for each in ended:
                 self._journal.end_operation(each)
+                self._recordings.end(each.id)
                 del self._operations[each.id]
             self.loop.obey()
         return tuple(changed)
@@ -200,6 +205,7 @@ class CellHost:
         self.loop.close(reason)
         with suppress(NotDurable):
             self._commit()
+        self._recordings.close()
         self._backend.close()
 
     def _commit(self) -> None:
@@ -233,7 +239,8 @@ class CellHost:
         prepared, plan = continuation.prepared, self.loop.start_preparation
         start = plan if prepared is None else prepare_after(prepared, plan)
         self._journal.add_operation(operation, request)
-        publisher = Publisher(operation, (self._journal.record,))
+        recorders = self._recordings.begin(operation, request, self.library)
+        publisher = Publisher(operation, (self._journal.record, *recorders))
         run = self.loop.submit(continuation.assignment, (publisher,), settings, gate, operation, start)
         self._operations[operation] = SubmittedOperation(request, run, publisher, self.library.hash)
         return self._operations[operation]
@@ -272,7 +279,7 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
         ):
             world = restore_world(store, state, sequence, journal, reader)
             end_interrupted(settings.name, reader, journal)
-            host = CellHost(settings, library, world, journal, reader, scene)
+            host = CellHost(settings, library, world, journal, reader, scene, reporter)
             try:
                 yield host
             finally:

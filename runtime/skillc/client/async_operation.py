@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncGenerator, Generator
 from contextlib import aclosing
+from pathlib import Path
 from typing import Any, Literal
 from uuid import uuid4
 
@@ -85,6 +86,15 @@ class AsyncOperation:
         and none comes twice.
         """
         return follow_operation(self._connection, self.id, after)
+
+    async def recording(self, path: str | Path) -> Path:
+        """Write its recording to a file, an MCAP file, and return the file; `skillc.open_run` reads it.
+
+        While it goes on, that is what is written up to now. RefusedError if it has none.
+        """
+        file = Path(path)
+        await self._connection.download(join("operations", self.id, "recording"), file)
+        return file
 
     async def approve(self) -> None:
         """Run the plan that waits for approval."""

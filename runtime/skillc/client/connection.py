@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ssl
+from pathlib import Path
 from typing import Literal, TypeVar
 from urllib.parse import quote
 
@@ -70,6 +71,25 @@ class Connection:
         if not answer.is_success:
             raise _find_error(answer, self.address)
         return decode(answer.content or b"null", kind)
+
+    async def download(self, path: str, file: Path) -> None:
+        """Write a resource to a file, completely or not at all; errors as of `send`, ServiceError if not possible."""
+        half = file.with_name(f"{file.name}.half")
+        try:
+            with half.open("wb") as target:
+                async with self._client.stream("GET", self.address.url + path) as answer:
+                    if not answer.is_success:
+                        await answer.aread()
+                        raise _find_error(answer, self.address)
+                    async for piece in answer.aiter_bytes():
+                        target.write(piece)
+            half.replace(file)
+        except (httpx.HTTPError, httpx.InvalidURL) as error:
+            raise UnavailableError(describe_loss(self.address, error)) from error
+        except OSError as error:
+            raise ServiceError(f"{file} cannot be written: {error.strerror or error}") from error
+        finally:
+            half.unlink(missing_ok=True)
 
 
 def decode(content: bytes | str, kind: type[T]) -> T:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 from skillc.cells.operation import OperationStatus
 from skillc.client.async_operation import AsyncOperation, Depth
@@ -65,6 +66,10 @@ class ServerOperation:
     def events(self, after: int = 0) -> Iterator[Envelope]:
         """Yield the events numbered from `after` + 1 on, as they happen, until it has ended: each of them once."""
         return self._loop.iterate(self._operation.events(after))
+
+    def recording(self, path: str | Path) -> Path:
+        """Write its recording to a file, an MCAP file, and return the file; `skillc.open_run` reads it."""
+        return self._loop.run(self._operation.recording(path))
 
     def approve(self) -> None:
         """Run the plan that waits for approval."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from skillc.server.endpoint import ApiEndpoint
-from skillc.server.routes import audit, cells, leases, libraries, metrics, operations, tokens, world
+from skillc.server.routes import audit, cells, leases, libraries, metrics, operations, recordings, tokens, world
 
 PREFIX = "/api/v1"
 ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *cells.ENDPOINTS,
     *leases.ENDPOINTS,
     *operations.ENDPOINTS,
+    *recordings.ENDPOINTS,
     *world.ENDPOINTS,
     *libraries.ENDPOINTS,
     *tokens.ENDPOINTS,

@@ -1,4 +1,4 @@
-"""Forgets old operations of a server, with their events."""
+"""Forgets old operations of a server, with their events and recordings."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 from skillc.cells.database import DatabaseError
 from skillc.cells.host import JOURNAL
 from skillc.cells.journal.pruning import prune_journal
+from skillc.cells.recordings import RECORDINGS, recording_file
 from skillc.server.state import CELLS, DATABASE
 from skillc.services.errors import RequestError, ServiceError
 
@@ -23,7 +24,18 @@ def prune(state: Path, before_ns: int | None, max_bytes: int | None) -> dict[str
 
 
 def _prune_cell(cell: Path, before_ns: int | None, max_bytes: int | None) -> int:
+    """Forget operations of a cell, with their recordings."""
+    count = 0
     try:
-        return sum(1 for _ in prune_journal(cell / JOURNAL, before_ns, max_bytes))
+        for operation in prune_journal(cell / JOURNAL, before_ns, max_bytes, lambda: _count_bytes(cell / RECORDINGS)):
+            recording_file(cell, operation).unlink(missing_ok=True)
+            count += 1
     except DatabaseError as error:
         raise ServiceError(str(error)) from error
+    except OSError as error:
+        raise ServiceError(f"{cell / RECORDINGS} cannot be pruned: {error.strerror or error}") from error
+    return count
+
+
+def _count_bytes(folder: Path) -> int:
+    return sum(each.stat().st_size for each in folder.glob("*")) if folder.exists() else 0

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import json
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -29,12 +31,21 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def describe_contents(
-    run: str, task: str, library: SkillLibrary, state: WorldState, origin: CellOrigin, settings: Mapping[str, Any]
+    run: str,
+    task: str,
+    library: SkillLibrary,
+    state: WorldState,
+    origin: CellOrigin,
+    settings: Mapping[str, Any],
+    sheets: WorldState | None = None,
 ) -> RunContents:
-    """Return what a run is made of: with its library, its world at the start as a scene, and its settings."""
+    """Return what a run is made of: with its library, its world at the start as a scene, and its settings.
+
+    `sheets` are the facts of data sheets, which a scene does not state; they are loaded unless they are given.
+    """
     attachments = {LIBRARY: dumps(library), SETTINGS: msgspec.json.encode(dict(settings))}
     try:
-        attachments[SCENE] = format_scene(state, load_sheets(state.vocabulary)).encode()
+        attachments[SCENE] = format_scene(state, sheets or load_sheets(state.vocabulary)).encode()
     except SaveError as error:
         attachments[SCENE] = f"# The world cannot be written as a scene: {error}\n".encode()
     metadata = {
@@ -47,7 +58,12 @@ def describe_contents(
         "seed": str(origin.seed),
         "backend": origin.backend,
     }
-    return RunContents(metadata, attachments, read_schema("events").encode())
+    return RunContents(metadata, attachments, _read_event_schema())
+
+
+@cache
+def _read_event_schema() -> bytes:
+    return json.dumps(json.loads(read_schema("events")), separators=(",", ":"), ensure_ascii=False).encode()
 
 
 def make_tap(simulation: Simulation) -> SignalTap | None:
@@ -56,16 +72,25 @@ def make_tap(simulation: Simulation) -> SignalTap | None:
     return tap if tap.layout.row_bytes else None
 
 
-def open_recording(path: Path, contents: RunContents, tap: SignalTap | None, state: WorldState) -> RecordingFile:
-    """Begin the recording of a run; `tap` samples its cell, whose individuals `state` has. OSError."""
+def open_recording(
+    path: Path, describe: Callable[[], RunContents], tap: SignalTap | None, state: WorldState
+) -> RecordingFile:
+    """Begin the recording of a run, which `describe` describes in another thread; OSError.
+
+    `tap` samples its cell, whose individuals `state` has.
+    """
     names = name_devices(state)
     signals = () if tap is None else tap.layout.describe(lambda device: names[device])
-    return RecordingFile(path, contents, tap, signals)
+    return RecordingFile(path, describe, tap, signals)
 
 
 @contextmanager
 def recorded_in(
-    folder: Path, contents: RunContents, simulation: Simulation | None, state: WorldState, reporter: Reporter
+    folder: Path,
+    describe: Callable[[], RunContents],
+    simulation: Simulation | None,
+    state: WorldState,
+    reporter: Reporter,
 ) -> Iterator[tuple[Recorder, ...]]:
     """Record a run in a `with` statement in a folder; yields who gets the events.
 
@@ -74,7 +99,8 @@ def recorded_in(
     with writing_to(folder):
         folder.mkdir(parents=True, exist_ok=True)
         tap = None if simulation is None else make_tap(simulation)
-        recording = open_recording(folder / RECORDING, contents, tap, state)
+        recording = open_recording(folder / RECORDING, describe, tap, state)
+        recording.sample()
     try:
         yield (recording,)
     finally:

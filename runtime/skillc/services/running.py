@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
@@ -146,8 +147,9 @@ class _Run:
             return nullcontext(())
         origin = CellOrigin(task.scene, options.seed, options.backend)
         settings = {"deadline_s": options.deadline_s, "step": options.step, "pause_at": options.pause_at}
-        contents = describe_contents(run_id, task.assignment.name, task.library, state, origin, settings)
-        return recorded_in(options.out, contents, self.cell, state, self.reporter)
+        name = task.assignment.name
+        describe = partial(describe_contents, run_id, name, task.library, state, origin, settings)
+        return recorded_in(options.out, describe, self.cell, state, self.reporter)
 
     def _describe_recording(self, run_id: str, recorders: tuple[Recorder, ...]) -> RecordingOptions:
         options = self.options

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -52,9 +53,9 @@ def _record(task: LoadedTask, path: Path, result: TaskResult, reporter: Reporter
     stopped = result.status == "stopped"
     failure = Failure(kind="halted" if stopped else "plan", message=result.failure or "")
     run, state, origin = make_run_id(result.task), task.world.snapshot(), CellOrigin(task.scene, result.seed)
-    contents = describe_contents(run, result.task, task.library, state, origin, {})
+    describe = partial(describe_contents, run, result.task, task.library, state, origin, {})
     with (
-        recorded_in(path.parent, contents, None, state, reporter) as recorders,
+        recorded_in(path.parent, describe, None, state, reporter) as recorders,
         TraceWriter(path) as writer,
     ):
         publish = Publisher(run, (writer, *recorders))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import closing
 from pathlib import Path
 
@@ -14,25 +14,33 @@ BATCH = 20
 """How many operations one transaction removes: the cell can write in between."""
 
 
-def prune_journal(path: Path, before_ns: int | None, max_bytes: int | None) -> Iterator[str]:
+def prune_journal(
+    path: Path, before_ns: int | None, max_bytes: int | None, count_other_bytes: Callable[[], int] = lambda: 0
+) -> Iterator[str]:
     """Remove operations that have ended, the oldest first, and yield their ids.
 
     It removes those that were submitted before `before_ns`, a wall time in ns since 1970-01-01 UTC, and as many more as
-    are needed until the journal uses at most `max_bytes`. The file keeps its size; what is free in it is used again.
+    are needed until the journal and `count_other_bytes()`, of what else there is, use at most `max_bytes`. The file
+    keeps its size; what is free in it is used again.
     DatabaseError if it cannot be written.
     """
     with closing(open_for_writing(path, SCHEMA)) as database:
-        while removed := _remove_batch(path, database, before_ns, max_bytes):
+        while removed := _remove_batch(path, database, before_ns, max_bytes, count_other_bytes):
             yield from removed
 
 
 def _remove_batch(
-    path: Path, database: sqlite3.Connection, before_ns: int | None, max_bytes: int | None
+    path: Path,
+    database: sqlite3.Connection,
+    before_ns: int | None,
+    max_bytes: int | None,
+    count_other_bytes: Callable[[], int],
 ) -> tuple[str, ...]:
+    limit = None if max_bytes is None else max_bytes - count_other_bytes()
     try:
         database.execute("BEGIN IMMEDIATE")
         try:
-            removed = _find_oldest(database, before_ns, max_bytes)
+            removed = _find_oldest(database, before_ns, limit)
             database.executemany("DELETE FROM events WHERE operation = ?", [(each,) for each in removed])
             database.executemany("DELETE FROM operations WHERE id = ?", [(each,) for each in removed])
             database.execute("COMMIT")

@@ -23,6 +23,9 @@ ENVELOPE_SCHEMA, BLOCK_SCHEMA = "skillc.Envelope", "skillc.SignalBlock"
 LIBRARY, SCENE, SETTINGS = "library.json", "scene.ttl", "settings.json"
 """The attachments."""
 
+PACKED = ".gz"
+"""What the names of attachments end with in the file: they are compressed with gzip."""
+
 
 @dataclass(frozen=True, slots=True)
 class RunContents:
@@ -34,11 +37,6 @@ class RunContents:
     metadata: Mapping[str, str]
     attachments: Mapping[str, bytes] = field(default_factory=dict)
     envelope_schema: bytes = b"{}"
-
-
-def media_type(attachment: str) -> str:
-    """Return the media type of an attachment."""
-    return "text/turtle" if attachment.endswith(".ttl") else "application/json"
 
 
 def make_block_schema() -> bytes:

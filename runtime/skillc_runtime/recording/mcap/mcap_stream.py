@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import gzip
 import time
-from pathlib import Path
-from typing import assert_never
+from typing import BinaryIO, assert_never
 
 import msgspec
 from mcap.writer import Writer
@@ -15,12 +15,12 @@ from skillc_runtime.recording.mcap.contents import (
     ENVELOPE_SCHEMA,
     EVENTS,
     METADATA,
+    PACKED,
     PROFILE,
     SIGNALS,
     RunContents,
     encode_signals,
     make_block_schema,
-    media_type,
 )
 from skillc_runtime.recording.mcap.signal_block import FORMAT, SignalBlock, encode_columns
 from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SampleLayout
@@ -33,25 +33,20 @@ class McapStream:
     """An MCAP file that is being written; OSError of all methods if that fails."""
 
     def __init__(
-        self, path: Path, contents: RunContents, layout: SampleLayout | None, signals: tuple[Signal, ...]
+        self, file: BinaryIO, contents: RunContents, layout: SampleLayout | None, signals: tuple[Signal, ...]
     ) -> None:
-        """Create the file with what the run is made of. With a `layout` it has `signals`."""
-        self._file = path.open("wb")
+        """Begin with what the run is made of. With a `layout` there will be samples of `signals`."""
         self._layout, self._units = layout, tuple(each.unit for each in signals)
         self._json, self._msgpack = msgspec.json.Encoder(), msgspec.msgpack.Encoder()
-        try:
-            self._writer = Writer(self._file, chunk_size=CHUNK_BYTES)
-            self._begin(contents)
-            schema = self._writer.register_schema(ENVELOPE_SCHEMA, "jsonschema", contents.envelope_schema)
-            self._events = self._writer.register_channel(EVENTS, "json", schema)
-            if layout is not None:
-                schema = self._writer.register_schema(BLOCK_SCHEMA, "jsonschema", make_block_schema())
-                about = {"format": str(FORMAT), "signals": encode_signals(signals)}
-                self._signals = self._writer.register_channel(SIGNALS, "msgpack", schema, about)
-            self._file.flush()
-        except BaseException:
-            self._file.close()
-            raise
+        self._writer = Writer(file, chunk_size=CHUNK_BYTES)
+        self._begin(contents)
+        schema = self._writer.register_schema(ENVELOPE_SCHEMA, "jsonschema", contents.envelope_schema)
+        self._events = self._writer.register_channel(EVENTS, "json", schema)
+        if layout is not None:
+            schema = self._writer.register_schema(BLOCK_SCHEMA, "jsonschema", make_block_schema())
+            about = {"format": str(FORMAT), "signals": encode_signals(signals)}
+            self._signals = self._writer.register_channel(SIGNALS, "msgpack", schema, about)
+        file.flush()
 
     def add(self, item: Envelope | SampledBlock) -> None:
         """Add an event or a block of samples."""
@@ -68,17 +63,17 @@ class McapStream:
         """Write what was added, so that it can be read whatever happens to this process."""
         self._writer.flush()  # type: ignore[no-untyped-call]
 
-    def close(self) -> None:
-        """Complete the file."""
-        with self._file:
-            self._writer.finish()  # type: ignore[no-untyped-call]
+    def finish(self) -> None:
+        """Write the end of the file, which stays open."""
+        self._writer.finish()  # type: ignore[no-untyped-call]
 
     def _begin(self, contents: RunContents) -> None:
         now = time.time_ns()
         self._writer.start(PROFILE)
         self._writer.add_metadata(METADATA, dict(contents.metadata))
         for name, content in contents.attachments.items():
-            self._writer.add_attachment(now, now, name, media_type(name), content)
+            packed = gzip.compress(content, mtime=0)
+            self._writer.add_attachment(now, now, f"{name}{PACKED}", "application/gzip", packed)
 
     def _add_block(self, block: SampledBlock) -> None:
         layout = self._layout

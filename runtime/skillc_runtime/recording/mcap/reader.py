@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,7 +19,7 @@ from zstandard import ZstdError
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded
-from skillc_runtime.recording.mcap.contents import EVENTS, METADATA, SIGNALS, decode_signals
+from skillc_runtime.recording.mcap.contents import EVENTS, METADATA, PACKED, SIGNALS, decode_signals
 from skillc_runtime.recording.mcap.signal_block import FORMAT, SignalBlock, decode_columns
 from skillc_runtime.recording.reader import EnvelopeDecoder, TraceError
 from skillc_runtime.recording.signals.signal import Signal
@@ -26,7 +27,18 @@ from skillc_runtime.recording.signals.signal import Signal
 MAX_RECORD_BYTES = 1 << 30
 """The largest record of a file that is read."""
 
-DAMAGES = (McapError, ZstdError, ValueError, struct.error, KeyError, OverflowError, MemoryError, IndexError, TypeError)
+DAMAGES = (
+    McapError,
+    ZstdError,
+    zlib.error,
+    ValueError,
+    struct.error,
+    KeyError,
+    OverflowError,
+    MemoryError,
+    IndexError,
+    TypeError,
+)
 """What the readers of a format raise for content that is not of it."""
 
 
@@ -136,7 +148,7 @@ class _Content:
             case Metadata() if record.name == METADATA:
                 self._metadata.update(record.metadata)
             case Attachment():
-                self._attachments[record.name] = record.data
+                self._attachments[record.name.removesuffix(PACKED)] = _unpack(record)
             case Message():
                 self._take_message(record)
             case _:
@@ -165,3 +177,14 @@ class _Content:
             tuple(self._blocks),
             about,
         )
+
+
+def _unpack(attachment: Attachment) -> bytes:
+    """Return what is in an attachment; ValueError if it is damaged or too large."""
+    if not attachment.name.endswith(PACKED):
+        return attachment.data
+    unpacking = zlib.decompressobj(zlib.MAX_WBITS | 16)
+    content = unpacking.decompress(attachment.data, MAX_RECORD_BYTES)
+    if not unpacking.eof:
+        raise ValueError(f"the attachment {attachment.name} is damaged")
+    return content

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from queue import Empty, Full, Queue
 from threading import Thread
@@ -33,48 +34,65 @@ Item: TypeAlias = Envelope | SampledBlock | _End
 
 
 class RecordingFile:
-    """A recorder that writes events, and samples from `tap`, to an MCAP file.
+    """A recorder that writes events, and samples while it has any, to an MCAP file.
 
     An error never stops the robot: the recording ends then, and `problem` says why. `close` completes the file.
     """
 
     def __init__(
-        self, path: Path, contents: RunContents, tap: SignalTap | None = None, signals: tuple[Signal, ...] = ()
+        self,
+        path: Path,
+        describe: Callable[[], RunContents],
+        tap: SignalTap | None = None,
+        signals: tuple[Signal, ...] = (),
     ) -> None:
-        """Create the file or truncate it, and start the thread; OSError if that fails. `signals` are those of `tap`."""
+        """Create the file or truncate it, and start the thread; OSError if that fails. `signals` are those of `tap`.
+
+        `describe` is called in the thread.
+        """
         self.path = path
         self.problem: str | None = None
+        self._file = path.open("wb")
+        self._describe, self._tap, self._signals = describe, tap, signals
         self._queue: Queue[Item] = Queue(MAX_WAITING)
-        self._closed = False
-        layout = None if tap is None else tap.layout
-        self._stream = McapStream(path, contents, layout, signals)
+        self._ended = self._samples = False
         self._thread = Thread(target=self._run, name="recording", daemon=True)
         self._thread.start()
-        self._tap = tap
-        if tap is not None:
-            tap.add(self._put)
 
     def __call__(self, envelope: Envelope) -> None:
         """Record an event."""
         self._put(envelope)
 
-    def close(self) -> None:
-        """Write what waits and complete the file; idempotent."""
-        if self._closed:
+    def sample(self, wanted: bool = True) -> None:
+        """Record the signals from now on, or no more."""
+        if self._tap is None or wanted == self._samples or self._ended:
             return
-        if self._tap is not None:
-            self._tap.remove(self._put)
-        self._closed = True
-        try:
-            self._queue.put(_End(), timeout=CLOSE_S)
-        except Full:
-            self._give_up("the disk does not answer")
+        self._samples = wanted
+        (self._tap.add if wanted else self._tap.remove)(self._put)
+
+    def end(self) -> None:
+        """Record no more; what waits is written, and the file completed, in the thread. Idempotent."""
+        if self._ended:
+            return
+        self.sample(False)
+        self._ended = True
+        with suppress(Full):  # the thread ends when nothing is left
+            self._queue.put_nowait(_End())
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether nothing is left to write."""
+        return not self._thread.is_alive()
+
+    def close(self) -> None:
+        """End the recording, and wait until the file is complete."""
+        self.end()
         self._thread.join(CLOSE_S)
         if self._thread.is_alive():
             self._give_up("the disk does not answer")
 
     def _put(self, item: Envelope | SampledBlock) -> None:
-        if self._closed or self.problem is not None:
+        if self._ended or self.problem is not None:
             return
         try:
             self._queue.put_nowait(item)
@@ -87,29 +105,34 @@ class RecordingFile:
 
     def _run(self) -> None:
         """Write until the end; after an error only take what comes."""
-        self._guard(self._write)
-        while self.problem is not None and not isinstance(self._queue.get(), _End):
-            pass
-        self._guard(self._stream.close)
+        with self._guarded(), self._file:
+            layout = None if self._tap is None else self._tap.layout
+            stream = McapStream(self._file, self._describe(), layout, self._signals)
+            self._write(stream)
+            stream.finish()
+        while not self._ended:
+            self._take()
 
-    def _write(self) -> None:
+    def _write(self, stream: McapStream) -> None:
         flushed = time.monotonic()
-        while self.problem is None:
-            try:
-                item = self._queue.get(timeout=FLUSH_S)
-            except Empty:
-                item = None
-            if isinstance(item, _End):
-                return
+        while not isinstance(item := self._take(), _End):
             if item is not None:
-                self._stream.add(item)
+                stream.add(item)
             if time.monotonic() - flushed >= FLUSH_S:
-                self._stream.flush()
+                stream.flush()
                 flushed = time.monotonic()
 
-    def _guard(self, action: Callable[[], None]) -> None:
+    def _take(self) -> Item | None:
+        """Return what waits longest; None if nothing comes for a while."""
         try:
-            action()
+            return self._queue.get(timeout=FLUSH_S)
+        except Empty:
+            return _End() if self._ended else None
+
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
+        try:
+            yield
         except OSError as error:
             self._give_up(error.strerror or str(error))
         except Exception as error:  # noqa: BLE001  the thread's boundary: the run goes on

@@ -1,0 +1,93 @@
+"""The recordings of the operations of a cell: an MCAP file for each, written while it goes on."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import msgspec
+
+from skillc.cells.operation import OperationRequest
+from skillc.cells.submitted import SubmittedOperation
+from skillc.services.reporting import Reporter
+from skillc.services.run_recordings import describe_contents, make_tap, open_recording
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.execution.attempt import CellOrigin
+from skillc_runtime.recording.envelope import Recorder
+from skillc_runtime.recording.events import Note
+from skillc_runtime.recording.mcap.recording_file import RecordingFile
+from skillc_runtime.recording.states import State
+from skillc_runtime.scene.load import load_sheets
+
+RECORDINGS = "recordings"
+"""The folder of recordings in that of a cell."""
+
+MOVING: frozenset[State] = frozenset({"running", "pausing", "paused", "stopping"})
+"""The states of an operation in which its signals are recorded: before, nothing moves because of it."""
+
+
+def recording_file(cell: Path, operation: str) -> Path:
+    """Return the recording of an operation in the folder of its cell; there may be none."""
+    return cell / RECORDINGS / f"{operation}.mcap"
+
+
+class CellRecordings:
+    """Records the operations of a cell. The loop never waits; what cannot be written is reported, not raised."""
+
+    def __init__(self, folder: Path, simulation: Simulation, origin: CellOrigin, reporter: Reporter) -> None:
+        """`folder` is that of the cell."""
+        self._folder, self._simulation, self._origin, self._reporter = folder, simulation, origin, reporter
+        self._tap, self._sheets = make_tap(simulation), load_sheets(simulation.cell.world.snapshot().vocabulary)
+        self._going: dict[str, RecordingFile] = {}
+        self._ending: list[RecordingFile] = []
+
+    def begin(self, operation: str, request: OperationRequest, library: SkillLibrary) -> tuple[Recorder, ...]:
+        """Begin a recording and return who gets the events; nobody if that is not possible."""
+        state = self._simulation.cell.world.snapshot()
+        task = request.task or request.goal or request.call or ""
+        settings = msgspec.to_builtins(request)
+        describe = partial(describe_contents, operation, task, library, state, self._origin, settings, self._sheets)
+        path = recording_file(self._folder, operation)
+        try:
+            path.parent.mkdir(exist_ok=True)
+            self._going[operation] = open_recording(path, describe, self._tap, state)
+        except OSError as error:
+            self._reporter.say(f"warning: {path} cannot be written: {error.strerror or error}")
+            return ()
+        return (self._going[operation],)
+
+    def update(self, submitted: SubmittedOperation) -> None:
+        """Record signals as the state of an operation wants it; note in it that its recording has ended early."""
+        operation = submitted.run.id
+        recording = self._going.get(operation)
+        if recording is None:
+            return
+        if recording.problem is not None and not submitted.run.ended:
+            self.end(operation)
+            submitted.publisher(Note(time=self._simulation.clock.now, message=f"warning: {recording.problem}"))
+        else:
+            recording.sample(submitted.run.state in MOVING)
+
+    def end(self, operation: str) -> None:
+        """End a recording; its file is completed in another thread."""
+        recording = self._going.pop(operation, None)
+        if recording is not None:
+            recording.end()
+            self._ending.append(recording)
+        self._report()
+
+    def close(self) -> None:
+        """End all recordings and wait until they are complete."""
+        for operation in tuple(self._going):
+            self.end(operation)
+        for each in self._ending:
+            each.close()
+        self._report()
+
+    def _report(self) -> None:
+        """Report those that could not be written completely, once they are at their end."""
+        for each in self._ending:
+            if each.is_complete and each.problem is not None:
+                self._reporter.say(f"warning: {each.problem}")
+        self._ending = [each for each in self._ending if not each.is_complete]
