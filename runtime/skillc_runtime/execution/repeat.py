@@ -15,7 +15,7 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.run_events import read_arrival
 from skillc_runtime.execution.tree.gate import Gate, read_breakpoint
 from skillc_runtime.planning.validation import PlanError
-from skillc_runtime.recording.events import Event, PlanArrived, Requested, TaskStarted
+from skillc_runtime.recording.events import Event, PlanArrived, Requested, TaskEnded, TaskStarted
 
 
 class NotRepeatable(Exception):
@@ -45,8 +45,9 @@ class Repetition:
 def repeat_run(recorded: Sequence[Event], library: SkillLibrary, backend: Backend) -> Repetition:
     """Run a task again as `recorded`, all events of one run; `backend` is a cell built from its scene and seed.
 
-    Only a run that had its cell for itself from the start of the cell can be repeated. NotRepeatable otherwise, if the
-    library is another one, or if a plan of the recording does not work with it.
+    A recording that ends before its run, or because the process died, is repeated up to its last event. Only a run that
+    had its cell for itself from the start of the cell can be repeated. NotRepeatable otherwise, if the library is
+    another one, or if a plan of the recording does not work with it.
     """
     player = _Player(recorded, library, backend)
     try:
@@ -66,7 +67,9 @@ class _Player:
         started = _find_start(recorded, library, backend)
         self.events: list[Event] = []
         self.difference: Difference | None = None
-        self._recorded, self._library, self._backend = tuple(recorded), library, backend
+        self._is_whole = _has_end(recorded)
+        self._recorded = tuple(recorded if self._is_whole else _without_end(recorded))
+        self._library, self._backend = library, backend
         self._requests = deque(event for event in recorded if isinstance(event, Requested))
         self._arrivals = deque(event for event in recorded if isinstance(event, PlanArrived))
         self.loop = CellLoop(backend, library, self._prepare, CellOrigin(started.scene, started.seed, started.backend))
@@ -77,16 +80,21 @@ class _Player:
 
     def play(self) -> None:
         """Tick until the run has ended, or is not as recorded."""
-        while self.difference is None and not self._run.ended:
+        while self.difference is None and not self._run.ended and (self._is_whole or self._remain):
             while self._requests and self._requests[0].tick <= self.loop.ticks:
                 self.loop.request(self._run, self._requests.popleft().command)
             happened = self.loop.tick()
             self._find_missing(at_end=not happened)
         self._find_missing(at_end=True)
 
+    @property
+    def _remain(self) -> bool:
+        """Whether some recorded events have not happened yet."""
+        return len(self.events) < len(self._recorded)
+
     def _compare(self, event: Event) -> None:
-        """Compare an event with the recorded one."""
-        if self.difference is None:
+        """Compare an event with the recorded one; those after a recording that was cut off are not known."""
+        if self.difference is None and (self._is_whole or self._remain):
             number = len(self.events)
             recorded = self._recorded[number] if number < len(self._recorded) else None
             self.events.append(event)
@@ -128,6 +136,16 @@ class _RecordedPlan:
 
     def kill(self) -> None:
         """Do nothing: nobody plans."""
+
+
+def _has_end(recorded: Sequence[Event]) -> bool:
+    """Whether the last event is the end of the run, and came from the run itself."""
+    return isinstance(recorded[-1], TaskEnded) and recorded[-1].status != "interrupted"
+
+
+def _without_end(recorded: Sequence[Event]) -> Sequence[Event]:
+    """Return the events without the end that was written for a process that died."""
+    return recorded[:-1] if isinstance(recorded[-1], TaskEnded) else recorded
 
 
 def _find_start(recorded: Sequence[Event], library: SkillLibrary, backend: Backend) -> TaskStarted:

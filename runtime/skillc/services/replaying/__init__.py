@@ -1,0 +1,1 @@
+"""Replays recorded runs, and checks them. Start at `check`."""

@@ -1,0 +1,96 @@
+"""Checks a recorded run: its events against its library, and a simulated run by running it again from its inputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, get_args
+
+import msgspec
+
+from skillc.services.backends import BackendName, make_backend
+from skillc.services.errors import ServiceError
+from skillc.services.replaying.inputs import RunInputs, read_inputs
+from skillc.services.reporting import Reporter
+from skillc_runtime.execution.consistency import check_events
+from skillc_runtime.execution.repeat import Difference, NotRepeatable, repeat_run
+from skillc_runtime.recording.events import Event
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+
+
+class DifferentEvent(msgspec.Struct, frozen=True):
+    """The first event, by number from 1, that was another one when the run was repeated; None for no event."""
+
+    number: int
+    recorded: dict[str, Any] | None
+    repeated: dict[str, Any] | None
+
+
+class ReplayCheck(msgspec.Struct, frozen=True, kw_only=True):
+    """What the check of a run found.
+
+    `impossible` is why an event cannot follow those before it, None if all can. `repeated` is how many events were the
+    same when the run was repeated, None if it was not repeated, and `note` says why not. `difference` is the first
+    event that was another one.
+    """
+
+    run: str
+    events: int
+    impossible: str | None = None
+    repeated: int | None = None
+    note: str = ""
+    difference: DifferentEvent | None = None
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing was found."""
+        return self.impossible is None and self.difference is None
+
+
+def check_run(run: Path, library: Path | None, reporter: Reporter) -> ReplayCheck:
+    """Check a run, given its folder or recording; `library` is used in place of the recorded one.
+
+    What `read_inputs` raises.
+    """
+    inputs = read_inputs(run, library, reporter)
+    count = len(inputs.events)
+    impossible = check_events(inputs.events, inputs.library, inputs.world)
+    if impossible is not None:
+        return ReplayCheck(run=str(run), events=count, impossible=str(impossible), note="the events are impossible")
+    if inputs.start.backend not in get_args(BackendName):
+        note = f"its cell is no simulation ({inputs.start.backend or 'a program built it'})"
+        return ReplayCheck(run=str(run), events=count, note=note)
+    reporter.say("the events are possible with the library; running again from the seed, requests and plans")
+    try:
+        difference, same = _repeat(inputs)
+    except NotRepeatable as error:
+        return ReplayCheck(run=str(run), events=count, note=str(error))
+    return ReplayCheck(run=str(run), events=count, repeated=same, difference=difference)
+
+
+def _repeat(inputs: RunInputs) -> tuple[DifferentEvent | None, int]:
+    """Run again; return the first event that differs, and how many were the same. NotRepeatable; ServiceError."""
+    start = inputs.start
+    backend = next(name for name in get_args(BackendName) if name == start.backend)
+    try:
+        cell = make_backend(backend, WorldModel(inputs.world), start.seed)
+    except (SheetError, FrameError) as error:
+        raise ServiceError(f"the scene of the run cannot be simulated: {error}") from error
+    try:
+        repetition = repeat_run(inputs.events, inputs.library, cell)
+    finally:
+        cell.close()
+    found = repetition.difference
+    return (None if found is None else _describe(found)), len(repetition.events) if found is None else found.number - 1
+
+
+def _describe(found: Difference) -> DifferentEvent:
+    return DifferentEvent(found.number, _as_data(found.recorded), _as_data(found.repeated))
+
+
+def _as_data(event: Event | None) -> dict[str, Any] | None:
+    if event is None:
+        return None
+    value: dict[str, Any] = msgspec.to_builtins(event)
+    return value

@@ -1,0 +1,113 @@
+"""What a recorded run was made of: its events, its library and its world at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from msgspec import structs
+
+from skillc.services.errors import RequestError, ServiceError
+from skillc.services.files import inspect_path
+from skillc.services.libraries import compile_valid
+from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.recordings import find_mcap, find_recording, is_mcap, read_envelopes
+from skillc.services.reporting import Reporter
+from skillc_model.codec import LibraryError, loads
+from skillc_model.skills import Primitive, SkillLibrary
+from skillc_runtime.recording.events import Event, TaskStarted
+from skillc_runtime.recording.mcap.contents import LIBRARY, SCENE
+from skillc_runtime.recording.mcap.reader import read_recording
+from skillc_runtime.recording.reader import TraceError
+from skillc_runtime.scene.documents import SceneError
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.world_state import WorldState
+
+SHIPPED_CODE = ("skillc", "skillc_runtime", "skillc_skills")
+"""The packages whose Python a library in a recording may name: what a recording brings along is never executed."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunInputs:
+    """A recorded run: all its events, the first of which is `start`, its library, and its world before the first."""
+
+    start: TaskStarted
+    events: tuple[Event, ...]
+    library: SkillLibrary
+    world: WorldState
+
+
+def read_inputs(run: Path, library: Path | None, reporter: Reporter) -> RunInputs:
+    """Read what a run was made of, given its folder or recording; `library` is used in place of the recorded one.
+
+    RequestError if the library must be given; ServiceError if anything cannot be read, DiagnosticsError for a library
+    with errors.
+    """
+    path = find_recording(run)
+    events = tuple(each.event for each in read_envelopes(path, reporter))
+    if not events or not isinstance(events[0], TaskStarted):
+        raise ServiceError(f"{path} does not begin with the start of a task")
+    start = events[0]
+    attachments = _read_attachments(path)
+    found = _find_library(start, attachments, library, path)
+    return RunInputs(start, events, found, _load_world(start, attachments, found, path))
+
+
+def _read_attachments(path: Path) -> Mapping[str, bytes]:
+    """Return the files in the recording of a run, by name; none if it has only events."""
+    mcap = path if is_mcap(path) else find_mcap(path.parent)
+    try:
+        return {} if mcap is None else read_recording(mcap).attachments
+    except TraceError as error:
+        raise ServiceError(str(error)) from error
+    except OSError as error:
+        raise ServiceError(f"{mcap} cannot be read: {error.strerror or error}") from error
+
+
+def _find_library(
+    start: TaskStarted, attachments: Mapping[str, bytes], library: Path | None, path: Path
+) -> SkillLibrary:
+    if library is not None:  # its name is that of its folder, which may be another one by now
+        return structs.replace(compile_valid(find_library(library)), name=start.library)
+    if LIBRARY not in attachments:
+        if not (SHIPPED / start.library).is_dir():
+            raise RequestError(f"{path} has no library: give the library `{start.library}` with --library")
+        return compile_valid(find_library(SHIPPED / start.library))
+    try:
+        found = loads(attachments[LIBRARY], f"the library in {path}")
+    except LibraryError as error:
+        raise ServiceError(str(error)) from error
+    if foreign := next((each for each in _list_python(found) if each.partition(".")[0] not in SHIPPED_CODE), None):
+        why = f"the library `{start.library}` uses the Python module {foreign}, and a recording executes no code"
+        raise RequestError(f"{why}: give the library with --library")
+    return found
+
+
+def _list_python(library: SkillLibrary) -> Iterator[str]:
+    """Yield the modules that a library names."""
+    for implementation in library.implementations.values():
+        if isinstance(implementation.body, Primitive):
+            yield implementation.body.python.partition(":")[0]
+    vocabulary = library.vocabulary
+    yield from (each.computed_by.partition(":")[0] for each in vocabulary.relations.values() if each.computed_by)
+    yield from (each.computed_by.partition(":")[0] for each in vocabulary.properties.values() if each.computed_by)
+    yield from (each.python.partition(":")[0] for each in vocabulary.functions.values())
+
+
+def _load_world(start: TaskStarted, attachments: Mapping[str, bytes], library: SkillLibrary, path: Path) -> WorldState:
+    """Return the world at the start: the scene in the recording, else the file of the scene."""
+    text = attachments.get(SCENE, b"")
+    with TemporaryDirectory(prefix="skillc-replay-") as folder:
+        file = Path(folder) / SCENE
+        file.write_bytes(text)
+        scene = file if text and not text.startswith(b"# The world cannot") else Path(start.scene)
+        if not start.scene and scene is not file:
+            raise ServiceError(f"{path} has no scene: the world of the run came from a store")
+        if inspect_path(scene).kind != "file":
+            raise ServiceError(f"{path} has no scene, and {scene} does not exist")
+        try:
+            return load_scene(scene, library.vocabulary)
+        except SceneError as error:
+            raise ServiceError(f"the scene of {path} cannot be loaded: {error}") from error
