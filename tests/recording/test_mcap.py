@@ -21,6 +21,7 @@ import skillc
 from recording.runs import CONTENTS, EVENTS, publish, write_recording
 from skillc.cli.main import skillc as program
 from skillc_model.codec import loads
+from skillc_runtime.recording.mcap import recording_file
 from skillc_runtime.recording.mcap.contents import RunContents
 from skillc_runtime.recording.mcap.reader import read_recording
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
@@ -181,7 +182,10 @@ def describe_late() -> RunContents:
     return CONTENTS
 
 
-def test_a_disk_that_does_not_keep_up_ends_the_recording_and_not_the_run(tmp_path: Path) -> None:
+def test_a_disk_that_does_not_keep_up_ends_the_recording_and_not_the_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recording_file, "MAX_EVENTS", 500)
     recording = RecordingFile(tmp_path / "a.mcap", describe_late)
     publish(EVENTS * 20, recording)
     recording.close()

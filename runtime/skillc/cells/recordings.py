@@ -10,7 +10,7 @@ import msgspec
 from skillc.cells.operation import OperationRequest
 from skillc.cells.submitted import SubmittedOperation
 from skillc.services.reporting import Reporter
-from skillc.services.run_recordings import describe_contents, make_tap, open_recording
+from skillc.services.run_recordings import describe_contents, make_recorded_cell
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.execution.attempt import CellOrigin
@@ -38,7 +38,10 @@ class CellRecordings:
     def __init__(self, folder: Path, simulation: Simulation, origin: CellOrigin, reporter: Reporter) -> None:
         """`folder` is that of the cell."""
         self._folder, self._simulation, self._origin, self._reporter = folder, simulation, origin, reporter
-        self._tap, self._sheets = make_tap(simulation), load_sheets(simulation.cell.world.snapshot().vocabulary)
+        self._cell, self._sheets = (
+            make_recorded_cell(simulation),
+            load_sheets(simulation.cell.world.snapshot().vocabulary),
+        )
         self._going: dict[str, RecordingFile] = {}
         self._ending: list[RecordingFile] = []
 
@@ -51,7 +54,7 @@ class CellRecordings:
         path = recording_file(self._folder, operation)
         try:
             path.parent.mkdir(exist_ok=True)
-            self._going[operation] = open_recording(path, describe, self._tap, state)
+            self._going[operation] = RecordingFile(path, describe, self._cell)
         except OSError as error:
             self._reporter.say(f"warning: {path} cannot be written: {error.strerror or error}")
             return ()

@@ -23,7 +23,7 @@ from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.recording.envelope import Recorder
 from skillc_runtime.recording.mcap.contents import LIBRARY, SCENE, SETTINGS, RunContents
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
-from skillc_runtime.recording.mcap.signal_tap import SignalTap
+from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SignalTap
 from skillc_runtime.recording.signals.channels import name_devices
 from skillc_runtime.scene.load import load_sheets
 from skillc_runtime.scene.saving import SaveError, format_scene
@@ -66,22 +66,11 @@ def _read_event_schema() -> bytes:
     return json.dumps(json.loads(read_schema("events")), separators=(",", ":"), ensure_ascii=False).encode()
 
 
-def make_tap(simulation: Simulation) -> SignalTap | None:
-    """Return what samples the signals of a cell; None if it has no devices that have any."""
-    tap = SignalTap(simulation.live)
-    return tap if tap.layout.row_bytes else None
-
-
-def open_recording(
-    path: Path, describe: Callable[[], RunContents], tap: SignalTap | None, state: WorldState
-) -> RecordingFile:
-    """Begin the recording of a run, which `describe` describes in another thread; OSError.
-
-    `tap` samples its cell, whose individuals `state` has.
-    """
-    names = name_devices(state)
-    signals = () if tap is None else tap.layout.describe(lambda device: names[device])
-    return RecordingFile(path, describe, tap, signals)
+def make_recorded_cell(simulation: Simulation) -> RecordedCell | None:
+    """Return what of a cell is recorded; None if it has no devices that have signals."""
+    tap, names = SignalTap(simulation.live), name_devices(simulation.cell.world.snapshot())
+    signals = tap.layout.describe(lambda device: names[device])
+    return RecordedCell(tap, signals, simulation.drawing.model) if signals else None
 
 
 @contextmanager
@@ -89,7 +78,6 @@ def recorded_in(
     folder: Path,
     describe: Callable[[], RunContents],
     simulation: Simulation | None,
-    state: WorldState,
     reporter: Reporter,
 ) -> Iterator[tuple[Recorder, ...]]:
     """Record a run in a `with` statement in a folder; yields who gets the events.
@@ -98,8 +86,8 @@ def recorded_in(
     """
     with writing_to(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        tap = None if simulation is None else make_tap(simulation)
-        recording = open_recording(folder / RECORDING, describe, tap, state)
+        cell = None if simulation is None else make_recorded_cell(simulation)
+        recording = RecordingFile(folder / RECORDING, describe, cell)
         recording.sample()
     try:
         yield (recording,)

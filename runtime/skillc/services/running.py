@@ -149,7 +149,7 @@ class _Run:
         settings = {"deadline_s": options.deadline_s, "step": options.step, "pause_at": options.pause_at}
         name = task.assignment.name
         describe = partial(describe_contents, run_id, name, task.library, state, origin, settings)
-        return recorded_in(options.out, describe, self.cell, state, self.reporter)
+        return recorded_in(options.out, describe, self.cell, self.reporter)
 
     def _describe_recording(self, run_id: str, recorders: tuple[Recorder, ...]) -> RecordingOptions:
         options = self.options

@@ -55,7 +55,7 @@ def _record(task: LoadedTask, path: Path, result: TaskResult, reporter: Reporter
     run, state, origin = make_run_id(result.task), task.world.snapshot(), CellOrigin(task.scene, result.seed)
     describe = partial(describe_contents, run, result.task, task.library, state, origin, {})
     with (
-        recorded_in(path.parent, describe, None, state, reporter) as recorders,
+        recorded_in(path.parent, describe, None, reporter) as recorders,
         TraceWriter(path) as writer,
     ):
         publish = Publisher(run, (writer, *recorders))

@@ -22,9 +22,10 @@ from skillc_runtime.recording.mcap.contents import (
     encode_signals,
     make_block_schema,
 )
-from skillc_runtime.recording.mcap.signal_block import FORMAT, SignalBlock, encode_columns
-from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SampleLayout
-from skillc_runtime.recording.signals.signal import Signal
+from skillc_runtime.recording.mcap.foxglove_types import make_foxglove_schema
+from skillc_runtime.recording.mcap.sample_messages import PICTURES, SampleMessages
+from skillc_runtime.recording.mcap.signal_block import FORMAT
+from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
 
 CHUNK_BYTES = 1 << 20
 
@@ -32,20 +33,22 @@ CHUNK_BYTES = 1 << 20
 class McapStream:
     """An MCAP file that is being written; OSError of all methods if that fails."""
 
-    def __init__(
-        self, file: BinaryIO, contents: RunContents, layout: SampleLayout | None, signals: tuple[Signal, ...]
-    ) -> None:
-        """Begin with what the run is made of. With a `layout` there will be samples of `signals`."""
-        self._layout, self._units = layout, tuple(each.unit for each in signals)
+    def __init__(self, file: BinaryIO, contents: RunContents, cell: RecordedCell | None) -> None:
+        """Begin with what the run is made of. With a `cell` there will be samples of it."""
         self._json, self._msgpack = msgspec.json.Encoder(), msgspec.msgpack.Encoder()
         self._writer = Writer(file, chunk_size=CHUNK_BYTES)
         self._begin(contents)
-        schema = self._writer.register_schema(ENVELOPE_SCHEMA, "jsonschema", contents.envelope_schema)
-        self._events = self._writer.register_channel(EVENTS, "json", schema)
-        if layout is not None:
-            schema = self._writer.register_schema(BLOCK_SCHEMA, "jsonschema", make_block_schema())
-            about = {"format": str(FORMAT), "signals": encode_signals(signals)}
-            self._signals = self._writer.register_channel(SIGNALS, "msgpack", schema, about)
+        self._channels = {EVENTS: self._register(EVENTS, ENVELOPE_SCHEMA, contents.envelope_schema)}
+        self._samples = None if cell is None else SampleMessages(cell)
+        if cell is not None:
+            about = {"format": str(FORMAT), "signals": encode_signals(cell.signals)}
+            self._channels[SIGNALS] = self._register(SIGNALS, BLOCK_SCHEMA, make_block_schema(), "msgpack", about)
+            for kind, topics in PICTURES.items():
+                schema = self._writer.register_schema(
+                    f"foxglove.{kind.__name__}", "jsonschema", make_foxglove_schema(kind)
+                )
+                for topic in topics:
+                    self._channels[topic] = self._writer.register_channel(topic, "json", schema)
         file.flush()
 
     def add(self, item: Envelope | SampledBlock) -> None:
@@ -53,9 +56,12 @@ class McapStream:
         match item:
             case Envelope():
                 content, moment = self._json.encode(item), round(item.cell_time_s * 1e9)
-                self._writer.add_message(self._events, moment, content, item.wall_time_ns, item.sequence)
+                self._writer.add_message(self._channels[EVENTS], moment, content, item.wall_time_ns, item.sequence)
             case SampledBlock():
-                self._add_block(item)
+                assert self._samples is not None, "only a tap makes blocks"
+                for topic, first_ns, value in self._samples.make(item):
+                    encode = self._msgpack.encode if topic == SIGNALS else self._json.encode
+                    self._writer.add_message(self._channels[topic], first_ns, encode(value), time.time_ns())
             case _:
                 assert_never(item)
 
@@ -75,10 +81,9 @@ class McapStream:
             packed = gzip.compress(content, mtime=0)
             self._writer.add_attachment(now, now, f"{name}{PACKED}", "application/gzip", packed)
 
-    def _add_block(self, block: SampledBlock) -> None:
-        layout = self._layout
-        assert layout is not None, "only a tap makes blocks"
-        first_ns = round(block.first_s * 1e9)
-        columns = encode_columns(layout.rows_of(block), self._units)
-        content = self._msgpack.encode(SignalBlock(first_ns, layout.period_ns, block.rows, columns))
-        self._writer.add_message(self._signals, first_ns, content, time.time_ns())
+    def _register(
+        self, topic: str, name: str, schema: bytes, encoding: str = "json", about: dict[str, str] | None = None
+    ) -> int:
+        """Register a channel with a schema of its own; return its id."""
+        number = self._writer.register_schema(name, "jsonschema", schema)
+        return self._writer.register_channel(topic, encoding, number, about or {})

@@ -13,11 +13,10 @@ from typing import TypeAlias
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.mcap.contents import RunContents
 from skillc_runtime.recording.mcap.mcap_stream import McapStream
-from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
-from skillc_runtime.recording.signals.signal import Signal
+from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
 
-MAX_WAITING = 500
-"""How many events and blocks of samples may wait for the disk; if there are more, the recording ends."""
+MAX_EVENTS, MAX_BLOCKS = 100_000, 200
+"""How many items, and how many blocks of samples among them, may wait for the disk; with more the recording ends."""
 
 FLUSH_S = 1.0
 """What was recorded is in the file after this wall time in s: a process that is killed loses no more."""
@@ -39,23 +38,18 @@ class RecordingFile:
     An error never stops the robot: the recording ends then, and `problem` says why. `close` completes the file.
     """
 
-    def __init__(
-        self,
-        path: Path,
-        describe: Callable[[], RunContents],
-        tap: SignalTap | None = None,
-        signals: tuple[Signal, ...] = (),
-    ) -> None:
-        """Create the file or truncate it, and start the thread; OSError if that fails. `signals` are those of `tap`.
+    def __init__(self, path: Path, describe: Callable[[], RunContents], cell: RecordedCell | None = None) -> None:
+        """Create the file or truncate it, and start the thread; OSError if that fails.
 
-        `describe` is called in the thread.
+        `describe` is called in the thread. Without a `cell` there are no samples.
         """
         self.path = path
         self.problem: str | None = None
         self._file = path.open("wb")
-        self._describe, self._tap, self._signals = describe, tap, signals
-        self._queue: Queue[Item] = Queue(MAX_WAITING)
+        self._describe, self._cell = describe, cell
+        self._queue: Queue[Item] = Queue(MAX_EVENTS)
         self._ended = self._samples = False
+        self._blocks_given = self._blocks_taken = 0
         self._thread = Thread(target=self._run, name="recording", daemon=True)
         self._thread.start()
 
@@ -65,10 +59,11 @@ class RecordingFile:
 
     def sample(self, wanted: bool = True) -> None:
         """Record the signals from now on, or no more."""
-        if self._tap is None or wanted == self._samples or self._ended:
+        if self._cell is None or wanted == self._samples or self._ended:
             return
         self._samples = wanted
-        (self._tap.add if wanted else self._tap.remove)(self._put)
+        tap = self._cell.tap
+        (tap.add if wanted else tap.remove)(self._put_block)
 
     def end(self) -> None:
         """Record no more; what waits is written, and the file completed, in the thread. Idempotent."""
@@ -91,6 +86,12 @@ class RecordingFile:
         if self._thread.is_alive():
             self._give_up("the disk does not answer")
 
+    def _put_block(self, block: SampledBlock) -> None:
+        self._blocks_given += 1
+        if self._blocks_given - self._blocks_taken > MAX_BLOCKS:
+            self._give_up("the disk is too slow")
+        self._put(block)
+
     def _put(self, item: Envelope | SampledBlock) -> None:
         if self._ended or self.problem is not None:
             return
@@ -106,8 +107,7 @@ class RecordingFile:
     def _run(self) -> None:
         """Write until the end; after an error only take what comes."""
         with self._guarded(), self._file:
-            layout = None if self._tap is None else self._tap.layout
-            stream = McapStream(self._file, self._describe(), layout, self._signals)
+            stream = McapStream(self._file, self._describe(), self._cell)
             self._write(stream)
             stream.finish()
         while not self._ended:
@@ -118,6 +118,7 @@ class RecordingFile:
         while not isinstance(item := self._take(), _End):
             if item is not None:
                 stream.add(item)
+                self._blocks_taken += isinstance(item, SampledBlock)
             if time.monotonic() - flushed >= FLUSH_S:
                 stream.flush()
                 flushed = time.monotonic()

@@ -52,7 +52,36 @@ class SignalBlock(msgspec.Struct, frozen=True):
 
 def encode_columns(rows: Array, units: Sequence[str]) -> tuple[Column, ...]:
     """Encode rows (n, m) of signals with these m units."""
-    return tuple(_encode_column(column, QUANTA.get(unit, NO_UNIT)) for column, unit in zip(rows.T, units, strict=True))
+    quanta = np.array([QUANTA.get(unit, NO_UNIT) for unit in units])
+    steps = rows / quanta
+    is_whole = (np.abs(steps) < LARGEST).all(axis=0)
+    whole = np.rint(np.where(is_whole, steps, 0.0)).astype(np.int64)
+    once = np.diff(whole, axis=0)
+    twice = np.diff(once, axis=0)
+    is_smooth = np.abs(twice).sum(axis=0) < np.abs(once[1:]).sum(axis=0)
+    by_order = {1: _zigzag(once), 2: _zigzag(twice)}
+    columns = []
+    for number, quantum in enumerate(quanta.tolist()):
+        if not is_whole[number]:
+            columns.append(Column(quantum, 0, 0, (), rows[:, number].astype("<f8").tobytes()))
+            continue
+        order = 2 if is_smooth[number] else 1
+        first = tuple(int(each[0, number]) for each in (whole, once)[:order])
+        values, largest = by_order[order]
+        columns.append(_pack(quantum, order, first, values[number], largest[number]))
+    return tuple(columns)
+
+
+def _zigzag(differences: Integers) -> tuple[npt.NDArray[np.uint64], list[int]]:
+    """Return differences (n, m) as zigzag numbers (m, n), and the largest of each column."""
+    numbers = ((differences << 1) ^ (differences >> 63)).view(np.uint64)
+    return np.ascontiguousarray(numbers.T), numbers.max(axis=0, initial=0).tolist()
+
+
+def _pack(quantum: float, order: int, first: tuple[int, ...], numbers: npt.NDArray[np.uint64], largest: int) -> Column:
+    width = next(each for each in (1, 2, 4, 8) if largest < 1 << 8 * each)
+    planes = numbers.astype(f"<u{width}").view(np.uint8).reshape(-1, width).T
+    return Column(quantum, width, order, first, planes.tobytes())
 
 
 def decode_columns(block: SignalBlock) -> Array:
@@ -60,22 +89,6 @@ def decode_columns(block: SignalBlock) -> Array:
     if not 0 < block.rows <= MAX_ROWS:
         raise ValueError(f"a block of {block.rows} samples")
     return np.stack([_decode_column(each, block.rows) for each in block.columns], axis=1)
-
-
-def _encode_column(values: Array, quantum: float) -> Column:
-    steps = values / quantum
-    if not (np.abs(steps) < LARGEST).all():
-        return Column(quantum, 0, 0, (), values.astype("<f8").tobytes())
-    whole = np.rint(steps).astype(np.int64)
-    once = np.diff(whole)
-    twice = np.diff(once)
-    order = 2 if len(twice) and np.abs(twice).sum() < np.abs(once[1:]).sum() else 1
-    differences, first = (twice, (int(whole[0]), int(once[0]))) if order == 2 else (once, (int(whole[0]),))
-    zigzag = ((differences << 1) ^ (differences >> 63)).view(np.uint64)
-    largest = int(zigzag.max(initial=0))
-    width = next(each for each in (1, 2, 4, 8) if largest < 1 << 8 * each)
-    planes = zigzag.astype(f"<u{width}").view(np.uint8).reshape(-1, width).T
-    return Column(quantum, width, order, first, planes.tobytes())
 
 
 def _decode_column(column: Column, rows: int) -> Array:

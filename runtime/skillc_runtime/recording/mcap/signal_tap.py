@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.recording.signals.channels import WORLD, XYZ, Columns
 from skillc_runtime.recording.signals.signal import Signal
 
-BLOCK_ROWS = 200
+BLOCK_ROWS = 400
 """How many samples are handed over at once."""
 
 POSES_S = 0.02
@@ -97,6 +98,15 @@ class SignalTap:
         self._poses.append((now, bodies.positions(), bodies.quaternions()))
 
 
+@dataclass(frozen=True, slots=True)
+class RecordedCell:
+    """What of a cell is recorded: the `signals` of a tap, and what it looks like, an `mujoco.MjModel`."""
+
+    tap: SignalTap
+    signals: tuple[Signal, ...]
+    model: Any
+
+
 class SampleLayout:
     """What the copies of a tap mean: `signals` are the columns of `rows_of`."""
 
@@ -131,7 +141,7 @@ class SampleLayout:
         return np.concatenate([np.empty((block.rows, 0)), *columns], axis=1)
 
     def faces_of(self, block: SampledBlock) -> Iterator[tuple[str, Array]]:
-        """Yield each tool with what its face felt and where it was in each sample, (n, 8): N, m, quaternion."""
+        """Yield each tool, by IRI, with its face in each sample (n, 8): force in N, position in m, quaternion."""
         content = np.frombuffer(block.content).reshape(block.rows, self._width)
         start = self._width - self._sensors.count
         for tool, first in self._sensors.faces:
