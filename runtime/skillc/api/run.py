@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
@@ -13,8 +13,9 @@ import msgspec
 from skillc.api.boundary import AnyPath, NoticeList, api_call, require_choice, require_path, require_text
 from skillc.api.frames import make_frame, make_table, read_signal_frame
 from skillc.api.picture import Figure, Film
-from skillc.services.errors import ServiceError
+from skillc.services.errors import RequestError, ServiceError
 from skillc.services.recordings import answer_question, find_mcap, find_recording, is_mcap, read_envelopes, read_result
+from skillc.services.replaying.playback import play_paced
 from skillc.services.story_text import format_answer, format_overview
 from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult
 from skillc_runtime.evaluation.report.work_result import WorkResult
@@ -114,6 +115,16 @@ class Run:
             if question is None:
                 return format_overview(history, str(self.folder or "RUN"))
             return format_answer(answer_question(history, require_text(question, "the question")))
+
+    def replay(self, pace: float = 1.0) -> Iterator[Envelope]:
+        """Yield its events in the time of its cell, `pace` times as fast as it went; nothing is computed.
+
+        RequestError for a pace that is not positive, SkillcError if the run has no events.
+        """
+        if not pace > 0.0:
+            raise RequestError(f"the pace of a replay is positive, not {pace:g}")
+        with api_call():
+            return play_paced(self.events, pace)
 
     def to_dict(self) -> dict[str, Any]:
         """Return its result as plain data, as in `result.json`."""

@@ -80,6 +80,18 @@ def planner_options(function: Function) -> Function:
     return cache(measure(function))
 
 
+def pace_option(function: Function) -> Function:
+    """Add `--pace` of a replay."""
+    return click.option(
+        "--pace",
+        default="real",
+        show_default=True,
+        metavar="fast|real|N",
+        callback=_parse_pace,
+        help="Let time pass as in the run, N times as fast, or not at all.",
+    )(function)
+
+
 def operating_options(function: Function) -> Function:
     """Add `--pace`, `--deadline`, `--step` and `--pause-at`."""
     options = (

@@ -75,10 +75,14 @@ class EventView:
 
     def view(self, status: OperationStatus) -> RunView:
         """Return what there is to show, with the state of its operation."""
-        stacks = tuple(
+        return RunView(status.state, status.reason, status.allowed, self.stacks)
+
+    @property
+    def stacks(self) -> tuple[CallStack, ...]:
+        """The active calls with those around them."""
+        return tuple(
             CallStack(self._find_stack(each), each.node not in self._chosen) for each in self._find_innermost()
         )
-        return RunView(status.state, status.reason, status.allowed, stacks)
 
     def _find_innermost(self) -> list[NodeStarted]:
         """Return the active calls that no other active call is in."""
