@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -10,13 +14,15 @@ from click.testing import CliRunner
 from mcap.reader import make_reader
 
 import skillc
-from server.running import RunningServer, wait_until
+from server.running import RunningServer, serving, wait_until
 from skillc.cells.host import CellSettings, open_cell
+from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import OperationRequest
 from skillc.cli.main import skillc as program
 from skillc.services.library_files import SHIPPED
 from skillc.services.reporting import SilentReporter
 from skillc_ontology import catalogue
+from skillc_runtime.recording.events import Note
 from skillc_runtime.recording.mcap.reader import read_recording
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-0", "to": "lab:Goal"}}
@@ -88,33 +94,47 @@ def test_recordings_are_pruned_with_their_operations_and_backed_up(server: Runni
     assert not read_recording(tmp_path / "copy/cells/yard/recordings" / file.name).note
 
 
-def test_an_operation_whose_recording_cannot_be_written_goes_on(tmp_path: Path) -> None:
-    (tmp_path / "recordings").write_text("not a folder")
-    settings = CellSettings(
+def settings_of(folder: Path) -> CellSettings:
+    """Return a cell in which a button can be pressed."""
+    return CellSettings(
         name="cell",
         scene=str(catalogue.scene_path("ur5e_button")),
         library=str(SHIPPED / "contact"),
-        folder=str(tmp_path),
+        folder=str(folder),
         backend="kinematic",
     )
-    with open_cell(settings, SilentReporter()) as host:
+
+
+def test_an_operation_whose_recording_cannot_be_written_goes_on(tmp_path: Path) -> None:
+    (tmp_path / "recordings").write_text("not a folder")
+    with open_cell(settings_of(tmp_path), SilentReporter()) as host:
         host.submit("press-1", OperationRequest(task="press_button", approve=True))
         host.stop("press-1", "enough")
-        for _ in range(100):
+        wait_until(lambda: (host.tick(), host.take_changed())[1], lambda it: it and it[0].state == "stopped")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a disk that is always full is needed")
+def test_an_operation_says_that_its_recording_has_ended_and_goes_on(tmp_path: Path) -> None:
+    settings = settings_of(tmp_path)
+    (tmp_path / "recordings").mkdir()
+    (tmp_path / "recordings/press-1.mcap").symlink_to("/dev/full")
+    with open_cell(settings, SilentReporter()) as host, closing(JournalReader(settings.journal)) as journal:
+
+        def read_notes() -> list[str]:
             host.tick()
-        assert [each.state for each in host.take_changed()] == ["stopped"]
+            host.take_changed()
+            events = (each.event for each in journal.envelopes("press-1"))
+            return [each.message for each in events if isinstance(each, Note)]
+
+        host.submit("press-1", OperationRequest(task="press_button", approve=True))
+        (note,) = wait_until(read_notes, bool)
+        assert note.startswith("warning: ") and note.endswith("press-1.mcap is incomplete: No space left on device")
+        wait_until(lambda: (host.tick(), host.loop.runs[0].state)[1], lambda state: state == "planned")
 
 
 @pytest.mark.sim
 def test_it_has_the_signals_while_an_operation_runs(tmp_path: Path) -> None:
-    settings = CellSettings(
-        name="cell",
-        scene=str(catalogue.scene_path("ur5e_button")),
-        library=str(SHIPPED / "contact"),
-        folder=str(tmp_path),
-        backend="kinematic",
-    )
-    with open_cell(settings, SilentReporter()) as host:
+    with open_cell(settings_of(tmp_path), SilentReporter()) as host:
         host.submit("press-1", OperationRequest(task="press_button"))
         while host.loop.runs:
             if not host.tick():
@@ -123,3 +143,29 @@ def test_it_has_the_signals_while_an_operation_runs(tmp_path: Path) -> None:
     recorded = read_recording(tmp_path / "recordings/press-1.mcap")
     signals = recorded.signals()
     assert len(signals.time_s) > 1000 and recorded.envelopes[-1].cell_time_s - signals.time_s[-1] < 0.05
+
+
+@pytest.mark.sim
+def test_the_recording_of_a_cell_that_was_killed_can_be_read(tmp_path: Path) -> None:
+    with serving(tmp_path, takes_ms=2000) as server:
+        server.client.put("/cells/yard/pace", json={"factor": 1.0})
+        operation = server.submit(task="carry_all")["id"]
+        server.wait_for(operation, "running")
+        time.sleep(2.5)
+        for process in children_of(server.process.pid):
+            os.kill(process, signal.SIGKILL)
+        shown = f"/operations/{operation}"
+        wait_until(lambda: server.client.get(shown).json().get("state"), lambda state: state == "interrupted")
+        file = tmp_path / "killed.mcap"
+        file.write_bytes(server.client.get(f"/operations/{operation}/recording").content)
+        recorded = read_recording(file)
+        assert "was cut off; its last event is at" in recorded.note
+        found = server.client.get(f"/operations/{operation}/events").json()
+        assert [each.sequence for each in recorded.envelopes] == list(range(1, len(recorded.envelopes) + 1))
+        assert 3 < len(recorded.envelopes) < len(found)
+
+
+def children_of(process: int) -> list[int]:
+    """Return the processes that a process has started."""
+    listed = Path(f"/proc/{process}/task/{process}/children").read_text().split()
+    return [int(each) for each in listed]

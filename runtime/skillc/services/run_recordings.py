@@ -63,7 +63,13 @@ def describe_contents(
 
 @cache
 def _read_event_schema() -> bytes:
-    return json.dumps(json.loads(read_schema("events")), separators=(",", ":"), ensure_ascii=False).encode()
+    """Return the JSON Schema of an event without descriptions: it is in each file."""
+    schema = json.loads(read_schema("events"), object_hook=_drop_description)
+    return json.dumps(schema, separators=(",", ":")).encode()
+
+
+def _drop_description(schema: dict[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in schema.items() if name != "description" or not isinstance(value, str)}
 
 
 def make_recorded_cell(simulation: Simulation) -> RecordedCell | None:
