@@ -31,7 +31,7 @@ BROKEN_PIPE = 141
 SECTIONS = {
     "Projects": ("new", "add", "tasks", "lock"),
     "Skills": ("check", "fmt", "explain", "graph", "doc", "compile", "shapes"),
-    "Tasks": ("plan", "run", "why", "diff", "replay", "trials", "demo"),
+    "Tasks": ("plan", "run", "why", "diff", "replay", "report", "trials", "demo"),
     "Scenes": ("world", "scene"),
     "Servers": ("serve", "ps", "start", "attach", "logs", "pace", "lease", "acknowledge", "token", "state"),
     "Operations of a server": ("wait", "pause", "resume", "step", "stop", "approve", "retry", "skip", "replan"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
@@ -13,9 +13,10 @@ from skillc_runtime.execution.attempt import TICK_S, CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.run_events import read_arrival
+from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import Gate, read_breakpoint
 from skillc_runtime.planning.validation import PlanError
-from skillc_runtime.recording.events import Event, PlanArrived, Requested, TaskEnded, TaskStarted
+from skillc_runtime.recording.events import Event, Listener, PlanArrived, Requested, TaskEnded, TaskStarted
 
 
 class NotRepeatable(Exception):
@@ -36,26 +37,43 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class Repetition:
-    """The events of a repeated run, up to the first that differs from the recording, and the difference, if any."""
+    """The events of a repeated run, up to the first that differs from the recording, and the difference, if any.
+
+    `run` is the task run that was made again; it has ended only if the recorded one has.
+    """
 
     events: tuple[Event, ...]
     difference: Difference | None
+    run: TaskRun | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def ended(self) -> bool:
+        """Whether the end of the run was repeated."""
+        return bool(self.events) and isinstance(self.events[-1], TaskEnded)
 
 
-def repeat_run(recorded: Sequence[Event], library: SkillLibrary, backend: Backend) -> Repetition:
+def repeat_run(
+    recorded: Sequence[Event],
+    library: SkillLibrary,
+    backend: Backend,
+    listeners: Sequence[Listener] = (),
+    after_tick: Sequence[Callable[[], None]] = (),
+) -> Repetition:
     """Run a task again as `recorded`, all events of one run; `backend` is a cell built from its scene and seed.
+
+    `listeners` get its events, `after_tick` are called whenever time has passed.
 
     A recording that ends before its run, or because the process died, is repeated up to its last event. Only a run that
     had its cell for itself from the start of the cell can be repeated. NotRepeatable otherwise, if the library is
     another one, or if a plan of the recording does not work with it.
     """
-    player = _Player(recorded, library, backend)
+    player = _Player(recorded, library, backend, listeners, after_tick)
     try:
         player.play()
     except PlanError as error:
         raise NotRepeatable(f"a plan of the recording does not work in this cell: {error}") from error
     finally:
-        repetition = Repetition(tuple(player.events), player.difference)
+        repetition = Repetition(tuple(player.events), player.difference, player.run)
         player.loop.close("the repetition ends")
     return repetition
 
@@ -63,7 +81,14 @@ def repeat_run(recorded: Sequence[Event], library: SkillLibrary, backend: Backen
 class _Player:
     """Feeds the inputs of a recording to a run in a loop of its own, and compares what it tells."""
 
-    def __init__(self, recorded: Sequence[Event], library: SkillLibrary, backend: Backend) -> None:
+    def __init__(
+        self,
+        recorded: Sequence[Event],
+        library: SkillLibrary,
+        backend: Backend,
+        listeners: Sequence[Listener],
+        after_tick: Sequence[Callable[[], None]],
+    ) -> None:
         started = _find_start(recorded, library, backend)
         self.events: list[Event] = []
         self.difference: Difference | None = None
@@ -72,17 +97,21 @@ class _Player:
         self._library, self._backend = library, backend
         self._requests = deque(event for event in recorded if isinstance(event, Requested))
         self._arrivals = deque(event for event in recorded if isinstance(event, PlanArrived))
-        self.loop = CellLoop(backend, library, self._prepare, CellOrigin(started.scene, started.seed, started.backend))
+        self.loop = CellLoop(
+            backend, library, self._prepare, CellOrigin(started.scene, started.seed, started.backend), after_tick
+        )
         gate = Gate(map(read_breakpoint, started.breakpoints))
         if started.stepped:
             gate.step("into", ())
-        self._run = self.loop.submit(_make_assignment(started, backend), [self._compare], started.settings, gate)
+        self.run = self.loop.submit(
+            _make_assignment(started, backend), [self._compare, *listeners], started.settings, gate
+        )
 
     def play(self) -> None:
         """Tick until the run has ended, or is not as recorded."""
-        while self.difference is None and not self._run.ended and (self._is_whole or self._remain):
+        while self.difference is None and not self.run.ended and (self._is_whole or self._remain):
             while self._requests and self._requests[0].tick <= self.loop.ticks:
-                self.loop.request(self._run, self._requests.popleft().command)
+                self.loop.request(self.run, self._requests.popleft().command)
             happened = self.loop.tick()
             self._find_missing(at_end=not happened)
         self._find_missing(at_end=True)

@@ -11,6 +11,7 @@ from skillc.services.backends import BackendName, make_backend
 from skillc.services.errors import ServiceError
 from skillc.services.replaying.inputs import RunInputs, read_inputs
 from skillc.services.reporting import Reporter
+from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.repeat import Difference, NotRepeatable, repeat_run
 from skillc_runtime.recording.events import Event
@@ -71,18 +72,25 @@ def check_run(run: Path, library: Path | None, reporter: Reporter) -> ReplayChec
 
 def _repeat(inputs: RunInputs) -> tuple[DifferentEvent | None, int]:
     """Run again; return the first event that differs, and how many were the same. NotRepeatable; ServiceError."""
-    start = inputs.start
-    backend = next(name for name in get_args(BackendName) if name == start.backend)
-    try:
-        cell = make_backend(backend, WorldModel(inputs.world), start.seed)
-    except (SheetError, FrameError) as error:
-        raise ServiceError(f"the scene of the run cannot be simulated: {error}") from error
+    cell = build_cell(inputs)
     try:
         repetition = repeat_run(inputs.events, inputs.library, cell)
     finally:
         cell.close()
     found = repetition.difference
     return (None if found is None else _describe(found)), len(repetition.events) if found is None else found.number - 1
+
+
+def build_cell(inputs: RunInputs) -> Simulation:
+    """Return the cell of a recorded run as it was at its start. ServiceError if it is no simulation or impossible."""
+    start = inputs.start
+    name = next((each for each in get_args(BackendName) if each == start.backend), None)
+    if name is None:
+        raise ServiceError(f"the cell of the run is no simulation ({start.backend or 'a program built it'})")
+    try:
+        return make_backend(name, WorldModel(inputs.world), start.seed)
+    except (SheetError, FrameError) as error:
+        raise ServiceError(f"the scene of the run cannot be simulated: {error}") from error
 
 
 def _describe(found: Difference) -> DifferentEvent:

@@ -31,12 +31,16 @@ SHIPPED_CODE = ("skillc", "skillc_runtime", "skillc_skills")
 
 @dataclass(frozen=True, slots=True)
 class RunInputs:
-    """A recorded run: all its events, the first of which is `start`, its library, and its world before the first."""
+    """A recorded run: all its events, the first of which is `start`, its library, and its world before the first.
+
+    `wall_time_s` is how long it took on the wall clock.
+    """
 
     start: TaskStarted
     events: tuple[Event, ...]
     library: SkillLibrary
     world: WorldState
+    wall_time_s: float
 
 
 def read_inputs(run: Path, library: Path | None, reporter: Reporter) -> RunInputs:
@@ -46,13 +50,15 @@ def read_inputs(run: Path, library: Path | None, reporter: Reporter) -> RunInput
     with errors.
     """
     path = find_recording(run)
-    events = tuple(each.event for each in read_envelopes(path, reporter))
+    envelopes = read_envelopes(path, reporter)
+    events = tuple(each.event for each in envelopes)
     if not events or not isinstance(events[0], TaskStarted):
         raise ServiceError(f"{path} does not begin with the start of a task")
     start = events[0]
     attachments = _read_attachments(path)
     found = _find_library(start, attachments, library, path)
-    return RunInputs(start, events, found, _load_world(start, attachments, found, path))
+    wall_time_s = (envelopes[-1].wall_time_ns - envelopes[0].wall_time_ns) * 1e-9
+    return RunInputs(start, events, found, _load_world(start, attachments, found, path), wall_time_s)
 
 
 def _read_attachments(path: Path) -> Mapping[str, bytes]:

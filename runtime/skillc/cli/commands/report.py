@@ -1,0 +1,50 @@
+"""Make the report of a recorded run.
+
+Runs the task again from its recorded scene, seed, requests and plans, and writes report, figures and film.
+
+Exit code 1 if the run cannot be repeated.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.options import FOLDER, PATH, gif_option, json_option, looks_option
+
+EXAMPLES = """
+skillc report out
+skillc report recording.mcap --out report
+"""
+
+
+@click.command(cls=Command, examples=EXAMPLES)
+@click.argument("run", metavar="RUN_DIR", type=PATH)
+@click.option("--out", type=FOLDER, help="Write to this folder; by default to RUN_DIR.")
+@click.option("--library", type=PATH, help="The library of the run; by default the one in the recording.")
+@looks_option
+@gif_option
+@json_option
+def command(run: Path, out: Path | None, library: Path | None, looks: str, gif: bool, as_json: bool) -> int:
+    """Write report.html, result.json, figures, film and stills of a recorded run, as `skillc run --out` does.
+
+    Figures and film need more than a recording has, so the task is run again from the recorded inputs; if an event is
+    another one then, there is no report.
+    """
+    from skillc.cli.console import Terminal, print_json
+    from skillc.cli.run_output import print_results
+    from skillc.services.files import check_writable
+    from skillc.services.replaying.report import report_recorded
+
+    if out is None and not run.is_dir():
+        raise click.UsageError(f"{run} is no folder: name the folder of the report with --out")
+    folder = out or run
+    check_writable(folder)
+    made = report_recorded(run, folder, library, looks, gif, Terminal())
+    if as_json:
+        print_json(made.result)
+    else:
+        print_results([made.result], folder if made.written else None)
+    return 0 if made.written else 1

@@ -1,0 +1,38 @@
+"""Makes the report of a recorded run: it is run again from its inputs, with what the report samples."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from pathlib import Path
+
+from skillc.services.errors import ServiceError
+from skillc.services.replaying.check import build_cell
+from skillc.services.replaying.inputs import read_inputs
+from skillc.services.reporting import Reporter
+from skillc.services.run_report import RunResult, make_samples, report_run
+from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.execution.execute import describe_execution
+from skillc_runtime.execution.repeat import NotRepeatable, repeat_run
+
+
+def report_recorded(run: Path, out: Path, library: Path | None, looks: str, gif: bool, reporter: Reporter) -> RunResult:
+    """Write the report, the figures and the film of a recorded run to a folder, and return its result.
+
+    ServiceError if it cannot be repeated, or has no end; what `read_inputs` raises.
+    """
+    inputs = read_inputs(run, library, reporter)
+    reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
+    with closing(build_cell(inputs)) as cell:
+        samples, choices = make_samples(cell, looks, True, gif), ChoiceListener()
+        try:
+            repeated = repeat_run(inputs.events, inputs.library, cell, (choices,), (samples.sample,))
+        except NotRepeatable as error:
+            raise ServiceError(f"no report can be made: {error}") from error
+        if repeated.difference is not None:
+            number = repeated.difference.number
+            found = f"its event {number} is another one when it is repeated; `skillc replay {run} --check` shows it"
+            raise ServiceError(f"no report can be made of {run}: {found}")
+        if repeated.run is None or not repeated.ended:
+            raise ServiceError(f"no report can be made of {run}: the recording ends before the run")
+        execution = describe_execution(repeated.run, cell, inputs.wall_time_s)
+        return report_run(execution, choices, inputs.library, samples, out, reporter)
