@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from functools import partial
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.recording.envelope import Recorder
 from skillc_runtime.recording.events import Note
-from skillc_runtime.recording.mcap.recording_file import RecordingFile
+from skillc_runtime.recording.mcap.recording_file import CLOSE_S, RecordingFile
 from skillc_runtime.recording.states import State
 from skillc_runtime.scene.load import load_sheets
 
@@ -81,11 +82,12 @@ class CellRecordings:
         self._report()
 
     def close(self) -> None:
-        """End all recordings and wait until they are complete."""
+        """End all recordings and wait until they are complete, together as long as one may take."""
         for operation in tuple(self._going):
             self.end(operation)
+        end = time.monotonic() + CLOSE_S
         for each in self._ending:
-            each.close()
+            each.close(max(0.0, end - time.monotonic()))
         self._report()
 
     def _report(self) -> None:

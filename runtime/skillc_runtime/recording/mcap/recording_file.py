@@ -79,10 +79,10 @@ class RecordingFile:
         """Whether nothing is left to write."""
         return not self._thread.is_alive()
 
-    def close(self) -> None:
-        """End the recording, and wait until the file is complete."""
+    def close(self, timeout_s: float = CLOSE_S) -> None:
+        """End the recording, and wait until the file is complete, for at most `timeout_s` s of wall time."""
         self.end()
-        self._thread.join(CLOSE_S)
+        self._thread.join(timeout_s)
         if self._thread.is_alive():
             self._give_up("the disk does not answer")
 
