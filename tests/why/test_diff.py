@@ -13,7 +13,11 @@ from click.testing import CliRunner, Result
 from msgspec import structs
 
 from execution.test_repeat import recording
+from operating.monitors import Monitor
 from skillc.cli.main import skillc
+from skillc.services.reporting import SilentReporter
+from skillc.services.running import RunOptions, run_task
+from skillc.services.task_loading import TaskRequest, load_task
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import (
     Event,
@@ -137,3 +141,16 @@ def test_what_cannot_be_read_is_an_error_of_one_sentence(tmp_path: Path) -> None
     find_differences(tmp_path, lambda _: None)
     result = diff(tmp_path / "a", tmp_path / "nothing")
     assert result.exit_code == 1 and result.stderr.startswith("error: there is no folder")
+
+
+@pytest.mark.sim
+def test_signals_of_mcap_files_are_compared(tmp_path: Path) -> None:
+    request = TaskRequest("contact:press_button")
+    for seed in (1, 2):
+        with load_task(request, SilentReporter()) as loaded:
+            options = RunOptions(tmp_path / str(seed), seed=seed, backend="kinematic")
+            run_task(loaded, options, Monitor(lambda run, now: ()), SilentReporter())
+    result = diff(tmp_path / "1", tmp_path / "2/recording.mcap", "--json")
+    found = json.loads(result.stdout)
+    assert result.exit_code == 0 and found["compared"]["signals"] > 20 and not found["notes"]
+    assert [each["what"] for each in found["differences"]] == ["seed"]

@@ -99,7 +99,8 @@ def read_result(path: Path, events: Sequence[Envelope]) -> TaskResult:
     if not history.attempts:
         failure = describe_failure(history.failure) if history.failure else "it never began"
         return TaskResult(task=history.task, status=cast(EndState, history.status), failure=failure)
-    return summarise_recording(TaskResult(task=history.task, status="interrupted"), history, 0.0)
+    wall_time_s = (events[-1].wall_time_ns - events[0].wall_time_ns) * 1e-9
+    return summarise_recording(TaskResult(task=history.task, status="interrupted"), history, wall_time_s)
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from contextlib import closing
 from pathlib import Path
 
 from skillc.services.errors import ServiceError
+from skillc.services.files import writing_to
 from skillc.services.replaying.check import build_cell
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
@@ -34,5 +35,7 @@ def report_recorded(run: Path, out: Path, library: Path | None, looks: str, gif:
             raise ServiceError(f"no report can be made of {run}: {found}")
         if repeated.run is None or not repeated.ended:
             raise ServiceError(f"no report can be made of {run}: the recording ends before the run")
+        with writing_to(out):
+            out.mkdir(parents=True, exist_ok=True)
         execution = describe_execution(repeated.run, cell, inputs.wall_time_s)
         return report_run(execution, choices, inputs.library, samples, out, reporter)

@@ -149,7 +149,7 @@ def _by_size(found: Iterable[Difference]) -> list[Difference]:
 def _list_notes(first: RecordedRunData, second: RecordedRunData) -> Iterator[str]:
     for run in (first, second):
         if run.signals is None:
-            yield f"{run.name} has no signals to compare; `skillc run --signals csv` records them"
+            yield f"{run.name} has no signals to compare; `skillc run --out` records them in recording.mcap"
     if first.signals is not None and second.signals is not None:
         for run, names in (
             (first, first.signals.keys() - second.signals),

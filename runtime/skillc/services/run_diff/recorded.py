@@ -10,8 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from skillc.services.errors import RequestError, ServiceError
-from skillc.services.recordings import find_recording, read_envelopes, read_result
+from skillc.services.errors import ServiceError
+from skillc.services.recordings import (
+    find_mcap,
+    find_recording,
+    is_mcap,
+    read_envelopes,
+    read_result,
+    read_signals,
+)
 from skillc.services.reporting import Reporter
 from skillc.services.signal_files import read_signal_dictionary
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -19,6 +26,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.events import Event, TaskStarted
 from skillc_runtime.recording.history import RunHistory
 from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.signals.files import DICTIONARY
 from skillc_runtime.recording.signals.signal import CLOCK
 
 
@@ -43,16 +51,25 @@ def read_recorded_run(run: Path, reporter: Reporter) -> RecordedRunData:
     history = read_history(events)
     assert history is not None, "a run without history has no result"
     start = next(event for event in events if isinstance(event, TaskStarted))
-    return RecordedRunData(str(run), start, events, history, result, _read_signals(path.parent))
+    return RecordedRunData(str(run), start, events, history, result, _find_signals(path))
 
 
-def _read_signals(folder: Path) -> Mapping[str, Array] | None:
-    """Return the columns of the signals in a folder; None if there are none. ServiceError if they cannot be read."""
-    try:
-        dictionary = read_signal_dictionary(folder)
-    except RequestError:
+def _find_signals(path: Path) -> Mapping[str, Array] | None:
+    """Return the columns of the signals beside or in a recording; None if there are none. ServiceError if unreadable.
+
+    Those that `--signals` recorded come first: they have ground truth too.
+    """
+    if (path.parent / DICTIONARY).exists() and not is_mcap(path):
+        return _read_files(path.parent)
+    mcap = path if is_mcap(path) else find_mcap(path.parent)
+    if mcap is None:
         return None
-    file = folder / dictionary.file
+    table = read_signals(mcap)
+    return {each.column: table.column(each.column) for each in table.signals}
+
+
+def _read_files(folder: Path) -> Mapping[str, Array]:
+    file = folder / read_signal_dictionary(folder).file
     try:
         columns = _read_parquet(file) if file.suffix == ".parquet" else _read_csv(file)
     except (OSError, ValueError, ImportError) as error:
