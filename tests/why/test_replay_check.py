@@ -118,10 +118,20 @@ def test_another_seed_is_found_as_a_difference_of_the_events(tmp_path: Path) -> 
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("task", ["clean_whiteboard", "clean_table", "contact:insert_peg", "contact:press_button"])
-def test_runs_of_other_arms_are_repeated_from_their_recordings(tmp_path: Path, task: str) -> None:
+@pytest.mark.parametrize(
+    ("task", "backend"),
+    [
+        ("clean_whiteboard", "mujoco"),
+        ("clean_table", "mujoco"),
+        ("contact:insert_peg", "mujoco"),
+        ("contact:press_button", "mujoco"),
+        ("clean_both", "kinematic"),
+        ("share_eraser", "kinematic"),
+    ],
+)
+def test_runs_of_other_arms_are_repeated_from_their_recordings(tmp_path: Path, task: str, backend: BackendName) -> None:
     with load_task(TaskRequest(task), SilentReporter()) as loaded:
-        options = RunOptions(tmp_path, seed=1, backend="mujoco")
+        options = RunOptions(tmp_path, seed=1, backend=backend)
         run_task(loaded, options, Monitor(lambda run, now: ()), SilentReporter())
-    result = check(tmp_path)
+    result = check(tmp_path / "recording.mcap")
     assert result.exit_code == 0 and "repeated:" in result.stdout, result.output
