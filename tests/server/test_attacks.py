@@ -6,6 +6,7 @@ import asyncio
 import json
 import socket
 from collections.abc import Callable, Iterator
+from contextlib import AsyncExitStack
 
 import httpx
 import pytest
@@ -20,6 +21,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from server.running import RunningServer, serving, serving_app
 from skillc.server import requests
 from skillc.server.problems import ApiRefusal
+from skillc.server.watchers import MAX_UNKNOWN
 
 JSON = {"Content-Type": "application/json"}
 Attack = Callable[[RunningServer], list[int]]
@@ -196,6 +198,36 @@ def test_a_websocket_that_says_something_later_is_closed_and_others_go_on(server
 
     asyncio.run(talk())
     assert server.client.get("/cells/yard").status_code == 200
+
+
+def test_a_token_that_is_revoked_watches_no_longer(server: RunningServer) -> None:
+    token = server.client.post("/tokens", json={"name": "leaver", "role": "view"}).json()["token"]
+
+    async def watch() -> tuple[int, str]:
+        async with connect(f"{server.url.replace('http', 'ws')}/events") as client:
+            await client.send(json.dumps({"token": token}))
+            await client.recv()
+            assert server.client.delete("/tokens/leaver").status_code == 204
+            server.client.put("/cells/yard/pace", json={"factor": 7.0})
+            with pytest.raises(ConnectionClosed) as closed:
+                await asyncio.wait_for(client.recv(), 20.0)
+        assert closed.value.rcvd is not None
+        return closed.value.rcvd.code, closed.value.rcvd.reason
+
+    assert asyncio.run(watch()) == (1008, "the token is not valid")
+
+
+def test_more_websockets_than_are_taken_keep_no_request_out(server: RunningServer) -> None:
+    async def crowd() -> None:
+        async with AsyncExitStack() as stack:
+            address = f"{server.url.replace('http', 'ws')}/events"
+            found = [await stack.enter_async_context(connect(address)) for _ in range(MAX_UNKNOWN + 5)]
+            with pytest.raises(ConnectionClosed) as closed:
+                await asyncio.wait_for(found[-1].recv(), 20.0)
+            assert closed.value.rcvd is not None and closed.value.rcvd.code == 1013
+            assert server.client.get("/cells/yard").status_code == 200
+
+    asyncio.run(crowd())
 
 
 def test_a_body_that_does_not_arrive_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

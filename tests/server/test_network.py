@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import socket
-from contextlib import AbstractContextManager, ExitStack
+from contextlib import AbstractContextManager, AsyncExitStack, ExitStack
 from pathlib import Path
 
 import httpx
@@ -13,12 +13,19 @@ import pytest
 import trustme
 import uvicorn
 from prometheus_client.parser import text_string_to_metric_families
+from starlette.applications import Starlette
 from starlette.responses import PlainTextResponse
+from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp
+from starlette.websockets import WebSocket
+from websockets.asyncio.client import connect
 
 from server.running import RunningServer, serving, serving_app
 from skillc.server import connections
 from skillc.server.connections import BoundedConnection
 from skillc.server.proxy import ProxiedRequests
+
+HERE = PlainTextResponse("here")
 
 
 def test_with_a_certificate_it_encrypts_and_answers_to_its_names(tmp_path: Path) -> None:
@@ -84,6 +91,24 @@ def test_who_connects_and_says_nothing_keeps_nobody_out(monkeypatch: pytest.Monk
         assert idle[0].recv(1) == b"", "the one that has been idle for longest is closed"
 
 
+def test_websockets_are_not_counted_as_connections_that_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connections, "MAX_CONNECTIONS", 3)
+
+    async def listen(socket: WebSocket) -> None:
+        await socket.accept()
+        await socket.receive()
+
+    async def ask(port: int) -> None:
+        async with AsyncExitStack() as stack, httpx.AsyncClient() as client:
+            for _ in range(10):
+                await stack.enter_async_context(connect(f"ws://127.0.0.1:{port}/"))
+            assert (await client.get(f"http://127.0.0.1:{port}/here")).text == "here"
+
+    here = Route("/here", lambda _: PlainTextResponse("here"))
+    with bounded_server(Starlette(routes=[here, WebSocketRoute("/", listen)])) as port:
+        asyncio.run(ask(port))
+
+
 @pytest.mark.parametrize("sent", [b"", b"GET / HTT", b"GET / HTTP/1.1\r\nHost: a\r\n\r\nGET / HTTP/1.1\r\nX: "])
 def test_a_request_that_does_not_arrive_ends_its_connection(monkeypatch: pytest.MonkeyPatch, sent: bytes) -> None:
     monkeypatch.setattr(connections, "REQUEST_S", 0.3)
@@ -94,7 +119,6 @@ def test_a_request_that_does_not_arrive_ends_its_connection(monkeypatch: pytest.
             pass
 
 
-def bounded_server() -> AbstractContextManager[int]:
-    """Serve a constant answer with bounded connections; yields the port."""
-    app = PlainTextResponse("here")
+def bounded_server(app: ASGIApp = HERE) -> AbstractContextManager[int]:
+    """Serve an application, a constant answer without one, with bounded connections; yields the port."""
     return serving_app(uvicorn.Config(app, http=BoundedConnection, log_config=None, lifespan="off"))

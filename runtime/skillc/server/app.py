@@ -25,6 +25,7 @@ from skillc.server.event_stream import stream_events
 from skillc.server.guard import Guard
 from skillc.server.log import log
 from skillc.server.openapi import make_openapi
+from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import MEDIA_TYPE, ApiRefusal
 from skillc.server.proxy import ProxiedRequests
 from skillc.server.rates import TokenBuckets
@@ -131,7 +132,7 @@ def refuse(refused: ApiRefusal) -> Response:
     response = make_response(refused.status, refused.problem, MEDIA_TYPE)
     if refused.status is HTTPStatus.UNAUTHORIZED:
         response.headers["WWW-Authenticate"] = "Bearer"
-    if refused.status is HTTPStatus.TOO_MANY_REQUESTS:
+    if refused.status in UNAVAILABLE:
         response.headers["Retry-After"] = "1"
     return response
 

@@ -18,10 +18,12 @@ REQUEST_S = 10.0
 class BoundedConnection(H11Protocol):
     """A connection that is closed if it keeps a request waiting, or others out.
 
-    `idle` are those of this process that answer no request, the one that has been idle for longest first.
+    `idle` are those of this process that answer no request, the one that has been idle for longest first; `counted` are
+    all that are no WebSocket.
     """
 
     idle: ClassVar[OrderedDict[BoundedConnection, None]] = OrderedDict()
+    counted: ClassVar[set[BoundedConnection]] = set()
 
     def __init__(self, *arguments: Any, **settings: Any) -> None:
         super().__init__(*arguments, **settings)
@@ -31,8 +33,9 @@ class BoundedConnection(H11Protocol):
         """Take a connection; close another one if there are too many."""
         super().connection_made(transport)
         self.idle[self] = None
+        self.counted.add(self)
         self._expect()
-        if len(self.connections) > MAX_CONNECTIONS:
+        if len(self.counted) > MAX_CONNECTIONS:
             self.idle.popitem(last=False)[0].close()
 
     def data_received(self, data: bytes) -> None:
@@ -67,6 +70,7 @@ class BoundedConnection(H11Protocol):
 
     def _forget(self) -> None:
         self.idle.pop(self, None)
+        self.counted.discard(self)
         self._cancel()
 
     def _expect(self) -> None:

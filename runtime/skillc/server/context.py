@@ -17,6 +17,7 @@ from skillc.server.metrics import Metrics
 from skillc.server.problems import ApiRefusal
 from skillc.server.state import ServerState
 from skillc.server.supervisor import CellSupervisor
+from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
 
 
@@ -29,6 +30,7 @@ class ServerContext:
     hub: EventHub
     leases: Leases = field(default_factory=Leases)
     workers: Workers = field(default_factory=Workers)
+    watchers: Watchers = field(default_factory=Watchers)
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
     metrics: Metrics = field(init=False)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Coroutine, Sequence
+from collections.abc import Sequence
 from contextlib import closing
+from dataclasses import dataclass
 from http import HTTPStatus
 from typing import Annotated
 
@@ -13,16 +14,20 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.messages import Happened, StatusChanged
+from skillc.server.access.tokens import Client
 from skillc.server.context import ServerContext, open_journal
-from skillc.server.hub import News
+from skillc.server.hub import Listener, News
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.envelope import Envelope
 
-REFUSED, ENDED, BROKEN = 1008, 1000, 1011
+REFUSED, ENDED, BROKEN, TRY_AGAIN = 1008, 1000, 1011, 1013
+CLOSE_CODES = {HTTPStatus.SERVICE_UNAVAILABLE: BROKEN, HTTPStatus.TOO_MANY_REQUESTS: TRY_AGAIN}
 HELLO_S = 10.0
 """How long a client may take to send its first message, in s."""
+SILENCE_S = 30.0
+"""After how long without news it is looked whether a token is still valid, in s."""
 BATCH = 200
 """How many events are in one message at most."""
 
@@ -42,68 +47,81 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
     """Send what happens until the client is gone; the events of one operation until it has ended."""
     await socket.accept()  # wait ends: at once, since the request is there
     try:
-        hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=Hello)
-        if server.state.tokens.find(hello.token) is None:
-            return await socket.close(REFUSED, "the token is not valid")
-        if hello.operation is None:
-            await _stream_states(server, socket)
-        else:
-            await _stream_operation(server, socket, hello.operation, hello.after)
+        with server.watchers.introducing():
+            hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=Hello)
+            stream = EventStream(server, socket, hello.token)
+            name = stream.check_token().name
+        with server.watchers.watching(name), server.hub.listening() as listener:
+            if hello.operation is None:
+                await stream.send_states(listener)
+            else:
+                await stream.send_operation(hello.operation, hello.after, listener)
     except WebSocketDisconnect:
-        return None
+        return
     except (TimeoutError, msgspec.DecodeError, KeyError):
         await socket.close(REFUSED, "the first message is no valid hello")
     except ApiRefusal as refused:
-        code = BROKEN if refused.status is HTTPStatus.SERVICE_UNAVAILABLE else REFUSED
-        await socket.close(code, refused.problem.detail[:120])
+        await socket.close(CLOSE_CODES.get(refused.status, REFUSED), refused.problem.detail[:120])
     except DatabaseError:
         await socket.close(BROKEN, "the journal cannot be read")
 
 
-async def _stream_states(server: ServerContext, socket: WebSocket) -> None:
-    """Send how everything is, and then what changes."""
-    with server.hub.listening() as listener:
-        for cell in server.cells.values():
-            await _send(socket, [StatusChanged(status=cell.status)])
-            await _send(socket, [Happened(operation=each) for each in cell.operations.values()])
-        while True:
-            await _send(socket, await _take_or_leave(socket, listener.take()))
+@dataclass(frozen=True, slots=True)
+class EventStream:
+    """A WebSocket of a client with a token, to which nothing more is sent once the token is revoked."""
 
+    server: ServerContext
+    socket: WebSocket
+    token: str
 
-async def _stream_operation(server: ServerContext, socket: WebSocket, operation: str, after: int) -> None:
-    """Send the events of an operation after a number, without a gap: they are read from the journal."""
-    with server.hub.listening() as listener:
+    def check_token(self) -> Client:
+        """Return whose token it is; ApiRefusal (401) if it is not valid, or no longer."""
+        client = self.server.state.tokens.find(self.token)
+        if client is None:
+            raise ApiRefusal(HTTPStatus.UNAUTHORIZED, "the token is not valid")
+        return client
+
+    async def send_states(self, listener: Listener) -> None:
+        """Send how everything is, and then what changes."""
+        for cell in self.server.cells.values():
+            await self._send([StatusChanged(status=cell.status)])
+            await self._send([Happened(operation=each) for each in cell.operations.values()])
         while True:
-            cell, found = server.find_operation(operation)
+            await self._send(await self._wait(listener))
+
+    async def send_operation(self, operation: str, after: int, listener: Listener) -> None:
+        """Send the events of an operation after a number, without a gap: they are read from the journal."""
+        while True:
+            cell, found = self.server.find_operation(operation)
             envelopes = await _read_envelopes(cell, operation, after)
             if envelopes:
                 after = envelopes[-1].sequence
-                await _send(socket, envelopes)
+                await self._send(envelopes)
             elif found.state in ENDS:
-                return await socket.close(ENDED, "the operation has ended")
+                return await self.socket.close(ENDED, "the operation has ended")
             else:
-                await _take_or_leave(socket, listener.take())
+                await self._wait(listener)
+
+    async def _send(self, items: Sequence[News | Envelope]) -> None:
+        """Send items as one JSON array; nothing for none."""
+        if items:
+            self.check_token()
+            await self.socket.send_text(msgspec.json.encode(items).decode())
+
+    async def _wait(self, listener: Listener) -> list[News]:
+        """Wait for news, SILENCE_S at most; WebSocketDisconnect if the client goes, or says something, before."""
+        taking, leaving = asyncio.ensure_future(listener.take()), asyncio.ensure_future(self.socket.receive())
+        try:
+            await asyncio.wait((taking, leaving), timeout=SILENCE_S, return_when=asyncio.FIRST_COMPLETED)
+            if leaving.done():
+                raise WebSocketDisconnect
+            self.check_token()
+            return taking.result() if taking.done() else []
+        finally:
+            taking.cancel()
+            leaving.cancel()
 
 
 async def _read_envelopes(cell: CellSupervisor, operation: str, after: int) -> Sequence[Envelope]:
     with closing(open_journal(cell)) as reader:
         return await asyncio.to_thread(reader.envelopes, operation, after, BATCH)
-
-
-async def _send(socket: WebSocket, items: Sequence[News | Envelope]) -> None:
-    """Send items as one JSON array; nothing for none."""
-    if items:
-        await socket.send_text(msgspec.json.encode(items).decode())
-
-
-async def _take_or_leave(socket: WebSocket, news: Coroutine[None, None, list[News]]) -> list[News]:
-    """Wait for news; WebSocketDisconnect if the client goes, or says something, before there are any."""
-    taking, leaving = asyncio.ensure_future(news), asyncio.ensure_future(socket.receive())
-    try:
-        await asyncio.wait((taking, leaving), return_when=asyncio.FIRST_COMPLETED)
-        if leaving.done():
-            raise WebSocketDisconnect
-        return taking.result()
-    finally:
-        taking.cancel()
-        leaving.cancel()

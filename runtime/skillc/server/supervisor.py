@@ -6,6 +6,7 @@ import asyncio
 import time
 from collections import Counter
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import assert_never
 
@@ -23,6 +24,8 @@ SILENCE_S = 30.0
 FIRST_DELAY_S, MAX_DELAY_S = 0.5, 60.0
 """How long to wait before a cell is started again: the delay doubles each time until a cell has run for SETTLED_S."""
 SETTLED_S = 60.0
+START_S = 20.0
+"""How long requests wait for a cell that starts, in s."""
 END_S = 20.0
 """How long a cell may take to come to rest and end, in s."""
 LOG = "log"
@@ -43,6 +46,7 @@ class CellSupervisor:
         self._cell: RemoteCell | None = None
         self._rounds, self._heard_at = 0, time.monotonic()
         self._problem = ""
+        self._settled = asyncio.Event()  # whether it has started, or failed to
 
     @property
     def ready(self) -> bool:
@@ -63,7 +67,12 @@ class CellSupervisor:
             await self._end()
 
     async def request(self, message: Message) -> Refused | bytes:
-        """Give a message to the cell; return why it was refused, else what it asks for: it is done and durable."""
+        """Give a message to the cell; return why it was refused, else what it asks for: it is done and durable.
+
+        A cell that starts is waited for, START_S at most.
+        """
+        with suppress(TimeoutError):
+            await asyncio.wait_for(self._settled.wait(), START_S)
         if self._cell is None or not self.ready:
             return Refused(kind="off", reason=f"{self.settings.name} is off: {self.status.reason}")
         try:
@@ -82,12 +91,14 @@ class CellSupervisor:
         folder = Path(self.settings.folder)
         folder.mkdir(parents=True, exist_ok=True)
         self._problem, self._heard_at = "", time.monotonic()
+        self._settled.clear()
         self._set_status(_off(self.settings, "it starts"))
         try:
             with (folder / LOG).open("a", encoding="utf-8") as log:
                 self._cell = await start_cell(self.settings, log, self._hear)
         except OSError as error:
             self._set_status(_off(self.settings, f"its process cannot be started: {error.strerror or error}"))
+            self._settled.set()
             return
         cell = self._cell
         self.starts += 1
@@ -101,6 +112,7 @@ class CellSupervisor:
     def _bury(self, code: int) -> None:
         """The process has ended: nothing of it goes on."""
         self._cell = None
+        self._settled.set()
         reason = self._problem or f"its process ended with {f'signal {-code}' if code < 0 else f'code {code}'}"
         for operation in tuple(self.operations.values()):
             ended = structs.replace(operation, state="interrupted", reason=reason, allowed=())
@@ -129,6 +141,7 @@ class CellSupervisor:
                 self._publish(report)
             case StatusChanged(status=status):
                 self._set_status(status)
+                self._settled.set()
             case Alive(rounds=rounds):
                 if rounds != self._rounds:
                     self._rounds, self._heard_at = rounds, time.monotonic()
