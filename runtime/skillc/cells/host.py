@@ -9,6 +9,7 @@ from pathlib import Path
 import msgspec
 from msgspec import structs
 
+from skillc.cells.assigning import assign_request
 from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
 from skillc.cells.database import DatabaseError
 from skillc.cells.interrupted import end_interrupted
@@ -20,11 +21,10 @@ from skillc.cells.recordings import CellRecordings
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
-from skillc.services.assignments import assign_call, assign_goal, assign_task
 from skillc.services.backends import BackendName
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import RequestError
-from skillc.services.libraries import compile_valid, find_task
+from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
@@ -247,15 +247,7 @@ class CellHost:
 
     def _assign(self, request: OperationRequest) -> Assignment:
         state = self.world.snapshot()
-        match (request.task, request.goal, request.call):
-            case (str(task), None, None):
-                return assign_task(find_task(self.library, task), self.library, state, request.arguments)
-            case (None, str(goal), None):
-                return assign_goal(goal, self.library, state)
-            case (None, None, str(call)):
-                return assign_call(call, self.library, state)
-            case _:
-                raise RequestError("name exactly one of a task, a goal and a call")
+        return assign_request(request.task, request.goal, request.call, request.arguments, self.library, state)
 
     def _plan(self, assignment: Assignment, failures: FailedSteps) -> PlanningJob:
         return PlanningJob(assignment, self.library, failures)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
@@ -12,6 +12,7 @@ from skillc.workers.devices import Device
 
 MAX_PACE = 1000.0
 MAX_LEASE_S = 3600.0
+MAX_PLANNING_S = 60.0
 
 
 class ProblemDetails(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -60,6 +61,20 @@ class DeviceStatus(msgspec.Struct, frozen=True):
 
     device: Device
     held_by: str | None
+
+
+class PlanRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A task of the cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
+
+    `prove` searches until the least work is proved; the search ends after `deadline_s` s.
+    """
+
+    task: str | None = None
+    goal: str | None = None
+    arguments: dict[str, str] = {}
+    minimise: Literal["work", "makespan"] = "work"
+    prove: bool = False
+    deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PLANNING_S)] = 30.0
 
 
 class WorldQuery(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc.server.endpoint import ApiEndpoint
-from skillc.server.routes import audit, cells, leases, libraries, metrics, operations, recordings, tokens, world
+from skillc.server.routes import audit, cells, leases, libraries, metrics, operations, plans, recordings, tokens, world
 
 PREFIX = "/api/v1"
 ENDPOINTS: tuple[ApiEndpoint, ...] = (
@@ -13,6 +13,7 @@ ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *recordings.ENDPOINTS,
     *world.ENDPOINTS,
     *libraries.ENDPOINTS,
+    *plans.ENDPOINTS,
     *tokens.ENDPOINTS,
     *audit.ENDPOINTS,
     *metrics.ENDPOINTS,

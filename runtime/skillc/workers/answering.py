@@ -12,7 +12,7 @@ import msgspec
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot
-from skillc.services.errors import ServiceError
+from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.scenes import describe_state, query_document
 from skillc.workers.devices import Device, list_devices
 from skillc.workers.jobs import (
@@ -21,6 +21,8 @@ from skillc.workers.jobs import (
     ListDevices,
     ListFacts,
     ListWrites,
+    PlanPreview,
+    PreviewPlan,
     QueryRows,
     QueryWorld,
     WorldFact,
@@ -28,6 +30,7 @@ from skillc.workers.jobs import (
     WorldWrite,
 )
 from skillc.workers.libraries import LibraryDescription, describe_library
+from skillc.workers.planning import preview_plan
 from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError
@@ -40,6 +43,10 @@ MEMORY_BYTES = 4 * 2**30
 """The largest address space of a worker."""
 MAX_ROWS = 10_000
 """How many rows of the answer to a query are returned."""
+
+JobAnswer: TypeAlias = (
+    QueryRows | WorldFacts | tuple[WorldWrite, ...] | LibraryDescription | tuple[Device, ...] | PlanPreview
+)
 
 
 class JobRefused(msgspec.Struct, frozen=True):
@@ -54,21 +61,22 @@ def answer_job(request: tuple[Job, bytes]) -> bytes | JobRefused:
     job, snapshot = request
     try:
         return msgspec.json.encode(_answer(job, decode_snapshot(snapshot)))
+    except DiagnosticsError as error:
+        return JobRefused("\n".join(map(str, error.diagnostics)))
     except (ServiceError, QueryError, NoSuchName, DatabaseError) as error:
         return JobRefused(str(error))
     except MemoryError:
         return JobRefused("it needs too much memory; ask for less")
 
 
-Answer: TypeAlias = QueryRows | WorldFacts | tuple[WorldWrite, ...] | LibraryDescription | tuple[Device, ...]
-
-
-def _answer(job: Job, known: CellSnapshot) -> Answer:
+def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
     match job:
         case QueryWorld(sparql):
             return _query(sparql, known)
         case ListFacts():
             return _list_facts(job, known)
+        case PreviewPlan():
+            return preview_plan(job, known)
         case ListWrites():
             return _list_writes(job, known)
         case DescribeLibrary():

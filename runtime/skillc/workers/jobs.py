@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import msgspec
 
@@ -44,7 +44,18 @@ class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
     """List the devices of the cell."""
 
 
-Job: TypeAlias = QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices
+class PreviewPlan(msgspec.Struct, frozen=True, tag="plan"):
+    """Plan for a task with arguments, or for a goal; the search ends after `deadline_s` s."""
+
+    task: str | None
+    goal: str | None
+    arguments: dict[str, str]
+    measure: Measure
+    deadline_s: float
+
+
+Job: TypeAlias = QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | PreviewPlan
+Measure: TypeAlias = Literal["work", "proven work", "makespan"]
 
 
 class WorldFact(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -74,6 +85,55 @@ class WorldWrite(msgspec.Struct, frozen=True):
     origin: str
     evidence: Evidence | None
     changes: tuple[LabelledChange, ...]
+
+
+class PlannedStep(msgspec.Struct, frozen=True):
+    """A step of a plan: its skill, its arguments in short names, where the skill is defined, and when it runs, in s.
+
+    The times are those of a schedule; without one they are None.
+    """
+
+    skill: str
+    arguments: dict[str, str]
+    source: str
+    start_s: float | None = None
+    duration_s: float | None = None
+
+
+class LeftOut(msgspec.Struct, frozen=True):
+    """Things without which a plan was made, and why; `harmless` if that is proved to make no difference."""
+
+    kind: str
+    what: tuple[str, ...]
+    why: str
+    harmless: bool
+
+
+class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
+    """The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
+
+    `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
+    of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends.
+    """
+
+    status: Literal["solved", "unsolvable", "gave-up"]
+    sequence: int
+    text: str
+    plan: tuple[PlannedStep, ...] = ()
+    plan_optimal: bool = False
+    optimal: str = ""
+    at_least_s: float | None = None
+    quality: str = ""
+    assumptions: tuple[str, ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
+    duration_s: float | None = None
+    makespan_s: float | None = None
+    planner: str = ""
+    times: str | None = None
+    note: str | None = None
+    failure: str = ""
+    causes: tuple[str, ...] = ()
+    searched: bool | None = None
 
 
 class QueryRows(msgspec.Struct, frozen=True):

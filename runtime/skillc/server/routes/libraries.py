@@ -6,10 +6,11 @@ from http import HTTPStatus
 from importlib.metadata import version
 
 from skillc.server.api_types import DeviceStatus, VersionInfo
+from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.openapi import VERSION
 from skillc.server.outcome import UNAVAILABLE
-from skillc.server.routes.world import QUERY_S, ask_about
+from skillc.server.routes.world import QUERY_S
 from skillc.workers.devices import Device
 from skillc.workers.jobs import DescribeLibrary, ListDevices
 from skillc.workers.libraries import LibraryDescription

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from http import HTTPStatus
-from typing import Annotated, TypeVar
+from typing import Annotated
 
 import msgspec
 
-from skillc.cells.messages import Edit, TakeSnapshot
+from skillc.cells.messages import Edit
 from skillc.server.api_types import WorldEdit, WorldQuery
+from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
-from skillc.server.outcome import UNAVAILABLE, command_cell, raise_refused
-from skillc.server.problems import ApiRefusal
-from skillc.workers.jobs import Job, ListFacts, ListWrites, QueryRows, QueryWorld, WorldFacts, WorldWrite
-from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
+from skillc.server.outcome import UNAVAILABLE, command_cell
+from skillc.workers.jobs import ListFacts, ListWrites, QueryRows, QueryWorld, WorldFacts, WorldWrite
 
 QUERY_S = 10.0
 """How long the answer to a query may take."""
 MAX_NUMBER = 2**63 - 1
-T = TypeVar("T")
 Name = Annotated[str, msgspec.Meta(max_length=500)]
 
 
@@ -58,17 +56,6 @@ async def list_writes(call: ApiCall) -> tuple[WorldWrite, ...]:
     journal = str(call.server.find_cell(call.path["cell"]).settings.journal)
     job = ListWrites(journal, MAX_NUMBER if page.before is None else page.before, page.limit)
     return await ask_about(call, job, tuple[WorldWrite, ...], QUERY_S)
-
-
-async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float) -> T:
-    """Let a worker do a job for what the cell knows now; ApiRefusal if there is no answer."""
-    snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(TakeSnapshot()))
-    try:
-        return await call.server.workers.answer(job, snapshot, kind, seconds)
-    except JobFailed as error:
-        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
-    except (JobTimedOut, TooManyJobs) as error:
-        raise ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error)) from error
 
 
 NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT

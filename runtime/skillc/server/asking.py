@@ -1,0 +1,26 @@
+"""Lets workers answer questions about a cell, for what it knows at that moment."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from typing import TypeVar
+
+from skillc.cells.messages import TakeSnapshot
+from skillc.server.endpoint import ApiCall
+from skillc.server.outcome import raise_refused
+from skillc.server.problems import ApiRefusal
+from skillc.workers.jobs import Job
+from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
+
+T = TypeVar("T")
+
+
+async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float) -> T:
+    """Let a worker do a job for what the cell knows now; ApiRefusal if there is no answer."""
+    snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(TakeSnapshot()))
+    try:
+        return await call.server.workers.answer(job, snapshot, kind, seconds)
+    except JobFailed as error:
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+    except (JobTimedOut, TooManyJobs) as error:
+        raise ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error)) from error

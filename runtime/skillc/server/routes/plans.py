@@ -1,0 +1,38 @@
+"""Plans for a cell: what would be done, or why nothing can be."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+
+from skillc.server.api_types import PlanRequest
+from skillc.server.asking import ask_about
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.outcome import UNAVAILABLE
+from skillc.server.problems import ApiRefusal
+from skillc.workers.jobs import Measure, PlanPreview, PreviewPlan
+
+GRACE_S = 10.0
+"""How long the planners may take to end after their deadline, with all that is not search."""
+
+
+async def preview_plan(call: ApiCall) -> PlanPreview:
+    wanted: PlanRequest = call.body
+    if wanted.prove and wanted.minimise == "makespan":
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, "`prove` is for the work; a makespan has a lower bound")
+    measure: Measure = "makespan" if wanted.minimise == "makespan" else "proven work" if wanted.prove else "work"
+    job = PreviewPlan(wanted.task, wanted.goal, wanted.arguments, measure, wanted.deadline_s)
+    return await ask_about(call, job, PlanPreview, wanted.deadline_s + GRACE_S)
+
+
+ENDPOINTS = (
+    ApiEndpoint(
+        "POST",
+        "/cells/{cell}/plans",
+        "view",
+        "Plan for a task or a goal as the world is now; nothing is done",
+        preview_plan,
+        PlanPreview,
+        body=PlanRequest,
+        refusals=(HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE),
+    ),
+)
