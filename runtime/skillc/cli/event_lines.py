@@ -36,7 +36,7 @@ class EventLines:
                 values = ", ".join(f"{name}: {format_value(value)}" for name, value in bindings.items())
                 yield f"{self._indent(self._calls.get(node, 0))}{skill}[{chosen}]({values})"
             case events.WorldChanged(origin=origin, changes=changes):
-                yield from (f"{origin}: {_format_change(each)}" for each in changes)
+                yield from (f"{origin}: {format_change(each)}" for each in changes)
             case _:
                 yield from _describe_task(event)
 
@@ -76,7 +76,8 @@ def _because(failure: Failure | None) -> str:
     return f": {describe_failure(failure)}" if failure else ""
 
 
-def _format_change(change: LabelledChange) -> str:
+def format_change(change: LabelledChange) -> str:
+    """Return a change of the world as a clause."""
     match change:
         case IndividualAdded(individual=individual, classes=classes):
             return f"{individual} is added: {', '.join(map(str, classes))}"

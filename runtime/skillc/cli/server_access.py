@@ -16,12 +16,13 @@ from skillc.services.errors import ServiceError
 
 if TYPE_CHECKING:
     from skillc.cells.operation import OperationStatus
+    from skillc.client.cell import ServerCell
     from skillc.client.operation import ServerOperation
     from skillc.client.server import Server
     from skillc_runtime.recording.states import Decision
 
 SERVER = "Server"
-_URL, _TOKEN_FILE = "skillc.cli.server", "skillc.cli.token_file"
+_URL, _TOKEN_FILE, _CELL = "skillc.cli.server", "skillc.cli.token_file", "skillc.cli.cell"
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
@@ -44,6 +45,40 @@ def server_options(function: Function) -> Function:
         callback=lambda context, _, value: _keep(context, _TOKEN_FILE, value),
     )
     return url(file(function))
+
+
+def cell_options(function: Function) -> Function:
+    """Add `--cell` and the options of a server to a command that works without one, too; see `asked_cell`."""
+    cell = grouped_option(
+        SERVER,
+        "--cell",
+        metavar="NAME",
+        help="Ask a cell of `skillc serve`, as its world is now; with --server alone, its only cell.",
+        expose_value=False,
+        shell_complete=complete_cell,
+        callback=lambda context, _, value: _keep(context, _CELL, value),
+    )
+    return cell(server_options(function))
+
+
+def asks_cell() -> bool:
+    """Whether the options of the command name a cell or a server, so that it is a client."""
+    meta = click.get_current_context().meta
+    return _CELL in meta or _URL in meta
+
+
+def refuse_options(**given: object) -> None:
+    """Raise UsageError if an option is given that is not for a cell of a server."""
+    for name, value in given.items():
+        if value:
+            raise click.UsageError(f"--{name.replace('_', '-')} cannot be used with a cell of a server")
+
+
+@contextmanager
+def asked_cell() -> Iterator[ServerCell]:
+    """Return the cell that the options of the command name, in a `with` statement; errors as of `skillc.connect`."""
+    with connect_server() as server:
+        yield server.cell(click.get_current_context().meta.get(_CELL))
 
 
 @contextmanager

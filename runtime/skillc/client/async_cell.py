@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 from uuid import uuid4
 
-from skillc.api.boundary import optional_seconds, optional_text, read_arguments, read_pace
+from skillc.api.boundary import optional_seconds, optional_text, read_arguments, read_pace, require_choice, require_text
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.server.access.leases import Lease
-from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopAll
+from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, PlanRequest, StopAll, WorldEdit, WorldQuery
 from skillc.services.errors import RequestError
+from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldFacts, WorldWrite
 from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.execution.pace import FAST
 
-OPERATIONS = 100
+OPERATIONS, FACTS, WRITES = 100, 1000, 100
+PLANNING_S = 30.0
 
 
 class AsyncCell:
@@ -95,6 +97,53 @@ class AsyncCell:
     async def acknowledge(self) -> CellStatus:
         """Let it take operations again after a fault whose cause is removed."""
         return await self._connection.send("POST", self._path("acknowledge"), CellStatus)
+
+    async def plan(
+        self,
+        task: str | None = None,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        minimise: Literal["work", "makespan"] = "work",
+        prove: bool = False,
+        deadline_s: float = PLANNING_S,
+    ) -> PlanPreview:
+        """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
+        request = PlanRequest(
+            task=optional_text(task, "the task"),
+            goal=optional_text(goal, "the goal"),
+            arguments=read_arguments(arguments),
+            minimise=require_choice(minimise, Literal["work", "makespan"], "`minimise`"),
+            prove=prove,
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or PLANNING_S,
+        )
+        return await self._connection.send("POST", self._path("plans"), PlanPreview, request)
+
+    async def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
+        """Return the facts about all individuals, about one, or about those of a class, with how each is known."""
+        found: list[WorldFact] = []
+        while True:
+            page = await self._connection.get(
+                self._path("world"), WorldFacts, subject=subject, type=type, offset=len(found), limit=FACTS
+            )
+            found += page.facts
+            if len(found) >= page.total or not page.facts:
+                return tuple(found)
+
+    async def query(self, sparql: str) -> QueryRows:
+        """Answer a SPARQL query about its world."""
+        query = WorldQuery(require_text(sparql, "the query"))
+        return await self._connection.send("POST", self._path("world", "query"), QueryRows, query)
+
+    async def edit(self, *edits: str, why: str) -> None:
+        """Change its world in one transaction, as you state, by edits as of `skillc scene edit`; `why` is recorded."""
+        wanted = WorldEdit(tuple(edits), require_text(why, "`why`"))
+        await self._connection.send("POST", self._path("world", "edits"), type(None), wanted)
+
+    async def world_history(self, limit: int = WRITES, before: int | None = None) -> tuple[WorldWrite, ...]:
+        """Return the last writes to its world, or those before a number, the last one first."""
+        path = self._path("world", "history")
+        return await self._connection.get(path, tuple[WorldWrite, ...], limit=limit, before=before)
 
     async def stop(self, reason: str = "stopped") -> CellStatus:
         """Stop all its operations."""

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 from skillc.cells.operation import CellStatus
-from skillc.client.async_cell import OPERATIONS, AsyncCell
+from skillc.client.async_cell import OPERATIONS, PLANNING_S, WRITES, AsyncCell
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus
+from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldWrite
 from skillc.workers.libraries import LibraryDescription
 
 
@@ -81,6 +82,38 @@ class ServerCell:
     def acknowledge(self) -> CellStatus:
         """Let it take operations again after a fault whose cause is removed."""
         return self._loop.run(self._cell.acknowledge())
+
+    def plan(
+        self,
+        task: str | None = None,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        minimise: Literal["work", "makespan"] = "work",
+        prove: bool = False,
+        deadline_s: float = PLANNING_S,
+    ) -> PlanPreview:
+        """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
+        planning = self._cell.plan(
+            task, arguments=arguments, goal=goal, minimise=minimise, prove=prove, deadline_s=deadline_s
+        )
+        return self._loop.run(planning)
+
+    def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
+        """Return the facts about all individuals, about one, or about those of a class, with how each is known."""
+        return self._loop.run(self._cell.facts(subject, type))
+
+    def query(self, sparql: str) -> QueryRows:
+        """Answer a SPARQL query about its world."""
+        return self._loop.run(self._cell.query(sparql))
+
+    def edit(self, *edits: str, why: str) -> None:
+        """Change its world in one transaction, as you state, by edits as of `skillc scene edit`; `why` is recorded."""
+        self._loop.run(self._cell.edit(*edits, why=why))
+
+    def world_history(self, limit: int = WRITES, before: int | None = None) -> tuple[WorldWrite, ...]:
+        """Return the last writes to its world, or those before a number, the last one first."""
+        return self._loop.run(self._cell.world_history(limit, before))
 
     def stop(self, reason: str = "stopped") -> CellStatus:
         """Stop all its operations."""

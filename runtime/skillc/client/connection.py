@@ -15,7 +15,7 @@ from skillc.client.errors import RefusedError, UnavailableError
 from skillc.server.api_types import ProblemDetails
 from skillc.services.errors import ServiceError
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 75.0
 """How long an answer may take, in s: a cell that plans or starts answers late."""
 FIRST_SERVER_ERROR, UNAVAILABLE = 500, 503
 UNAUTHORIZED = 401

@@ -26,6 +26,7 @@ from skillc.cli.options import (
     store_options,
     task_arguments,
 )
+from skillc.cli.server_access import asks_cell, cell_options, refuse_options
 from skillc.cli.settings import output_settings
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ skillc plan wiping:clean_both --minimise makespan --json
     show_default=True,
     help="The time limit of the planner.",
 )
+@cell_options
 @json_option
 def command(
     task: str | None,
@@ -75,8 +77,10 @@ def command(
     """Plan for TASK, or for --goal in --scene, and print the steps.
 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
-    project, TASK may be left out if the manifest names a default one.
+    project, TASK may be left out if the manifest names a default one. With --cell or --server, a cell that runs plans for
+    a task of its library, as its world is now.
     """
+    from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, print_text, remark_default
     from skillc.services.plan_text import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
@@ -85,6 +89,9 @@ def command(
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
 
+    if asks_cell():
+        refuse_options(scene=scene, library=library, store=store, reset=reset)
+        return cell_questions.plan(task, arguments, goal, minimise, prove, deadline, as_json)
     request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset), arguments).with_defaults()
     remark_default(task, request.task)
     request.check(calls=False)

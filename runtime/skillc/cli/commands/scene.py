@@ -19,6 +19,7 @@ from skillc.cli.command import Command, Group
 from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
 from skillc.cli.options import FOLDER, PATH, add_ontology_option, json_option
+from skillc.cli.server_access import asks_cell, cell_options, refuse_options
 
 if TYPE_CHECKING:
     from skillc.services.scene_things import PoseRequest
@@ -165,19 +166,33 @@ def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH, shell_complete=complete_scene)
-@click.argument("edits", nargs=-1, required=True, metavar="EDIT...")
+@click.argument("scene", required=False, shell_complete=complete_scene)
+@click.argument("edits", nargs=-1, metavar="EDIT...")
 @LIBRARY
-def edit(scene: Path, edits: tuple[str, ...], library: Path | None) -> None:
+@click.option("--why", metavar="TEXT", help="With a cell: why, for its history.")
+@cell_options
+def edit(scene: str | None, edits: tuple[str, ...], library: Path | None, why: str | None) -> None:
     """Change facts of SCENE: add 'SUBJECT PREDICATE VALUE', or remove 'not ..'.
 
     Either all edits are applied or none, and only if the scene is valid afterwards. The value of a functional relation
     or property is replaced. 'not SUBJECT PREDICATE VALUE' removes a statement, 'not INDIVIDUAL' all statements about
     an individual.
+
+    With --cell or --server and without SCENE, the world of a cell that runs is changed in one transaction. --why is
+    recorded, and who you are.
     """
+    from skillc.cli import cell_questions
     from skillc.services.scene_edit import edit_file
 
-    with _opened(scene, library) as (path, state):
+    if asks_cell():
+        refuse_options(library=library)
+        cell_questions.edit_world((scene, *edits) if scene else (), why)
+        return
+    if scene is None or not edits:
+        raise click.UsageError("name SCENE, and what to change in it")
+    if why is not None:
+        raise click.UsageError("--why requires --cell or --server")
+    with _opened(Path(scene), library) as (path, state):
         print_remark(edit_file(path, state, edits))
 
 

@@ -17,6 +17,7 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
 from skillc.cli.options import PATH, json_option, store_options
+from skillc.cli.server_access import asks_cell, cell_options, refuse_options
 
 if TYPE_CHECKING:
     from skillc.services.scenes import OpenScene
@@ -54,6 +55,8 @@ FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
 )
 @store_options
 @click.option("--all", "everything", is_flag=True, help="Also list the shipped data sheets and postures.")
+@click.option("--history", is_flag=True, help="List who has written what to the world of a cell, the last first.")
+@cell_options
 @json_option
 def command(
     scene: Path | None,
@@ -69,6 +72,7 @@ def command(
     store: str | None,
     reset: bool,
     everything: bool,
+    history: bool,
     as_json: bool,
 ) -> None:
     """Show SCENE, a file or the name of a shipped scene, or the world that a store holds.
@@ -82,8 +86,11 @@ def command(
     subclasses, ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. (Conditions of the skill language include
     subclasses and sub-relations.)
 
+    With --cell or --server it shows the world of a cell that runs, with how each fact is known.
+
     `skillc scene` writes scenes.
     """
+    from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, print_result, print_text
     from skillc.services import scenes
     from skillc.services.stores import StoreChoice
@@ -96,6 +103,14 @@ def command(
         raise click.UsageError("--query, --search, --show, --diff, --graph and --export cannot be combined")
     if output and not form:
         raise click.UsageError("--output requires --export FORMAT")
+    if asks_cell():
+        refuse_options(search=words, diff=other, graph=graph, export=form, library=library, store=store, all=everything)
+        if scene is not None or len(names) > 1:
+            raise click.UsageError("name neither SCENE nor several individuals with a cell of a server")
+        cell_questions.show_world(sparql, names[0] if names else None, history, as_json)
+        return
+    if history:
+        raise click.UsageError("--history requires --cell or --server")
     with scenes.open_scene(scene, library, choice, everything, Terminal()) as opened:
         if graph:
             scenes.draw_scene(opened, graph)

@@ -1,0 +1,93 @@
+"""What `skillc plan`, `world` and `scene edit` do with a cell of a server."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Literal, cast
+
+import click
+import msgspec
+
+from skillc.cli.server_access import asked_cell
+
+if TYPE_CHECKING:
+    from skillc.workers.jobs import WorldFact, WorldWrite
+
+NS = 1e9
+
+
+def plan(
+    task: str | None,
+    arguments: dict[str, str],
+    goal: str | None,
+    minimise: str,
+    prove: bool,
+    deadline_s: float,
+    as_json: bool,
+) -> int:
+    """Print the plan of a cell, or why there is none; return the exit code."""
+    from skillc.cli.console import print_text
+
+    with asked_cell() as cell:
+        answer = cell.plan(
+            task,
+            arguments=arguments,
+            goal=goal,
+            minimise=cast(Literal["work", "makespan"], minimise),
+            prove=prove,
+            deadline_s=deadline_s,
+        )
+    if as_json:
+        click.echo(msgspec.json.format(msgspec.json.encode(answer)))
+    else:
+        print_text(answer.text)
+    return 0 if answer.status == "solved" else 3
+
+
+def show_world(sparql: str | None, individual: str | None, history: bool, as_json: bool) -> None:
+    """Print the answer to a query, the facts, those about an individual, or who has written them."""
+    from skillc.cli.console import page_of, print_result, print_text
+    from skillc.cli.scene_output import format_answer
+    from skillc_runtime.scene.query import QueryAnswer
+
+    with asked_cell() as cell:
+        if sparql is not None:
+            rows = cell.query(sparql)
+            print_result(format_answer(QueryAnswer(rows.columns, rows.rows), as_json, page_of(sys.stdout)))
+            return
+        found = cell.world_history() if history else cell.facts(individual)
+    if as_json:
+        click.echo(msgspec.json.format(msgspec.json.encode(found)))
+    elif history:
+        print_text("\n".join(map(_format_write, cast("Sequence[WorldWrite]", found))))
+    else:
+        print_text("\n".join(map(_format_fact, cast("Sequence[WorldFact]", found))))
+
+
+def edit_world(edits: Sequence[str], why: str | None) -> None:
+    """Change the world of a cell, and print that it is done."""
+    from skillc.cli.console import print_remark
+
+    if not edits or why is None:
+        raise click.UsageError("say what to change, and --why")
+    with asked_cell() as cell:
+        cell.edit(*edits, why=why)
+        name = cell.name
+    print_remark(f"{name}: {len(edits)} edit{'s' * (len(edits) > 1)} applied")
+
+
+def _format_fact(each: WorldFact) -> str:
+    from skillc_runtime.world.state.labelled_text import format_fact
+
+    known = f"  ({each.evidence} by {each.origin})" if each.evidence else f"  ({each.origin})" if each.origin else ""
+    return f"{format_fact(each.fact)}{known}"
+
+
+def _format_write(each: WorldWrite) -> str:
+    from skillc.cli.event_lines import format_change
+
+    when = datetime.fromtimestamp(each.written_ns / NS, UTC).astimezone().isoformat(" ", "seconds")
+    changes = "; ".join(map(format_change, each.changes))
+    return f"{each.sequence}  {when if each.written_ns else '-'}  {each.origin}: {changes}"
