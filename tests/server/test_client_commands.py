@@ -93,12 +93,52 @@ def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
         (("pace", "slow"), 2, "`slow` is no pace; write `fast`, `real`"),
         (("skip",), 2, "missing option '--why'"),
         (("token", "add", "a b", "--role", "view"), 1, "name"),
+        (("plan", "carry_al", "--cell", "yard"), 1, "did you mean `carry_all`"),
+        (("plan", "carry_all", "--cell", "yard", "--scene", "other.ttl"), 2, "--scene cannot be used with a cell"),
+        (("world", "--cell", "barn"), 2, "there is no cell `barn`"),
+        (("world", "yard.ttl", "--cell", "yard"), 2, "name neither SCENE nor several individuals"),
+        (("world", "--cell", "yard", "--show", "lab:crat-1"), 1, "did you mean lab:crate-1"),
+        (("world", "--cell", "yard", "--query", "SELECT"), 1, "line 1, column 7"),
+        (("world", "--history"), 2, "--history requires --cell or --server"),
+        (("scene", "edit", "--cell", "yard", "lab:Goal skiros:contain lab:crate-1"), 2, "--why"),
+        (
+            ("scene", "edit", "--cell", "yard", "--why", "x", "lab:Goal skiros:contain"),
+            1,
+            "`lab:Goal skiros:contain`: ",
+        ),
+        (("scene", "edit", "lab:Goal skiros:contain lab:crate-1"), 2, "name SCENE"),
     ],
 )
 def test_what_cannot_be_done_is_refused(here: RunningServer, words: tuple[str, ...], code: int, said: str) -> None:
     done = type_in(*words)
     assert (done.exit_code, done.stdout) == (code, ""), done.stderr
     assert said in " ".join(done.stderr.split())
+
+
+def test_a_plan_is_shown_for_the_world_of_a_cell(here: RunningServer) -> None:
+    here.put_back()
+    shown = type_in("plan", "carry", "crate=lab:crate-2", "to=lab:Goal", "--cell", "yard")
+    assert shown.exit_code == 0 and "Load(" in shown.stdout and "proved optimal" in shown.stdout, shown.stderr
+    data = json.loads(type_in("plan", "--goal", "lab:Goal contain lab:crate-2", "--cell", "yard", "--json").stdout)
+    assert [each["skill"] for each in data["plan"]] == ["Load", "Unload"]
+    assert type_in("plan", "--goal", "lab:Cart-1 contain lab:Goal", "--cell", "yard").exit_code == 3
+
+
+def test_the_world_of_a_cell_is_shown_queried_and_edited(here: RunningServer) -> None:
+    here.put_back()
+    edited = type_in("scene", "edit", "--cell", "yard", "--why", "seen", "lab:Goal skiros:contain lab:crate-3")
+    assert (edited.exit_code, edited.stderr) == (0, "yard: 1 edit applied\n"), edited.stderr
+    shown = type_in("world", "--cell", "yard", "--show", "lab:Goal").stdout.splitlines()
+    assert "lab:Goal contain lab:crate-3  (admin: seen)" in shown
+    query = "SELECT ?crate { lab:Goal skiros:contain ?crate }"
+    rows = json.loads(type_in("world", "--cell", "yard", "--query", query, "--json").stdout)
+    assert rows == [{"crate": "lab:crate-3"}]
+    last = type_in("world", "--cell", "yard", "--history").stdout.splitlines()[0]
+    assert last.endswith("  admin: seen: lab:Goal contain lab:crate-3")
+    assert (
+        type_in("scene", "edit", "--cell", "yard", "--why", "back", "lab:Start skiros:contain lab:crate-3").exit_code
+        == 0
+    )
 
 
 def test_tokens_are_made_listed_and_revoked(here: RunningServer, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,7 +29,7 @@ from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import MEDIA_TYPE, ApiRefusal
 from skillc.server.proxy import ProxiedRequests
 from skillc.server.rates import TokenBuckets
-from skillc.server.requests import decode_body, find_client, read_body, read_key, read_query
+from skillc.server.requests import decode_body, find_client, read_body, read_key, read_query, wait_until_gone
 
 REQUESTS_PER_S, BURST = 200.0, 400.0
 """How many requests a client may make; stops are not counted."""
@@ -113,7 +113,9 @@ class Application:
         content = b"" if endpoint.body is None else await read_body(request)
         body = None if endpoint.body is None else decode_body(content, endpoint.body)
         key = read_key(request) if endpoint.takes_key else None
-        answer = await endpoint.handle(ApiCall(self._server, client, request.path_params, query, body, content, key))
+        leave = partial(wait_until_gone, request)
+        call = ApiCall(self._server, client, request.path_params, query, body, content, key, leave)
+        answer = await endpoint.handle(call)
         if isinstance(answer, Response):
             return answer
         if endpoint.answer is None:

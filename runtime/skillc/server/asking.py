@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Coroutine
 from http import HTTPStatus
 from typing import TypeVar
 
@@ -16,11 +18,27 @@ T = TypeVar("T")
 
 
 async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float) -> T:
-    """Let a worker do a job for what the cell knows now; ApiRefusal if there is no answer."""
+    """Let a worker do a job for what the cell knows now; ApiRefusal if there is no answer.
+
+    The worker is killed if the client goes.
+    """
     snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(TakeSnapshot()))
     try:
-        return await call.server.workers.answer(job, snapshot, kind, seconds)
+        return await _unless_gone(call, call.server.workers.answer(job, snapshot, kind, seconds))
     except JobFailed as error:
         raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
     except (JobTimedOut, TooManyJobs) as error:
         raise ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error)) from error
+
+
+async def _unless_gone(call: ApiCall, answer: Coroutine[None, None, T]) -> T:
+    """Wait for an answer, and cancel it if the client goes before; ApiRefusal then."""
+    answering, leaving = asyncio.ensure_future(answer), asyncio.ensure_future(call.leave())
+    try:
+        await asyncio.wait((answering, leaving), return_when=asyncio.FIRST_COMPLETED)
+        if answering.done():
+            return answering.result()
+        raise ApiRefusal(HTTPStatus.REQUEST_TIMEOUT, "the client has gone")
+    finally:
+        answering.cancel()
+        leaving.cancel()

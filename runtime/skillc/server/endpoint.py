@@ -27,7 +27,7 @@ class Empty(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class ApiCall:
     """A request whose sender may make it; `body` and `query` are of the types of its endpoint.
 
-    `key` is the Idempotency-Key, `content` the body as it was sent.
+    `key` is the Idempotency-Key, `content` the body as it was sent; `leave` returns when the sender has gone.
     """
 
     server: ServerContext
@@ -37,6 +37,7 @@ class ApiCall:
     body: Any
     content: bytes
     key: str | None
+    leave: Callable[[], Awaitable[None]]
 
 
 @dataclass(frozen=True, slots=True)

@@ -74,3 +74,9 @@ def read_key(request: Request) -> str | None:
     if key is not None and not (0 < len(key) <= MAX_KEY and key.isascii() and key.isprintable()):
         raise ApiRefusal(BAD_REQUEST, f"an Idempotency-Key has 1 to {MAX_KEY} printable ASCII characters")
     return key
+
+
+async def wait_until_gone(request: Request) -> None:
+    """Return when the sender of a request, whose body was read, has closed the connection."""
+    while (await request.receive())["type"] != "http.disconnect":  # wait ends: with the connection, or cancelled
+        pass

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import TypeVar
 
@@ -12,10 +12,15 @@ import msgspec
 
 from skillc.workers.answering import JobRefused, answer_job
 from skillc.workers.jobs import Job
-from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
+from skillc_runtime.cancellation import Cancelled, CancelToken
+from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
 
 MAX_WORKERS, MAX_WAITING = 2, 20
 """How many jobs are done at once, and how many wait."""
+TURN_S = 30.0
+"""How long a job may wait for a process, in s."""
+LOOK_S = 0.1
+"""How often it is looked whether somebody still waits for an answer, in s."""
 
 T = TypeVar("T")
 
@@ -39,41 +44,62 @@ class Workers:
     _idle: list[WorkerProcess] = field(default_factory=list)
     _free: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(MAX_WORKERS))
     _waiting: int = 0
+    _ongoing: set[CancelToken] = field(default_factory=set)
 
     async def answer(self, job: Job, snapshot: bytes, kind: type[T], seconds: float) -> T:
-        """Return the answer to a job for an encoded snapshot; JobFailed, JobTimedOut or TooManyJobs otherwise."""
-        with self._waits():
-            async with self._free:
-                return msgspec.json.decode(await asyncio.to_thread(self._ask, job, snapshot, seconds), type=kind)
+        """Return the answer to a job for an encoded snapshot; JobFailed, JobTimedOut or TooManyJobs otherwise.
+
+        If this is cancelled, the process is killed.
+        """
+        async with self._turn():
+            cancel = CancelToken(seconds)
+            self._ongoing.add(cancel)
+            try:
+                answer = await asyncio.to_thread(self._ask, job, snapshot, cancel)
+            except Cancelled as error:
+                raise JobTimedOut(f"it took more than {seconds:g} s, and was ended; ask for less") from error
+            finally:
+                cancel.cancel("nobody waits for the answer")
+                self._ongoing.discard(cancel)
+        return msgspec.json.decode(answer, type=kind)
 
     def close(self) -> None:
         """End the processes."""
+        for each in self._ongoing:
+            each.cancel("the server ends")
         while self._idle:
             self._idle.pop().kill()
 
-    @contextmanager
-    def _waits(self) -> Iterator[None]:
-        if self._waiting >= MAX_WORKERS + MAX_WAITING:
+    @asynccontextmanager
+    async def _turn(self) -> AsyncIterator[None]:
+        """Wait until a process is free, in a `with` statement; TooManyJobs if that takes too long."""
+        if self._free.locked() and self._waiting >= MAX_WAITING:
             raise TooManyJobs(f"{MAX_WAITING} requests wait for a process that answers them; try again later")
         self._waiting += 1
         try:
-            yield
+            await asyncio.wait_for(self._free.acquire(), TURN_S)
+        except TimeoutError as error:
+            raise TooManyJobs(f"no process was free for {TURN_S:g} s; try again later") from error
         finally:
             self._waiting -= 1
+        try:
+            yield
+        finally:
+            self._free.release()
 
-    def _ask(self, job: Job, snapshot: bytes, seconds: float) -> bytes:
-        """Let a process do a job; it is kept for the next one if it has answered."""
+    def _ask(self, job: Job, snapshot: bytes, cancel: CancelToken) -> bytes:
+        """Let a process do a job; it is kept for the next one if it has answered. Cancelled if it is not to go on."""
         worker = self._idle.pop() if self._idle else WorkerProcess(answer_job, "spawn")
+        result: WorkerResult | None = None
         try:
             worker.ask((job, snapshot))
-            result = worker.wait(seconds)
-        except BaseException:
-            worker.kill()
-            raise
-        if isinstance(result, Returned):
-            self._idle.append(worker)
-        else:
-            worker.kill()
+            while result is None and cancel.reason is None:
+                result = worker.wait(min(LOOK_S, cancel.remaining_s))
+        finally:
+            if isinstance(result, Returned):
+                self._idle.append(worker)
+            else:
+                worker.kill()
         match result:
             case Returned(bytes() as answer):
                 return answer
@@ -82,4 +108,4 @@ class Workers:
             case Died(why):
                 raise JobFailed(f"the process that should have answered has ended: {why}")
             case _:
-                raise JobTimedOut(f"it took more than {seconds:g} s, and was ended; ask for less")
+                raise Cancelled(cancel.reason or "")

@@ -77,8 +77,9 @@ def command(
     """Plan for TASK, or for --goal in --scene, and print the steps.
 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
-    project, TASK may be left out if the manifest names a default one. With --cell or --server, a cell that runs plans for
-    a task of its library, as its world is now.
+    project, TASK may be left out if the manifest names a default one.
+
+    With --cell or --server, a running cell plans for a task of its library, as its world is now.
     """
     from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, print_text, remark_default

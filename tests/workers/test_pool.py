@@ -1,0 +1,125 @@
+"""Jobs are done by processes that end when nobody waits for them, and by no more of them than there may be."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+import pytest
+
+from running_cells.yard import write_yard
+from skillc.cells.snapshot import CellSnapshot, encode_snapshot
+from skillc.services.reporting import SilentReporter
+from skillc.services.scenes import open_scene
+from skillc.services.stores import StoreChoice
+from skillc.workers import pool
+from skillc.workers.jobs import QueryRows, QueryWorld
+from skillc.workers.pool import JobTimedOut, TooManyJobs, Workers
+from skillc_runtime.execution.worker_process import WorkerProcess
+from skillc_runtime.world.state.evidence import EvidenceLedger
+
+ENDLESS = QueryWorld(f"SELECT * {{ {' . '.join(f'?a{n} ?b{n} ?c{n}' for n in range(9))} . FILTER(?c0 = ?c1 + 1) }}")
+QUICK = QueryWorld("ASK { ?s ?p ?o }")
+LIMIT_S = 600.0
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch) -> list[WorkerProcess]:
+    """The processes that are started."""
+    found = list[WorkerProcess]()
+
+    def start(*arguments: Any) -> WorkerProcess:
+        found.append(WorkerProcess(*arguments))
+        return found[-1]
+
+    monkeypatch.setattr(pool, "WorkerProcess", start)
+    return found
+
+
+@pytest.fixture(scope="module")
+def snapshot(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    folder = tmp_path_factory.mktemp("yard")
+    write_yard(folder)
+    with open_scene(folder / "yard.ttl", folder, StoreChoice(), False, SilentReporter()) as opened:
+        return encode_snapshot(CellSnapshot(opened.library, opened.state, EvidenceLedger(), 0))
+
+
+def busy(workers: Workers, snapshot: bytes) -> asyncio.Task[QueryRows]:
+    return asyncio.create_task(workers.answer(ENDLESS, snapshot, QueryRows, LIMIT_S))
+
+
+def test_a_process_is_kept_until_nobody_waits_for_its_answer(snapshot: bytes, started: list[WorkerProcess]) -> None:
+    async def leave(workers: Workers) -> None:
+        for _ in range(2):
+            assert (await workers.answer(QUICK, snapshot, QueryRows, LIMIT_S)).rows == ((True,),)
+        assert len(started) == 1
+        endless = busy(workers, snapshot)
+        await asyncio.sleep(0.5)
+        assert not endless.done()
+        endless.cancel()
+        await ended(started)
+        assert (await workers.answer(QUICK, snapshot, QueryRows, LIMIT_S)).rows == ((True,),)
+        assert len(started) == 2
+
+    use(leave)
+
+
+def test_a_server_that_ends_leaves_no_process(snapshot: bytes, started: list[WorkerProcess]) -> None:
+    async def end(workers: Workers) -> None:
+        endless = busy(workers, snapshot)
+        await asyncio.sleep(0.5)
+        workers.close()
+        with pytest.raises(JobTimedOut):
+            await endless
+        await ended(started)
+
+    use(end)
+
+
+def test_who_waits_too_long_for_a_process_is_refused(
+    snapshot: bytes, started: list[WorkerProcess], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pool, "TURN_S", 0.3)
+    monkeypatch.setattr(pool, "MAX_WAITING", 1)
+
+    async def crowd(workers: Workers) -> None:
+        endless = [busy(workers, snapshot) for _ in range(pool.MAX_WORKERS)]
+        await asyncio.sleep(0.02)
+        waiting = busy(workers, snapshot)
+        await asyncio.sleep(0.02)
+        with pytest.raises(TooManyJobs, match="1 requests wait"):
+            await busy(workers, snapshot)
+        with pytest.raises(TooManyJobs, match=r"no process was free for 0.3 s"):
+            await waiting
+        workers.close()
+        await asyncio.wait(endless)
+        assert len(started) == pool.MAX_WORKERS
+
+    use(crowd)
+
+
+def use(test: Callable[[Workers], Coroutine[None, None, None]]) -> None:
+    async def run() -> None:
+        workers = Workers()
+        try:
+            await test(workers)
+        finally:
+            workers.close()
+
+    asyncio.run(run())
+
+
+async def ended(started: list[WorkerProcess]) -> None:
+    async with asyncio.timeout(30.0):
+        while is_alive(started[-1].pid):
+            await asyncio.sleep(0.05)
+
+
+def is_alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
