@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import re
 import signal
 from pathlib import Path
 
@@ -47,7 +48,7 @@ def test_each_endpoint_needs_its_role(server: RunningServer, endpoint: object) -
     for role in ROLES:
         name = f"{role}-{ENDPOINTS.index(endpoint)}"
         token = server.client.post("/tokens", json={"name": name, "role": role}).json()["token"]
-        path = endpoint.path.format(cell="nowhere", operation="none", name="none")
+        path = re.sub(r"\{\w+\}", "none", endpoint.path)
         with server.client_of(token) as client:
             answer = client.request(endpoint.method, path, json={})
         assert (answer.status_code == 403) == (not includes(role, endpoint.role)), (role, answer.text)

@@ -81,7 +81,6 @@ def test_a_server_that_ends_leaves_no_process(snapshot: bytes, started: list[Wor
 def test_who_waits_too_long_for_a_process_is_refused(
     snapshot: bytes, started: list[WorkerProcess], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(pool, "TURN_S", 0.3)
     monkeypatch.setattr(pool, "MAX_WAITING", 1)
 
     async def crowd(workers: Workers) -> None:
@@ -97,12 +96,12 @@ def test_who_waits_too_long_for_a_process_is_refused(
         await asyncio.wait(endless)
         assert len(started) == pool.MAX_WORKERS
 
-    use(crowd)
+    use(crowd, turn_s=0.3)
 
 
-def use(test: Callable[[Workers], Coroutine[None, None, None]]) -> None:
+def use(test: Callable[[Workers], Coroutine[None, None, None]], turn_s: float = pool.TURN_S) -> None:
     async def run() -> None:
-        workers = Workers()
+        workers = Workers(turn_s=turn_s)
         try:
             await test(workers)
         finally:

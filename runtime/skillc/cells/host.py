@@ -16,7 +16,7 @@ from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
-from skillc.cells.reality import RealityKeeper, build_again
+from skillc.cells.reality import RealityKeeper, build_again, report_devices
 from skillc.cells.recordings import CellRecordings
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
@@ -162,9 +162,12 @@ class CellHost:
         """Return what the cell knows now, encoded; the same again while nothing is written."""
         state = self.world.snapshot()
         if self._snapshot[0] is not state:
-            known = CellSnapshot(self.library, state, self.world.ledger, self.world.sequence)
-            self._snapshot = state, encode_snapshot(known)
+            self._snapshot = state, encode_snapshot(self._describe_known(b""))
         return self._snapshot[1]
+
+    def take_twin(self) -> bytes:
+        """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that."""
+        return encode_snapshot(self._describe_known(report_devices(self._backend)))
 
     def edit(self, edits: Sequence[str], origin: str) -> None:
         """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
@@ -207,6 +210,10 @@ class CellHost:
             self._commit()
         self._recordings.close()
         self._backend.close()
+
+    def _describe_known(self, devices: bytes) -> CellSnapshot:
+        world, backend = self.world, self.settings.backend
+        return CellSnapshot(self.library, world.snapshot(), world.ledger, world.sequence, backend, devices)
 
     def _commit(self) -> None:
         """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""

@@ -43,7 +43,9 @@ class Acknowledge(_Message, tag="acknowledge", frozen=True, kw_only=True):
 
 
 class TakeSnapshot(_Message, tag="snapshot", frozen=True, kw_only=True):
-    """Answer with what the cell knows now; see `snapshot.py`."""
+    """Answer with what the cell knows now, with what its devices report if `devices`; see `snapshot.py`."""
+
+    devices: bool = False
 
 
 class Edit(_Message, tag="edit", frozen=True, kw_only=True):

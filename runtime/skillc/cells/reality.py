@@ -9,6 +9,7 @@ from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.services.backends import BackendName, make_backend
 from skillc_runtime.backends.simulation.checkpoint import CheckpointError
+from skillc_runtime.backends.simulation.twin import keep_reported
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.world.state.model import WorldModel
 
@@ -29,6 +30,11 @@ def build_again(name: BackendName, world: WorldModel, seed: int, reader: Journal
         return make_backend(name, world, seed, saved)
     except CheckpointError as error:
         raise DatabaseError(f"{reader} has a simulation that cannot be read ({error}): restore a backup") from error
+
+
+def report_devices(backend: Simulation) -> bytes:
+    """Return what the devices of a cell report of themselves, for a twin that `make_backend` builds."""
+    return keep_reported(backend.save(), backend.drawing.prefixes.values())
 
 
 class RealityKeeper:

@@ -112,8 +112,9 @@ class CellService:
                 case Acknowledge():
                     self._host.acknowledge()
                     self._pending.append(_Pending(number))
-                case TakeSnapshot():
-                    self._outbox.send(CellAnswer(number=number, result=self._host.take_snapshot()))
+                case TakeSnapshot(devices=devices):
+                    taken = self._host.take_twin() if devices else self._host.take_snapshot()
+                    self._outbox.send(CellAnswer(number=number, result=taken))
                 case Edit(edits=edits, who=who, why=why):
                     self._host.edit(edits, f"{who}: {why}")
                     self._pending.append(_Pending(number))

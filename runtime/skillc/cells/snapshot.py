@@ -6,6 +6,7 @@ import pickle
 from dataclasses import dataclass
 from typing import cast
 
+from skillc.services.backends import BackendName
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.world.state.evidence import EvidenceLedger
 from skillc_runtime.world.state.world_state import WorldState
@@ -13,12 +14,17 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class CellSnapshot:
-    """The library of a cell, a version of its world, the evidence for its facts, and the number of its last write."""
+    """The library of a cell, a version of its world, the evidence for its facts, and the number of its last write.
+
+    `devices` is what the devices report of themselves, as a checkpoint of the backend; empty if it is not asked for.
+    """
 
     library: SkillLibrary
     state: WorldState
     ledger: EvidenceLedger
     sequence: int
+    backend: BackendName = "mujoco"
+    devices: bytes = b""
 
 
 def encode_snapshot(snapshot: CellSnapshot) -> bytes:

@@ -33,7 +33,7 @@ SECTIONS = {
     "Skills": ("check", "fmt", "explain", "graph", "doc", "compile", "shapes"),
     "Tasks": ("plan", "run", "why", "diff", "replay", "report", "trials", "demo"),
     "Scenes": ("world", "scene"),
-    "Servers": ("serve", "ps", "start", "attach", "logs", "pace", "lease", "acknowledge", "token", "state"),
+    "Servers": ("serve", "ps", "start", "rehearse", "attach", "logs", "pace", "lease", "acknowledge", "token", "state"),
     "Operations of a server": ("wait", "pause", "resume", "step", "stop", "approve", "retry", "skip", "replan"),
     "Tools": ("doctor", "schema", "completion", "lsp"),
 }

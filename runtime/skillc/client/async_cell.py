@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Mapping, Sequence
+from http import HTTPStatus
+from pathlib import Path
 from typing import Any, Literal
 from uuid import uuid4
 
@@ -10,15 +13,18 @@ from skillc.api.boundary import optional_seconds, optional_text, read_arguments,
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
+from skillc.client.errors import RefusedError
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, PlanRequest, StopAll, WorldEdit, WorldQuery
+from skillc.server.rehearsals import Rehearsal
 from skillc.services.errors import RequestError
-from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldFacts, WorldWrite
+from skillc.workers.jobs import PlanPreview, QueryRows, RehearsalRequest, WorldFact, WorldFacts, WorldWrite
 from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.execution.pace import FAST
 
 OPERATIONS, FACTS, WRITES = 100, 1000, 100
-PLANNING_S = 30.0
+PLANNING_S, REHEARSAL_S = 30.0, 600.0
+LOOK_S = 0.3
 
 
 class AsyncCell:
@@ -118,6 +124,44 @@ class AsyncCell:
             deadline_s=optional_seconds(deadline_s, "`deadline_s`") or PLANNING_S,
         )
         return await self._connection.send("POST", self._path("plans"), PlanPreview, request)
+
+    async def rehearse(
+        self,
+        task: str | None = None,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        skill: str | None = None,
+        seed: int = 0,
+        deadline_s: float | None = None,
+        film: str | Path | None = None,
+    ) -> Rehearsal:
+        """Do in a simulated twin of the cell, as it is known now, what `start` would do; return how that ended.
+
+        `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
+        a film is written to this MP4 file. RefusedError if the request cannot be carried out.
+        """
+        request = RehearsalRequest(
+            task=optional_text(task, "the task"),
+            goal=optional_text(goal, "the goal"),
+            call=optional_text(skill, "the skill call"),
+            arguments=read_arguments(arguments),
+            seed=seed,
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or REHEARSAL_S,
+            film=film is not None,
+        )
+        found = await self._connection.send("POST", self._path("rehearsals"), Rehearsal, request)
+        try:
+            while found.state != "ended":  # wait ends: the server limits how long a rehearsal takes
+                await asyncio.sleep(LOOK_S)
+                found = await self._connection.get(join("rehearsals", found.id), Rehearsal)
+            if found.result is None:
+                raise RefusedError(found.reason, HTTPStatus.CONFLICT)
+            if film is not None and found.film:
+                await self._connection.download(join("rehearsals", found.id, "film"), Path(film))
+        finally:
+            await self._connection.send("DELETE", join("rehearsals", found.id), type(None))
+        return found
 
     async def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
         """Return the facts about all individuals, about one, or about those of a class, with how each is known."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal
 
 from skillc.cells.operation import CellStatus
@@ -11,6 +12,7 @@ from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus
+from skillc.server.rehearsals import Rehearsal
 from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldWrite
 from skillc.workers.libraries import LibraryDescription
 
@@ -98,6 +100,27 @@ class ServerCell:
             task, arguments=arguments, goal=goal, minimise=minimise, prove=prove, deadline_s=deadline_s
         )
         return self._loop.run(planning)
+
+    def rehearse(
+        self,
+        task: str | None = None,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        skill: str | None = None,
+        seed: int = 0,
+        deadline_s: float | None = None,
+        film: str | Path | None = None,
+    ) -> Rehearsal:
+        """Do in a simulated twin of the cell, as it is known now, what `start` would do; return how that ended.
+
+        `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
+        a film is written to this MP4 file. RefusedError if the request cannot be carried out.
+        """
+        rehearsing = self._cell.rehearse(
+            task, arguments=arguments, goal=goal, skill=skill, seed=seed, deadline_s=deadline_s, film=film
+        )
+        return self._loop.run(rehearsing)
 
     def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
         """Return the facts about all individuals, about one, or about those of a class, with how each is known."""

@@ -15,7 +15,8 @@ from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
 from skillc.server.metrics import Metrics
 from skillc.server.problems import ApiRefusal
-from skillc.server.state import ServerState
+from skillc.server.rehearsals import Rehearsals
+from skillc.server.state import REHEARSALS, ServerState
 from skillc.server.supervisor import CellSupervisor
 from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
@@ -30,12 +31,14 @@ class ServerContext:
     hub: EventHub
     leases: Leases = field(default_factory=Leases)
     workers: Workers = field(default_factory=Workers)
+    rehearsals: Rehearsals = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
     metrics: Metrics = field(init=False)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "rehearsals", Rehearsals(self.state.folder / REHEARSALS))
         object.__setattr__(self, "audit", AuditLog(self.state.database))
         object.__setattr__(self, "keys", RequestKeys(self.state.database))
         object.__setattr__(self, "metrics", Metrics(self.cells.values(), lambda: self.hub.count))

@@ -3,7 +3,19 @@
 from __future__ import annotations
 
 from skillc.server.endpoint import ApiEndpoint
-from skillc.server.routes import audit, cells, leases, libraries, metrics, operations, plans, recordings, tokens, world
+from skillc.server.routes import (
+    audit,
+    cells,
+    leases,
+    libraries,
+    metrics,
+    operations,
+    plans,
+    recordings,
+    rehearsals,
+    tokens,
+    world,
+)
 
 PREFIX = "/api/v1"
 ENDPOINTS: tuple[ApiEndpoint, ...] = (
@@ -14,6 +26,7 @@ ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *world.ENDPOINTS,
     *libraries.ENDPOINTS,
     *plans.ENDPOINTS,
+    *rehearsals.ENDPOINTS,
     *tokens.ENDPOINTS,
     *audit.ENDPOINTS,
     *metrics.ENDPOINTS,

@@ -77,6 +77,7 @@ async def _serve(
         await server.serve(sockets=[listener])
     finally:
         context.workers.close()
+        context.rehearsals.close()
         for task in going:
             task.cancel()
         for task in going:

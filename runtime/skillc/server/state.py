@@ -18,7 +18,7 @@ from skillc.services.errors import ServiceError
 from skillc_runtime.store.store_lock import StoreLock
 
 SCHEMA = Schema(1, ";\n".join((TOKENS, AUDIT, REQUESTS)))
-LOCK, DATABASE, ADMIN_TOKEN, CELLS = "lock", "server.sqlite", "admin.token", "cells"
+LOCK, DATABASE, ADMIN_TOKEN, CELLS, REHEARSALS = "lock", "server.sqlite", "admin.token", "cells", "rehearsals"
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""
 

@@ -51,7 +51,8 @@ class RunOptions:
     recorded. With `prints_json` the caller prints
     the result as JSON, and the watchdog does if the run is interrupted. The task fails if it has not ended
     `deadline_s` of the cell's time after its start, or if a plan takes as long. It pauses before its first call with
-    `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop.
+    `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop. The devices are
+    as in `saved`, a checkpoint of the backend, if it is given.
 
     RequestError for meshes or a loop without a folder, because then no film is made, and for signals that cannot be
     recorded.
@@ -69,6 +70,7 @@ class RunOptions:
     backend: BackendName = "mujoco"
     signals: SignalFormat | None = None
     gif: bool = False
+    saved: bytes | None = None
     run_id: str = ""
     recorders: tuple[Recorder, ...] = ()
 
@@ -96,7 +98,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
     with _start_planning(task, task.assignment, FailedSteps(task.library), options) as planning:
         try:
             monitor.say("planning, and building the simulation")
-            cell = make_backend(options.backend, task.world, options.seed)
+            cell = make_backend(options.backend, task.world, options.seed, options.saved)
             samples = make_samples(cell, options.looks, options.out is not None, options.gif)
         except (SheetError, FrameError, StoreError) as error:
             return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)

@@ -25,12 +25,15 @@ from skillc.workers.jobs import (
     PreviewPlan,
     QueryRows,
     QueryWorld,
+    Rehearse,
     WorldFact,
     WorldFacts,
     WorldWrite,
 )
 from skillc.workers.libraries import LibraryDescription, describe_library
 from skillc.workers.planning import preview_plan
+from skillc.workers.rehearsing import rehearse
+from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError
@@ -45,7 +48,7 @@ MAX_ROWS = 10_000
 """How many rows of the answer to a query are returned."""
 
 JobAnswer: TypeAlias = (
-    QueryRows | WorldFacts | tuple[WorldWrite, ...] | LibraryDescription | tuple[Device, ...] | PlanPreview
+    QueryRows | WorldFacts | tuple[WorldWrite, ...] | LibraryDescription | tuple[Device, ...] | PlanPreview | TaskResult
 )
 
 
@@ -77,6 +80,8 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return _list_facts(job, known)
         case PreviewPlan():
             return preview_plan(job, known)
+        case Rehearse():
+            return rehearse(job, known)
         case ListWrites():
             return _list_writes(job, known)
         case DescribeLibrary():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
@@ -54,7 +54,32 @@ class PreviewPlan(msgspec.Struct, frozen=True, tag="plan"):
     deadline_s: float
 
 
-Job: TypeAlias = QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | PreviewPlan
+class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
+    """Do in a simulated twin of the cell what an operation would; with a report and a film in a folder, if any."""
+
+    request: RehearsalRequest
+    folder: str | None
+
+
+Job: TypeAlias = QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | PreviewPlan | Rehearse
+
+
+class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
+    """A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
+
+    `seed` determines how the reality of the twin differs from the facts. `deadline_s` is in the twin's time. It is
+    filmed with `film`.
+    """
+
+    task: str | None = None
+    goal: str | None = None
+    call: str | None = None
+    arguments: dict[str, str] = {}
+    seed: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
+    deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)] = 600.0
+    film: bool = False
+
+
 Measure: TypeAlias = Literal["work", "proven work", "makespan"]
 
 

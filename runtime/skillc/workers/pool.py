@@ -39,12 +39,20 @@ class TooManyJobs(Exception):
 
 @dataclass(slots=True)
 class Workers:
-    """The processes of a server for jobs. They are started when they are first needed."""
+    """The processes of a server for jobs, `count` at most. They are started when they are first needed.
 
+    A job waits for a process for up to `turn_s`.
+    """
+
+    count: int = MAX_WORKERS
+    turn_s: float = TURN_S
     _idle: list[WorkerProcess] = field(default_factory=list)
-    _free: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(MAX_WORKERS))
+    _free: asyncio.Semaphore = field(init=False)
     _waiting: int = 0
     _ongoing: set[CancelToken] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self._free = asyncio.Semaphore(self.count)
 
     async def answer(self, job: Job, snapshot: bytes, kind: type[T], seconds: float) -> T:
         """Return the answer to a job for an encoded snapshot; JobFailed, JobTimedOut or TooManyJobs otherwise.
@@ -77,9 +85,9 @@ class Workers:
             raise TooManyJobs(f"{MAX_WAITING} requests wait for a process that answers them; try again later")
         self._waiting += 1
         try:
-            await asyncio.wait_for(self._free.acquire(), TURN_S)
+            await asyncio.wait_for(self._free.acquire(), self.turn_s)
         except TimeoutError as error:
-            raise TooManyJobs(f"no process was free for {TURN_S:g} s; try again later") from error
+            raise TooManyJobs(f"no process was free for {self.turn_s:g} s; try again later") from error
         finally:
             self._waiting -= 1
         try:

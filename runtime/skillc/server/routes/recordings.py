@@ -5,21 +5,19 @@ from __future__ import annotations
 import asyncio
 import os
 import time
-from collections.abc import AsyncIterator
 from http import HTTPStatus
 from pathlib import Path
-from typing import BinaryIO
 
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import Response
 
 from skillc.cells.recordings import recording_file
 from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.files import send_file
 from skillc.server.problems import ApiRefusal
 from skillc.services.recordings import MCAP_MAGIC
 from skillc_runtime.execution.task_state import ENDS
 
 MEDIA_TYPE = "application/octet-stream"
-PIECE_BYTES = 1 << 18
 LOOKS, LOOK_S = 40, 0.05
 """How often, and how long apart in s, it is looked whether a recording is complete."""
 
@@ -29,18 +27,9 @@ async def read_recording(call: ApiCall) -> Response:
     path = recording_file(Path(cell.settings.folder), operation.id)
     if operation.state in ENDS:
         await _wait_until_complete(path)
-    try:
-        file = path.open("rb")
-    except OSError as error:
-        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of {operation.id}") from error
-    size = path.stat().st_size
-    headers = {
-        "Cache-Control": "no-store",
-        "X-Content-Type-Options": "nosniff",
-        "Content-Length": str(size),
-        "Content-Disposition": f'attachment; filename="{operation.id}.mcap"',
-    }
-    return StreamingResponse(_read_pieces(file, size), headers=headers, media_type=MEDIA_TYPE)
+    if not path.exists():
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of {operation.id}")
+    return send_file(path, MEDIA_TYPE, f"{operation.id}.mcap")
 
 
 async def _wait_until_complete(path: Path) -> None:
@@ -60,14 +49,6 @@ def _is_being_completed(path: Path) -> bool:
             return file.read() != MCAP_MAGIC and time.time() - status.st_mtime < LOOKS * LOOK_S
     except OSError:
         return False
-
-
-async def _read_pieces(file: BinaryIO, size: int) -> AsyncIterator[bytes]:
-    """Yield the first `size` bytes: a recording that goes on grows meanwhile."""
-    with file:
-        while size > 0 and (piece := await asyncio.to_thread(file.read, min(PIECE_BYTES, size))):
-            size -= len(piece)
-            yield piece
 
 
 ENDPOINTS = (

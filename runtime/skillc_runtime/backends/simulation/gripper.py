@@ -5,15 +5,18 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import Any
 
+import mujoco
+
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
+from skillc_runtime.backends.simulation.gripper_geoms import find_handles, find_pads
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
 from skillc_runtime.devices.ground_truth import HandSample
-from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.bodies import RigidBody
 
@@ -43,13 +46,13 @@ class ModelledGripper(ABC):
         self._sensor = sensor
         self._facts, self._names, self._arm, self._model, self._data = facts, names, arm, model, data
         self._things = {thing.individual: thing for thing in things}
-        self._handles = {thing: _find_handles(model, names[thing]) for thing in self._things}
+        self._handles = {thing: find_handles(model, names[thing]) for thing in self._things}
         self._bits = model.geom_contype.copy(), model.geom_conaffinity.copy()
         self._name = names[facts.individual]
         self._actuator = model.actuator(part_name(self._name, "opening")).id
         self._palm = model.body(part_name(self._name, "palm")).id
         self._tool_centre = model.site(part_name(self._name, "tcp")).id
-        self.pads = frozenset(_pads(model, self._name))
+        self.pads = find_pads(model, self._name)
         self._holding, self._held_at_m, self._carried = "", 0.0, ""
         self._in_tool_centre, self._payload_kg, self._limit_n = Pose.of((0.0, 0.0, 0.0)), 0.0, 0.0
         self._idle, self._goal = True, facts.first_opening_m
@@ -165,6 +168,8 @@ class ModelledGripper(ABC):
         """Take the state of an earlier gripper, once positions are computed; it does not hold what has no body here."""
         self._restore_fingers(saved.opening_m, saved.force_n)
         if saved.carried in self._things:
+            self._place(saved.carried)[:] = list_numbers(self._pose(self._palm) @ make_pose(saved.in_palm))
+            mujoco.mj_fwdPosition(self._model, self._data)
             self._fix(saved.carried, make_pose(saved.in_palm), saved.grip)
         if saved.counted in self._things:
             self._count(saved.counted, saved.counted_at_m, make_pose(saved.in_tool_centre), saved.mass_kg)
@@ -211,10 +216,8 @@ class ModelledGripper(ABC):
     def move_with_base(self, motion: Pose) -> None:
         """Move a carried object with the base of the arm: new = motion @ old, in the world."""
         if self._carried:
-            first = int(self._model.joint(part_name(self._names[self._carried], "free")).qposadr[0])
-            q = self._data.qpos[first : first + 7]
-            moved = motion @ Pose.of(q[:3], q[3:])
-            q[:3], q[3:] = moved.position, quaternion_from_rotation(moved.rotation)
+            place = self._place(self._carried)
+            place[:] = list_numbers(motion @ Pose.of(place[:3], place[3:]))
 
     @property
     @abstractmethod
@@ -271,6 +274,12 @@ class ModelledGripper(ABC):
         block = self._model.body(part_name(self._names[thing], "block")).id
         return self._pose(self._palm).inverse() @ self._pose(block)
 
+    def _place(self, thing: str) -> Array:
+        """Return a view of the coordinates (7,) of an object, which lies free for the model: m and a quaternion."""
+        first = int(self._model.joint(part_name(self._names[thing], "free")).qposadr[0])
+        place: Array = self._data.qpos[first : first + 7]
+        return place
+
     def _contacts_with(self, thing: str) -> tuple[list[Array], float]:
         """Return the contact normals (3,), in the world, of pads on an object, and the least friction."""
         contacts, handles = self._data.contact, self._handles.get(thing, NOTHING)
@@ -285,17 +294,3 @@ class ModelledGripper(ABC):
 
     def _pose(self, body: int) -> Pose:
         return Pose(self._data.xpos[body].copy(), self._data.xmat[body].reshape(3, 3).copy())
-
-
-def _find_handles(model: Any, thing: str) -> frozenset[int]:
-    """Return the geoms of an object that pads of fingers touch: the handle of a tool, all solids of a body."""
-    block = model.body(part_name(thing, "block")).id
-    of_thing = (model.body_rootid[model.geom_bodyid] == block) & ((model.geom_contype & HANDLE) > 0)
-    return frozenset(of_thing.nonzero()[0].tolist())
-
-
-def _pads(model: Any, gripper: str) -> list[int]:
-    prefix = part_name(gripper, "")
-    return [
-        g for g in range(model.ngeom) if model.geom(g).name.startswith(prefix) and model.geom(g).name.endswith("_pad")
-    ]

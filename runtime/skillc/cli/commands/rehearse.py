@@ -1,0 +1,75 @@
+"""Rehearse a task in a simulated twin of a cell of a server.
+
+The twin is the cell as it is known now: its world, the postures of its arms, what its grippers hold. Nothing moves in
+the cell itself.
+
+Exit code 3 if the task does not succeed in the twin.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+import msgspec
+
+from skillc.cli.command import Command
+from skillc.cli.completions import complete_task
+from skillc.cli.options import EXECUTION, PATH, grouped_option, json_option, task_arguments
+from skillc.cli.server_access import complete_cell, connect_server, server_options
+
+EXAMPLES = """
+skillc rehearse clean_table --cell iiwa_table
+skillc rehearse deliver tray=lab:Tray-1 --film rehearsal.mp4
+skillc rehearse --goal "lab:Bin-A contain lab:Part-1" --seed 3
+"""
+
+
+@click.command(cls=Command, examples=EXAMPLES)
+@click.argument("task", required=False, shell_complete=complete_task)
+@task_arguments
+@click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one.")
+@click.option("--goal", metavar="CONDITION", help="Instead of a task: plan for this goal, a condition or PDDL.")
+@click.option("--skill", metavar="CALL", help="Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.")
+@click.option("--film", type=PATH, metavar="FILE", help="Write a film of it, an MP4 file.")
+@grouped_option(
+    EXECUTION, "--seed", default=0, show_default=True, help="Determines how the twin differs from what is known."
+)
+@grouped_option(
+    EXECUTION,
+    "--deadline",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="SECONDS",
+    help="Let the task fail if it has not ended after these seconds of the twin's time.",
+)
+@server_options
+@json_option
+def command(
+    task: str | None,
+    arguments: dict[str, str],
+    cell: str | None,
+    goal: str | None,
+    skill: str | None,
+    film: Path | None,
+    seed: int,
+    deadline: float | None,
+    as_json: bool,
+) -> int:
+    """Do TASK of the cell's library in a simulated twin of the cell, and print how it ends."""
+    from skillc.cli.console import page_of, print_remark, print_result
+    from skillc.cli.result_output import format_result
+
+    with connect_server() as server:
+        done = server.cell(cell).rehearse(
+            task, arguments=arguments, goal=goal, skill=skill, seed=seed, deadline_s=deadline, film=film
+        )
+    result = done.result
+    assert result is not None, "a request that cannot be carried out is an error"
+    if as_json:
+        click.echo(msgspec.json.format(msgspec.json.encode(result)))
+    else:
+        print_result(format_result(result, page_of(sys.stdout)))
+    if film is not None:
+        print_remark(f"the film is in {film}" if done.film else "there is no film: nothing has moved")
+    return 0 if result.status == "succeeded" else 3

@@ -1,0 +1,73 @@
+"""Rehearsals: what an operation does in a simulated twin of a cell, before it is done."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+
+from starlette.responses import Response
+
+from skillc.cells.messages import TakeSnapshot
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.files import send_file
+from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.problems import ApiRefusal
+from skillc.server.rehearsals import MAX_WAITING, Rehearsal
+from skillc.workers.jobs import RehearsalRequest
+
+VIDEO = "video/mp4"
+
+
+async def rehearse(call: ApiCall) -> Rehearsal:
+    cell, rehearsals = call.server.find_cell(call.path["cell"]), call.server.rehearsals
+    if rehearsals.full:
+        raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"{MAX_WAITING} rehearsals wait or go on; try again later")
+    twin = raise_refused(await cell.request(TakeSnapshot(devices=True)))
+    return rehearsals.begin(cell.settings.name, call.body, twin)
+
+
+async def list_rehearsals(call: ApiCall) -> tuple[Rehearsal, ...]:
+    return call.server.rehearsals.list(call.server.find_cell(call.path["cell"]).settings.name)
+
+
+async def show_rehearsal(call: ApiCall) -> Rehearsal:
+    name = call.path["rehearsal"]
+    if (found := call.server.rehearsals.find(name)) is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no rehearsal `{name}`")
+    return found
+
+
+async def remove_rehearsal(call: ApiCall) -> None:
+    call.server.rehearsals.remove((await show_rehearsal(call)).id)
+
+
+async def read_film(call: ApiCall) -> Response:
+    found = await show_rehearsal(call)
+    film = call.server.rehearsals.find_film(found.id)
+    if film is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no film of {found.id}")
+    return send_file(film, VIDEO)
+
+
+NOT_FOUND = (HTTPStatus.NOT_FOUND,)
+PATH = "/rehearsals/{rehearsal}"
+ENDPOINTS = (
+    ApiEndpoint(
+        "POST", "/cells/{cell}/rehearsals", "operate", "Try an operation in a simulated twin of a cell", rehearse,
+        Rehearsal, body=RehearsalRequest, status=HTTPStatus.CREATED, refusals=(*NOT_FOUND, *UNAVAILABLE),
+    ),
+    ApiEndpoint(
+        "GET", "/cells/{cell}/rehearsals", "view", "List the rehearsals for a cell", list_rehearsals,
+        tuple[Rehearsal, ...], refusals=NOT_FOUND,
+    ),
+    ApiEndpoint(
+        "GET", PATH, "view", "Show a rehearsal, with its result once it has ended", show_rehearsal, Rehearsal,
+        refusals=NOT_FOUND,
+    ),
+    ApiEndpoint(
+        "DELETE", PATH, "operate", "End and forget a rehearsal", remove_rehearsal, status=HTTPStatus.NO_CONTENT,
+        refusals=NOT_FOUND,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/film", "view", "Read the film of a rehearsal", read_film, refusals=NOT_FOUND, media_type=VIDEO,
+    ),
+)  # fmt: skip

@@ -1,0 +1,57 @@
+"""Rehearses an operation: does it in a simulated twin of the cell, as the cell knows itself now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from skillc.cells.assigning import assign_request
+from skillc.cells.snapshot import CellSnapshot
+from skillc.services.reporting import SilentReporter
+from skillc.services.running import RunOptions, run_task
+from skillc.services.task_loading import LoadedTask
+from skillc.workers.jobs import Rehearse
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.execution.pace import Pace
+from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.events import Event
+from skillc_runtime.world.state.model import WorldModel
+
+
+def rehearse(job: Rehearse, known: CellSnapshot) -> TaskResult:
+    """Return the result of an operation in a twin; ServiceError if it cannot be one, or nothing can be written."""
+    wanted, world = job.request, WorldModel(known.state)
+    assignment = assign_request(wanted.task, wanted.goal, wanted.call, wanted.arguments, known.library, known.state)
+    options = RunOptions(
+        out=Path(job.folder) if job.folder is not None else None,
+        seed=wanted.seed,
+        tick_timeout_s=None,
+        deadline_s=wanted.deadline_s,
+        backend=known.backend,
+        saved=known.devices or None,
+    )
+    return run_task(LoadedTask(known.library, assignment, world), options, _Unattended(), SilentReporter()).result
+
+
+@dataclass(slots=True)
+class _Unattended:
+    """A run that nobody watches, as fast as it computes."""
+
+    pace: Pace = field(default_factory=Pace)
+
+    def __call__(self, event: Event) -> None:
+        """Do nothing."""
+
+    def say(self, message: str) -> None:
+        """Do nothing."""
+
+    def operating(self) -> AbstractContextManager[None]:
+        """Return a context that does nothing."""
+        return nullcontext()
+
+    def attend(self, run: TaskRun, now: float, seconds: float) -> Sequence[Command]:
+        """Return no commands."""
+        return ()
