@@ -1,5 +1,7 @@
 """Goals in `.skill` and PDDL text mean the same; calls and goals are checked against library and scene."""
 
+import re
+
 import msgspec
 import pytest
 from shipped import library, shelf, vocabulary
@@ -60,6 +62,41 @@ def test_what_is_written_of_a_condition_means_the_same(text: str) -> None:
     known = msgspec.structs.replace(vocabulary(), prefixes={**vocabulary().prefixes, "lab": LAB})
     meant = goal(text).value
     assert meant is not None and goal(format_condition(meant, known)).value == meant
+
+
+def as_json(condition: Condition) -> str:
+    return msgspec.json.encode(condition).decode()
+
+
+@pytest.mark.parametrize("text", [*WRITTEN, "lab:Felt.Weight > 1 kg and lab:Felt.Weight != 0.5 kg"])
+def test_a_goal_in_json_is_a_condition_of_a_compiled_library(text: str) -> None:
+    meant = goal(text).value
+    assert meant is not None and goal(as_json(meant)).value == meant
+    known = msgspec.structs.replace(vocabulary(), prefixes={**vocabulary().prefixes, "lab": LAB})
+    short = re.sub(r'"(http[^"]+)"', lambda found: f'"{known.short(found[1])}"', as_json(meant))
+    assert short != as_json(meant) and goal(short).value == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{", "this is no condition in JSON: Input data was truncated"),
+        ('{"type": "hold"}', "Invalid value 'hold' - at `$.type`"),
+        ('{"type": "holds", "subject": {"type": "anything"}}', "missing required field `relation`"),
+        (
+            '{"type": "is", "subject": {"type": "individual", "iri": "lab:Feld"}, "cls": "skillc:Tool"}',
+            "there is no `lab:Feld` in the scene",
+        ),
+        (
+            '{"type": "has", "subject": {"type": "individual", "iri": "lab:Felt"}, "property": "skiros:Wait"}',
+            "there is no property `skiros:Wait`",
+        ),
+        ('{"type": "not", "body": ' * 200 + "1" + "}" * 200, "this is no condition in JSON"),
+    ],
+)
+def test_a_goal_in_json_that_is_wrong_says_what(text: str, said: str) -> None:
+    refused = goal(text)
+    assert refused.value is None and said in refused.diagnostics[0].message, refused.diagnostics
 
 
 def test_the_kinds_of_goals_are_kept() -> None:

@@ -1,4 +1,4 @@
-"""Parses goals and calls given at run time, in `.skill` or PDDL syntax, with the same checks as for files."""
+"""Parses goals and calls given at run time, in `.skill`, PDDL or JSON syntax, with the same checks as for files."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import msgspec
 
 from skillc_compiler.checks import run_checks
 from skillc_compiler.goals.context import make_context
+from skillc_compiler.goals.json_text import JsonGoalError, is_json, write_goal
 from skillc_compiler.goals.mistakes import EXAMPLES, InputKind, find_mistakes, reword
 from skillc_compiler.goals.pddl_text import COMPARING, PddlGoalError, PddlGroup, PddlWord, convert_goal, parse_group
 from skillc_compiler.lower.bodies import lower_node
@@ -44,8 +45,11 @@ def parse_goal(
     """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
     `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares. The value is
-    None if there are errors; spans are positions in `text`, with the path `goal`.
+    None if there are errors; spans are positions in `text`, with the path `goal`. A goal may also be a condition in
+    JSON, as a compiled library has it.
     """
+    if is_json(text):
+        return _goal_in_json(text, vocabulary, individuals, prefixes or {})
     return _bounded(lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {})), text, "goal")
 
 
@@ -55,6 +59,19 @@ def parse_call(
     """Parse a call such as `Wipe(surface: lab:Board)`, like `parse_goal`, with the path `call`."""
     asked = make_context(library.vocabulary, individuals, prefixes or {}, library.skills)
     return _bounded(lambda: _call(text, asked), text, "call")
+
+
+def _goal_in_json(
+    text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str]
+) -> Outcome[Condition | None]:
+    """Parse a goal in JSON. What is wrong with its names and types has no place in the text."""
+    try:
+        written = write_goal(text, vocabulary, prefixes)
+    except JsonGoalError as error:
+        return _refused("goal", f"this is no condition in JSON: {error}")
+    outcome = parse_goal(written, vocabulary, individuals, prefixes)
+    start = Span("goal", 1, 1, 1, 2)
+    return Outcome(outcome.value, tuple(replace(each, span=start, labels=(), fix=None) for each in outcome.diagnostics))
 
 
 def _bounded(understand: Callable[[], Outcome[T]], text: str, what: InputKind) -> Outcome[T | None]:

@@ -9,9 +9,11 @@ from msgspec import structs
 
 from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.task_scenes import classes_by_individual
+from skillc_compiler.goals.json_text import is_json
 from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
+from skillc_model.format_condition import format_condition
 from skillc_model.rewriting import substitute
 from skillc_model.skills import Skill, SkillLibrary, Task
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
@@ -57,10 +59,11 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
 
 
 def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
-    """Return the assignment of a goal, as a condition or as PDDL; DiagnosticsError if the text has errors."""
+    """Return the assignment of a goal, as a condition, in PDDL or in JSON; DiagnosticsError if it has errors."""
     individuals = classes_by_individual(state, library.vocabulary)
     goal = _valid(parse_goal(text, library.vocabulary, individuals, state.vocabulary.prefixes), text)
-    return Assignment(text, state, AchieveGoal(goal))
+    name = format_condition(goal, state.vocabulary) if is_json(text) else text
+    return Assignment(name, state, AchieveGoal(goal))
 
 
 def assign_call(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
