@@ -13,7 +13,7 @@ settings.load_profile("skillc")
 
 # Tests of, or with, what only Unix has.
 if sys.platform == "win32":
-    collect_ignore = ["world/test_room.py", "fuzz", "store", "operating", "running_cells", "server"]
+    collect_ignore = ["world/test_room.py", "fuzz", "store", "operating", "running_cells", "server", "killed_servers"]
 
 
 def pytest_configure() -> None:
