@@ -15,7 +15,6 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-
 from killed_servers.auditing import BY_HAND, Faults, Place, audit
 from running_cells.yard import write_yard
 from server.running import RunningServer, is_listening, start_server, wait_until
