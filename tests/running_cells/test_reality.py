@@ -23,9 +23,12 @@ from skillc.services.reporting import SilentReporter
 from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID
 
 SORTING = "sorting", "sort_parts", str(SHIPPED / "sorting" / "panda.ttl")
 TABLE = "wiping", "clean_table", str(catalogue.scene_path("iiwa_table"))
+BOARD = "wiping", "clean_whiteboard", str(catalogue.scene_path("ur5e_whiteboard"))
 PEG = "contact", "insert_peg", str(catalogue.scene_path("panda_peg"))
 
 
@@ -138,3 +141,47 @@ def test_a_journal_of_the_first_format_is_migrated_and_a_copy_kept(tmp_path: Pat
     with open_cell(settings, SilentReporter()) as host:
         assert host.describe(None).state == "operational"
     assert settings.journal.with_name("journal.sqlite.format-1").exists()
+
+
+def drive_away(host: CellHost) -> None:
+    """Start the task, and run it until its base is on the way."""
+    host.submit("first", OperationRequest(task=BOARD[1]))
+    (base,) = reality(host)._bases.values()
+    while base.at_rest:
+        if not host.tick():
+            host.loop.wait(0.1)
+    for _ in range(150):
+        host.tick()
+    assert not base.at_rest
+
+
+def finish(host: CellHost, request: OperationRequest) -> None:
+    """Carry out an operation, which succeeds; its base drives on from where it stands."""
+    host.submit("again", request)
+    (ended,) = run_all(host)
+    assert ended.state == "succeeded", ended.reason
+    state = host.world.snapshot()
+    robot = state.vocabulary.expand("lab:Heron-1")
+    assert state.objects(robot, AT) and state.value(robot, BASE_FRAME_ID) is None
+
+
+@pytest.mark.sim
+def test_a_base_that_was_stopped_on_its_way_drives_on(tmp_path: Path) -> None:
+    with open_cell(make_settings(tmp_path, BOARD, "kinematic"), SilentReporter()) as host:
+        drive_away(host)
+        host.stop("first", "enough")
+        run_all(host)
+        (base,), state = reality(host)._bases.values(), host.world.snapshot()
+        robot = state.vocabulary.expand("lab:Heron-1")
+        assert not state.objects(robot, AT) and np.allclose(pose(state, robot).position, base.pose.position)
+        finish(host, OperationRequest(task=BOARD[1]))
+
+
+@pytest.mark.sim
+def test_a_base_whose_cell_died_on_its_way_drives_on(tmp_path: Path) -> None:
+    settings = make_settings(tmp_path, BOARD, "kinematic")
+    with open_cell(settings, SilentReporter()) as host:
+        drive_away(host)
+        shutil.copytree(settings.folder, tmp_path / "image")
+    with open_cell(structs.replace(settings, folder=str(tmp_path / "image")), SilentReporter()) as again:
+        finish(again, OperationRequest(continues="first"))

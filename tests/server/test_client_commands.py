@@ -194,6 +194,7 @@ def test_who_attaches_sees_the_task_operates_it_and_detaches(here: RunningServer
         assert f"{name} goes on; `skillc attach` shows it" in terminal.shown
         assert terminal.modes == terminal.modes_before
     assert here.client.get("/cells/yard").json()["pace"] == 0.5
+    here.client.put("/cells/yard/pace", json={"factor": 0.05})
     assert here.client.get(f"/operations/{name}").json()["state"] == "running"
     with Terminal((sys.executable, "-m", "skillc", "attach"), terminal_environment()) as terminal:
         terminal.expect(r"q stop")

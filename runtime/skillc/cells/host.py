@@ -41,6 +41,7 @@ from skillc_runtime.execution.preparation import prepare_after
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.world_edit import recorded_changes
+from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
@@ -99,6 +100,7 @@ class CellHost:
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
         self._recordings = CellRecordings(Path(settings.folder), self._backend, origin, reporter)
         self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
+        place_standing_bases(self._backend.cell)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
 

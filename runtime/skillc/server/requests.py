@@ -78,5 +78,5 @@ def read_key(request: Request) -> str | None:
 
 async def wait_until_gone(request: Request) -> None:
     """Return when the sender of a request, whose body was read, has closed the connection."""
-    while (await request.receive())["type"] != "http.disconnect":  # wait ends: with the connection, or cancelled
+    while (await request.receive())["type"] != "http.disconnect":
         pass

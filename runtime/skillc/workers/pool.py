@@ -85,7 +85,7 @@ class Workers:
             raise TooManyJobs(f"{MAX_WAITING} requests wait for a process that answers them; try again later")
         self._waiting += 1
         try:
-            await asyncio.wait_for(self._free.acquire(), self.turn_s)
+            await asyncio.wait_for(self._free.acquire(), self.turn_s)  # wait ends: wait_for limits it
         except TimeoutError as error:
             raise TooManyJobs(f"no process was free for {self.turn_s:g} s; try again later") from error
         finally:

@@ -9,6 +9,7 @@ import numpy as np
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.fact_monitor import base_away_from
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.primitives.time_limits import drive_limit_s
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import AddRelation
@@ -34,6 +35,8 @@ class DriveBase(Primitive):
         far = float(np.linalg.norm(goal.position[:2] - self._base.pose.position[:2]))
         self._limit_s = drive_limit_s(state, self._robot, far)
         self._ends = self.cell.now + self._limit_s
+        if leaving := leaving_changes(state, self._robot):
+            self.cell.world.commit(leaving, "DriveBase", "reported")
         self._base.drive_to(goal)
 
     def tick(self) -> Status:

@@ -22,6 +22,7 @@ from skillc_runtime.execution.tree.pause import Pause
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
@@ -158,12 +159,15 @@ class TreeRun:
             self._finish(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
 
     def check_devices(self) -> None:
-        """Turn a success into a failure if a device contradicts the world model; called after the end."""
-        if self.status is not Status.SUCCESS:
-            return
-        stop_listening = self._context.cell.world.subscribe(self._emit_world_change)
+        """Write where bases stand that stopped on their way; turn a success into a failure if a device contradicts it.
+
+        Called after the end.
+        """
+        cell = self._context.cell
+        stop_listening = cell.world.subscribe(self._emit_world_change)
         try:
-            contradiction = self._devices.withdraw_contradicted()
+            place_standing_bases(cell)
+            contradiction = self._devices.withdraw_contradicted() if self.status is Status.SUCCESS else None
         finally:
             stop_listening()
         if contradiction is not None:
