@@ -1,5 +1,6 @@
 """The events of runs and what they consist of, for programs that listen to them."""
 
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import (
     Event,
@@ -10,6 +11,7 @@ from skillc_runtime.recording.events import (
     Paused,
     PlanArrived,
     PlanMade,
+    PromptsChanged,
     Replanned,
     Requested,
     Resumed,
@@ -31,6 +33,8 @@ __all__ = [
     "Paused",
     "PlanArrived",
     "PlanMade",
+    "Prompt",
+    "PromptsChanged",
     "Rejection",
     "Replanned",
     "Requested",

@@ -13,6 +13,7 @@ from skillc.api.event_stream import EventStream
 from skillc.api.operation_state import LOOK_S, OperationState
 from skillc.api.run import Run
 from skillc.services.errors import RequestError, ServiceError
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.states import State
@@ -126,6 +127,15 @@ class Operation:
     def skip(self, who: str, why: str) -> None:
         """After a failure: count the failed step as done, because somebody did it; its effects are assumed."""
         self._command(commands.Skip(require_text(who, "`who`"), require_text(why, "`why`")))
+
+    @property
+    def prompts(self) -> tuple[Prompt, ...]:
+        """What its skills ask operators: `text`, `choices`, and until when, in s of the cell's clock."""
+        return self._shared.prompts
+
+    def answer(self, choice: str, who: str, prompt: int = 0) -> None:
+        """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
+        self._command(commands.Answer(require_text(choice, "the choice"), require_text(who, "`who`"), prompt))
 
     def replan(self) -> None:
         """Halt what runs and plan again."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from math import inf
 
 from skillc.api.run import Run
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Stop
@@ -50,6 +51,7 @@ class OperationState:
     state: State = "queued"
     reason: str = ""
     allowed: tuple[str, ...] = ("stop",)
+    prompts: tuple[Prompt, ...] = ()
     time_s: float = 0.0
     world: WorldModel | None = None
     run: Run | None = None
@@ -153,6 +155,7 @@ class Monitor:
             if state.state != run.state:
                 state.changed.notify_all()
             state.state, state.reason, state.allowed, state.time_s = run.state, run.reason, tuple(run.allowed), now
+            state.prompts = run.prompts
             state.answer()
             if not state.waiting and seconds > 0.0:
                 state.changed.wait(seconds)

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.states import Decision, State
 
@@ -46,7 +47,8 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
 
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
-    it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `decisions` are how it can be
+    it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
+    operators. `decisions` are how it can be
     continued if it was interrupted, `continued_by` is the operation that does.
     """
 
@@ -61,6 +63,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     failure: Failure | None = None
     library_hash: str = ""
     devices: tuple[str, ...] | None = ()
+    prompts: tuple[Prompt, ...] = ()
     decisions: tuple[Decision, ...] = ()
     continued_by: str = ""
 

@@ -83,7 +83,7 @@ class CellService:
         runs = self._host.loop.runs
         if any(run.state == "stopping" for run in runs):
             return 0.0
-        standing = all(run.state == "paused" for run in runs)
+        standing = all(run.stands for run in runs)
         return self._pace.remaining_s(self._host.loop.backend.clock.now, standing)
 
     def _tick(self) -> bool:

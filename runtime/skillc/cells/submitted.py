@@ -29,4 +29,5 @@ class SubmittedOperation:
             failure=run.failure,
             library_hash=self.library_hash,
             devices=None if (held := run.devices) is None else tuple(sorted(held)),
+            prompts=run.prompts,
         )

@@ -18,7 +18,7 @@ from skillc_runtime.execution.pace import FAST, Pace
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.events import Requested, StateChanged, TaskEnded
+from skillc_runtime.recording.events import PromptsChanged, Requested, StateChanged, TaskEnded
 
 LOOK_S = 0.05
 
@@ -92,7 +92,7 @@ class _Watcher:
             self._now = each.cell_time_s
             self._view.observe(each.event)
             self._progress(each.event, max(0.0, (time.time_ns() - each.wall_time_ns) * 1e-9))
-        if any(isinstance(each.event, StateChanged | Requested | TaskEnded) for each in events):
+        if any(isinstance(each.event, StateChanged | PromptsChanged | Requested | TaskEnded) for each in events):
             self._refresh()
         status = self._operation.last_status
         if status.state in ENDS:

@@ -62,6 +62,8 @@ def _describe_task(event: events.Event) -> Iterator[str]:
             yield f"no plan: {refused}{f'; {detail}' if detail else ''}"
         case events.PlanMade(steps=steps, cost=cost, quality=quality):
             yield f"plan: {' -> '.join(each.skill for each in steps)} (about {cost:.0f} s, {quality})"
+        case events.PromptsChanged(prompts=prompts):
+            yield from (f"asks: {each.text} ({' | '.join(each.choices)})" for each in prompts)
         case events.Replanned(reason=reason):
             yield f"planning again: {reason}"
         case events.Note(message=message):

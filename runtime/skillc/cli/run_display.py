@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from skillc.cli.run_estimate import Estimate
 from skillc.cli.run_keys import format_help
 from skillc.cli.run_view import RunView
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.pace import Pace
 
 MAX_CALLS = 12
@@ -19,7 +20,8 @@ def compose_display(
     """Return all lines for a run, as `describe_run` does, with the keys if there is a `pace` that they can change."""
     first, *more = describe_run(run, now, since)
     keys = [] if pace is None else [f"  {format_help(run.allowed, pace, detachable)}"]
-    return [f"{title}  {first}", *more, *keys, *([f"  {remark}"] if remark else [])]
+    asked = [f"  {format_prompt(run.prompts[0], now)}"] if run.prompts else []
+    return [f"{title}  {first}", *more, *asked, *keys, *([f"  {remark}"] if remark else [])]
 
 
 def describe_run(run: RunView, now: float, since: float) -> list[str]:
@@ -38,6 +40,13 @@ def describe_run(run: RunView, now: float, since: float) -> list[str]:
             return [head, *([f"  {run.force}"] if run.force else []), *_describe_stacks(run)]
         case _:
             return [f"{run.state}: {run.reason}" if run.reason else run.state]
+
+
+def format_prompt(prompt: Prompt, now: float) -> str:
+    """Return what an operator is asked at the time `now` of the cell in s, with the key of each choice."""
+    choices = "  ".join(f"{number} {each}" for number, each in enumerate(prompt.choices, 1))
+    left = _format_duration(max(0.0, prompt.ends_s - now))
+    return f"{prompt.text}  {choices}  ({prompt.default or 'fails'} after {left})"
 
 
 def format_estimate(estimate: Estimate) -> str:

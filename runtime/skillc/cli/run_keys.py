@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc.cli.run_view import RunView
 from skillc_runtime.execution.pace import Pace, format_pace
-from skillc_runtime.recording.commands import Command, Pause, Resume, StepInto, StepOut, StepOver, Stop
+from skillc_runtime.recording.commands import Answer, Command, Pause, Resume, StepInto, StepOut, StepOver, Stop
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +35,14 @@ def format_help(allowed: tuple[str, ...], pace: Pace, detachable: bool) -> str:
     """Return the line that says which keys do something now."""
     detach = [f"{DETACH} detach"] if detachable else []
     return "  ".join((*_format_keys(allowed), *detach, f"{FASTER} {SLOWER} pace: {format_pace(pace.factor)}"))
+
+
+def find_answer(digit: str, run: RunView) -> Answer | None:
+    """Return the answer that a digit means: the choice of the first prompt with this number; None for no choice."""
+    number = int(digit)
+    if not run.prompts or not 0 < number <= len(run.prompts[0].choices):
+        return None
+    return Answer(run.prompts[0].choices[number - 1], "the user", run.prompts[0].id)
 
 
 def explain_refusal(key: Key, run: RunView) -> str:

@@ -18,9 +18,9 @@ from rich.text import Text
 from skillc.cli.console import find_display_obstacle, is_unicode, page_of, rich_console
 from skillc.cli.interrupts import Interrupted, noting_signals
 from skillc.cli.layout import Style
-from skillc.cli.run_display import compose_display, format_estimate
+from skillc.cli.run_display import compose_display, format_estimate, format_prompt
 from skillc.cli.run_estimate import EndedStep, Estimate, PlanProgress
-from skillc.cli.run_keys import DETACH, FASTER, KEYS, SLOWER, explain_refusal
+from skillc.cli.run_keys import DETACH, FASTER, KEYS, SLOWER, explain_refusal, find_answer
 from skillc.cli.run_view import RunView, view_run
 from skillc.cli.settings import output_settings
 from skillc_runtime.execution.pace import Pace
@@ -32,6 +32,7 @@ from skillc_runtime.recording.events import (
     NodeEnded,
     NodeStarted,
     PlanMade,
+    PromptsChanged,
     Replanned,
     StateChanged,
     TaskEnded,
@@ -106,6 +107,9 @@ class RunProgress:
             case PlanMade(steps=steps, quality=quality, cost=cost):
                 calls = " -> ".join(step.skill for step in steps)
                 self._print(f"{self._title}: {calls} (about {cost:.0f} s, {quality})")
+            case PromptsChanged(prompts=prompts) if self._live is None:
+                for each in prompts:
+                    self._print(f"{self._title}: asks: {format_prompt(each, event.time)}")
             case TaskEnded(status=status, verified=verified):
                 self.say(format_status(status, verified))
             case _:
@@ -161,6 +165,8 @@ class RunProgress:
         if letter in (FASTER, SLOWER):
             self.pace.faster() if letter == FASTER else self.pace.slower()
         self.detached |= self._detachable and letter == DETACH
+        if letter.isdecimal() and (answer := find_answer(letter, run)) is not None:
+            yield answer
         for key in KEYS:
             if key.letter == letter:
                 if key.command.name not in run.allowed:

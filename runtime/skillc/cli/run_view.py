@@ -6,10 +6,18 @@ from dataclasses import dataclass, field
 
 from skillc.cells.operation import OperationStatus
 from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import Call
 from skillc_runtime.execution.tree.run import TreeRun
-from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted, Replanned
+from skillc_runtime.recording.events import (
+    Event,
+    ImplementationChosen,
+    NodeEnded,
+    NodeStarted,
+    PromptsChanged,
+    Replanned,
+)
 from skillc_runtime.recording.states import State
 
 
@@ -39,6 +47,7 @@ class RunView:
     stacks: tuple[CallStack, ...] = ()
     approaches: bool = False
     force: str = ""
+    prompts: tuple[Prompt, ...] = ()
 
 
 def view_run(run: TaskRun) -> RunView:
@@ -47,7 +56,7 @@ def view_run(run: TaskRun) -> RunView:
     if tree is None:
         return RunView(run.state, run.reason, allowed)
     stacks = tuple(CallStack(_stack(each), tree.holds_back(each)) for each in tree.active_calls)
-    return RunView(run.state, run.reason, allowed, stacks, tree.paused, _describe_force(tree))
+    return RunView(run.state, run.reason, allowed, stacks, tree.paused, _describe_force(tree), run.prompts)
 
 
 @dataclass(slots=True)
@@ -56,6 +65,7 @@ class EventView:
 
     _nodes: dict[int, NodeStarted] = field(default_factory=dict)
     _chosen: set[int] = field(default_factory=set)
+    _prompts: tuple[Prompt, ...] = ()
 
     def observe(self, event: Event) -> None:
         """Take an event into account."""
@@ -67,6 +77,8 @@ class EventView:
             case NodeEnded(node=node):
                 self._nodes.pop(node, None)
                 self._chosen.discard(node)
+            case PromptsChanged(prompts=prompts):
+                self._prompts = prompts
             case Replanned():
                 self._nodes.clear()
                 self._chosen.clear()
@@ -75,7 +87,7 @@ class EventView:
 
     def view(self, status: OperationStatus) -> RunView:
         """Return what there is to show, with the state of its operation."""
-        return RunView(status.state, status.reason, status.allowed, self.stacks)
+        return RunView(status.state, status.reason, status.allowed, self.stacks, prompts=self._prompts)
 
     @property
     def stacks(self) -> tuple[CallStack, ...]:

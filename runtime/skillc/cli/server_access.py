@@ -158,7 +158,8 @@ def describe_state(status: OperationStatus) -> str:
     from skillc_runtime.recording.known_facts import format_status
 
     words = format_status(status.state, status.verified)
-    return f"{words}: {status.reason}" if status.reason else words
+    asked = [f"asks: {each.text} ({' | '.join(each.choices)})" for each in status.prompts]
+    return ": ".join(filter(None, (words, status.reason, *asked)))
 
 
 def complete_operation(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
@@ -169,6 +170,17 @@ def complete_operation(context: click.Context, _parameter: click.Parameter, begu
     except ServiceError:
         return []
     return [CompletionItem(each.id, help=describe_state(each)) for each in found if each.id.startswith(begun)]
+
+
+def complete_answer(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the choices of what the skills of operations ask; none without a server."""
+    try:
+        with context.scope(cleanup=False), connect_server() as server:
+            prompts = [prompt for each in server.ongoing() for prompt in each.last_status.prompts]
+    except ServiceError:
+        return []
+    found = {choice: prompt.text for prompt in prompts for choice in prompt.choices}
+    return [CompletionItem(choice, help=text) for choice, text in found.items() if choice.startswith(begun)]
 
 
 def complete_cell(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:

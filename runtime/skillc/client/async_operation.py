@@ -16,6 +16,7 @@ from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
 from skillc.server.api_types import StopReason
 from skillc.services.errors import RequestError
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
@@ -137,6 +138,15 @@ class AsyncOperation:
         Who says so is the owner of the token.
         """
         await self._command(commands.Skip(who="", why=why))
+
+    @property
+    def prompts(self) -> tuple[Prompt, ...]:
+        """What its skills ask operators: `text`, `choices`, and until when, in s of the cell's clock."""
+        return self.status.prompts
+
+    async def answer(self, choice: str, prompt: int = 0) -> None:
+        """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
+        await self._command(commands.Answer(choice, prompt=prompt))
 
     async def replan(self) -> None:
         """Halt what runs and plan again."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from skillc.cells.operation import OperationStatus
 from skillc.client.async_operation import AsyncOperation, Depth
 from skillc.client.loop_thread import LoopThread
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.states import Decision, State
@@ -102,6 +103,15 @@ class ServerOperation:
     def skip(self, why: str) -> None:
         """After a failure: count the failed step as done, because somebody did it; its effects are assumed."""
         self._loop.run(self._operation.skip(why))
+
+    @property
+    def prompts(self) -> tuple[Prompt, ...]:
+        """What its skills ask operators: `text`, `choices`, and until when, in s of the cell's clock."""
+        return self.status.prompts
+
+    def answer(self, choice: str, prompt: int = 0) -> None:
+        """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
+        self._loop.run(self._operation.answer(choice, prompt))
 
     def replan(self) -> None:
         """Halt what runs and plan again."""

@@ -58,7 +58,7 @@ def operate(loop: CellLoop, run: TaskRun, monitor: RunMonitor, heartbeat: Callab
 
 def _find_wait(run: TaskRun, now: float, pace: Pace) -> float:
     """Return how long to wait before the next tick, or before the next look: commands must not wait for a slow pace."""
-    remaining_s = pace.remaining_s(now, standing=run.state == "paused")
+    remaining_s = pace.remaining_s(now, standing=run.stands)
     return 0.0 if run.state == "stopping" else min(remaining_s, WAIT_S)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PlannedSteps, PreparedTask
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.progress import invalidation_reason, measure_progress
@@ -16,7 +17,7 @@ from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.events import Listener, Note
+from skillc_runtime.recording.events import Listener, Note, PromptsChanged
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.node_outcome import NodeOutcome
 
@@ -120,11 +121,13 @@ class Attempt:
         self._invalidated: str | None = None
         self._seen = cell.world.snapshot()
         self._settling_ticks = 0
+        self._asked: tuple[Prompt, ...] = ()
 
     def tick(self, devices: frozenset[str] | None) -> None:
         """Tick the tree once, or wait for `devices`, all if None, to come to rest after its end."""
         if self.ticking and self.tree.tick() is Status.RUNNING:
             self._halt_if_invalid()
+        self._tell_prompts()
         if self.tree.status is Status.RUNNING:
             return
         self._secure(devices)
@@ -154,6 +157,13 @@ class Attempt:
         return AttemptResult(
             self.prepared, tree.status, tree.failure, tree.outcome, tree.last_node, self._invalidated, tree.claims
         )
+
+    def _tell_prompts(self) -> None:
+        """Emit what operators are asked, if that has changed."""
+        if self.tree.prompts != self._asked:
+            self._asked = self.tree.prompts
+            for listener in self._context.listeners:
+                listener(PromptsChanged(time=self._context.backend.clock.now, prompts=self._asked))
 
     def _secure(self, devices: frozenset[str] | None) -> None:
         """Secure devices once, after the tree has ended."""

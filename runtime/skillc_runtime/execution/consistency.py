@@ -9,7 +9,7 @@ from typing import TypeAlias, assert_never
 from skillc_model.skills import Implementation, Post, Requirement, SkillLibrary
 from skillc_model.traversal import free_variables
 from skillc_runtime.execution.attempt import TICK_S
-from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ENDS, TRANSITIONS
+from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER, ENDS, TRANSITIONS
 from skillc_runtime.recording import events
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.states import State
@@ -30,6 +30,7 @@ _Following: TypeAlias = (
     | events.ImplementationChosen
     | events.WorldChanged
     | events.Note
+    | events.PromptsChanged
     | events.Paused
     | events.Resumed
     | events.TaskEnded
@@ -80,6 +81,7 @@ class _Checker:
         self._time = 0.0
         self._state: State | None = None
         self._nodes: dict[int, _RunningNode] = {}
+        self._asked = False
 
     def check(self, event: Event) -> str | None:
         """Take the next event; return why it cannot follow, or None."""
@@ -111,6 +113,9 @@ class _Checker:
                 return self._change(event)
             case events.PlanArrived() | events.PlanMade() | events.Replanned():
                 return self._check_plan(event)
+            case events.PromptsChanged(prompts=prompts):
+                self._asked = bool(prompts)
+                return None
             case events.Paused() | events.Resumed() | events.Note():
                 return None
             case _:
@@ -141,6 +146,8 @@ class _Checker:
     def _check_request(self, event: events.Requested) -> str | None:
         assert self._state is not None, "the run has begun"
         name, allowed = event.command.name, (*ALLOWED[self._state], *ALLOWED_AFTER_FAILURE)
+        if name == ANSWER and not event.refused:
+            return None if self._asked else "nothing is asked"
         if not event.refused and name not in (allowed if self._state == "paused" else ALLOWED[self._state]):
             return f"a run that is {self._state} allows no {name}"
         return None

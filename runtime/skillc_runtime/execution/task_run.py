@@ -6,6 +6,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 from typing import Literal
 
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
@@ -21,7 +22,7 @@ from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy
 from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
-from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, Ending, Refusal, refusal
+from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER, Ending, Refusal, refusal
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
@@ -101,7 +102,18 @@ class TaskRun:
     @property
     def allowed(self) -> tuple[str, ...]:
         """The names of the commands that are allowed now."""
-        return ALLOWED_AFTER_FAILURE if self.waits_for_decision else ALLOWED[self.state]
+        allowed = ALLOWED_AFTER_FAILURE if self.waits_for_decision else ALLOWED[self.state]
+        return (*allowed, ANSWER) if self.prompts and self.state != "stopping" else allowed
+
+    @property
+    def prompts(self) -> tuple[Prompt, ...]:
+        """What its skills ask operators."""
+        return self._attempt.tree.prompts if self._attempt is not None else ()
+
+    @property
+    def stands(self) -> bool:
+        """Whether it is paused, or all that goes on is that operators are asked."""
+        return self.state == "paused" or (self._attempt is not None and self._attempt.tree.only_asks)
 
     @property
     def verified(self) -> bool | None:
@@ -164,7 +176,7 @@ class TaskRun:
                     self._attempt.invalidate("another plan was requested")
                 else:
                     self._prepare()
-            case commands.EditWorld():
+            case commands.EditWorld() | commands.Answer():
                 pass
             case _:
                 assert self._attempt is not None, "a pause concerns what runs"
@@ -176,7 +188,7 @@ class TaskRun:
         world = self._context.backend.cell.world
         try:
             with nullcontext() if tree_runs else recorded_changes(world, self._emit, self._now):
-                prepared = try_command(command, self.assignment, self.attempts, self._context)
+                prepared = try_command(command, self.assignment, self.attempts, self._context, self.tree)
         except (PlanError, StoreError, ValueError) as error:  # refused by the plan, by the store, or by the world model
             return Refusal(command.name, self.state, self.allowed, str(error))
         self._next.prepared = prepared or self._next.prepared

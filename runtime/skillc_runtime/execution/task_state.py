@@ -29,6 +29,9 @@ ALLOWED: dict[State, tuple[str, ...]] = {
 ALLOWED_AFTER_FAILURE = ("retry", "skip", "replan", "stop", "edit-world")
 """The same for a run that is paused because a step failed."""
 
+ANSWER = "answer"
+"""The name of the command that a run allows besides, while its skills ask operators."""
+
 TRANSITIONS: dict[State, frozenset[State]] = {
     "queued": frozenset({"planning", "planned", "running", "stopping", "stopped", "failed"}),
     "planning": frozenset({"queued", "planned", "running", "pausing", "stopping", "stopped", "failed"}),

@@ -11,6 +11,7 @@ from skillc_runtime.world.state.labelled import LabelledValue, make_recordable
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.devices.prompts import Prompt
     from skillc_runtime.world.state.values import Value
     from skillc_runtime.world.state.world_state import WorldState
 
@@ -68,6 +69,8 @@ class Primitive:
     `moves` declares which things are elsewhere after a run, so that motions can be checked before anything moves: for a
     parameter, the parameter of the place where its individual is then, or None where that is not known. A primitive
     that does not declare it may move anything.
+
+    While `prompt` is not None, it is put to an operator; `answer` is called once with one of its choices.
     """
 
     activity: ClassVar[Activity] = ""
@@ -87,6 +90,7 @@ class Primitive:
     def __init__(self, cell: Cell) -> None:
         self.cell = cell
         self.outputs: dict[str, object] = {}
+        self.prompt: Prompt | None = None
 
     def start(self) -> None:
         """Start; nothing may have moved if this raises."""
@@ -94,6 +98,9 @@ class Primitive:
     def tick(self) -> Status:
         """Do the work of one tick and return RUNNING or SUCCESS."""
         raise NotImplementedError
+
+    def answer(self, choice: str) -> None:
+        """Take what an operator has chosen; called before a tick, and only while there is a `prompt`."""
 
     def halt(self, reason: str) -> None:
         """Stop safely at once; called once after `start`, unless it raised SkillFailure or `tick` returned SUCCESS."""

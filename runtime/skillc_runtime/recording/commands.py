@@ -64,6 +64,14 @@ class Replan(_Command, tag="replan", frozen=True):
     """Halt what runs and plan again."""
 
 
+class Answer(_Command, tag="answer", frozen=True):
+    """Answer what a skill asks with one of its choices; `prompt` is its number, 0 for the only one."""
+
+    choice: str
+    who: str = ""
+    prompt: int = 0
+
+
 class EditWorld(_Command, tag="edit-world", frozen=True):
     """Change the world model in one transaction."""
 
@@ -72,4 +80,6 @@ class EditWorld(_Command, tag="edit-world", frozen=True):
     why: str
 
 
-Command: TypeAlias = Approve | Pause | Resume | StepInto | StepOver | StepOut | Stop | Retry | Skip | Replan | EditWorld
+Command: TypeAlias = (
+    Approve | Pause | Resume | StepInto | StepOver | StepOut | Stop | Retry | Skip | Replan | Answer | EditWorld
+)

@@ -10,6 +10,7 @@ import msgspec
 from skillc_model.conditions import Condition
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
@@ -19,7 +20,7 @@ from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 6
+FORMAT = 7
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
@@ -121,6 +122,12 @@ class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     cost: float
     steps: tuple[PlanStep, ...]
     quality: str = ""
+
+
+class PromptsChanged(_Event, tag="prompts-changed", frozen=True, kw_only=True):
+    """Skills ask operators something else: these are all open prompts now."""
+
+    prompts: tuple[Prompt, ...]
 
 
 class Replanned(_Event, tag="replanned", frozen=True, kw_only=True):
@@ -227,6 +234,7 @@ Event: TypeAlias = (
     | Requested
     | PlanArrived
     | PlanMade
+    | PromptsChanged
     | Replanned
     | NodeStarted
     | NodeEnded

@@ -57,7 +57,7 @@ class _HistoryBuilder:
                 self._ended = event
             case events.StateChanged() | events.Requested() | events.PlanArrived():
                 pass
-            case events.Note() | events.Paused() | events.Resumed():
+            case events.PromptsChanged() | events.Note() | events.Paused() | events.Resumed():
                 pass
             case _:
                 assert_never(event)

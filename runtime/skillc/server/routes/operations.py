@@ -35,6 +35,7 @@ Command = (
     | commands.Retry
     | commands.Skip
     | commands.Replan
+    | commands.Answer
 )
 """The commands that need the role `operate`; who gives one is its client, whatever it says."""
 
@@ -129,7 +130,7 @@ def _find_running(call: ApiCall) -> tuple[CellSupervisor, OperationStatus]:
 
 def _sign(command: commands.Command, who: str) -> commands.Command:
     """Return a command with who has given it."""
-    return structs.replace(command, who=who) if isinstance(command, commands.Skip) else command
+    return structs.replace(command, who=who) if isinstance(command, commands.Skip | commands.Answer) else command
 
 
 NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT

@@ -60,7 +60,7 @@ class PrimitiveNode(Node):
                 self._undo.discard(self.release)
             return self.fail(self._failure(str(refusal), refusal.values))
         self.refused_to_start = False
-        self.context.active.add(primitive)
+        self.context.active.add(primitive, self.id)
         return self.tick()
 
     def tick(self) -> Status:

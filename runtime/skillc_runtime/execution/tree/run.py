@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell, WatchdogTimeout
+from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.build import build_node
@@ -84,6 +85,16 @@ class TreeRun:
     def is_pressing(self) -> bool:
         """Whether a primitive that presses is active."""
         return self._context.active.is_pressing
+
+    @property
+    def prompts(self) -> tuple[Prompt, ...]:
+        """What its skills ask operators."""
+        return self._context.active.prompts
+
+    @property
+    def only_asks(self) -> bool:
+        """Whether all that goes on is that operators are asked."""
+        return self._context.active.only_ask
 
     @property
     def is_still(self) -> bool:
@@ -172,6 +183,10 @@ class TreeRun:
             stop_listening()
         if contradiction is not None:
             self.status, self.failure = Status.FAILURE, self._contradiction_failure(contradiction)
+
+    def answer(self, prompt: int, choice: str) -> None:
+        """Give the skill with a prompt of `prompts` what an operator has chosen."""
+        self._guard(lambda: self._context.active.answer(prompt, choice))
 
     def pause(self) -> None:
         """Pause the active primitives and the run's own time; withdraw tools that approach again after a pause."""

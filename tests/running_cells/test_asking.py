@@ -1,0 +1,108 @@
+"""A skill asks an operator, who answers, or nobody does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+import pytest
+
+from running_cells.asking import write_asking_yard
+from running_cells.test_operations import run_all
+from skillc.cells.host import CellHost, open_cell
+from skillc.cells.journal.reading import JournalReader
+from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.services.backends import make_backend
+from skillc.services.libraries import compile_valid
+from skillc.services.library_files import find_library
+from skillc.services.reporting import SilentReporter
+from skillc_runtime.execution.consistency import check_events
+from skillc_runtime.execution.repeat import repeat_run
+from skillc_runtime.recording.commands import Answer
+from skillc_runtime.recording.events import Event, PromptsChanged, Requested
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.model import WorldModel
+
+ASKING = OperationRequest(task="confirm")
+
+
+@contextmanager
+def asking(folder: Path, default: str = "") -> Iterator[CellHost]:
+    """Open a cell in which a skill of the operation `asking` asks."""
+    with open_cell(write_asking_yard(folder, default), SilentReporter()) as host:
+        host.submit("asking", ASKING)
+        while not host.loop.runs[0].prompts:
+            if not host.tick():
+                host.loop.wait(0.01)
+        yield host
+
+
+def status(host: CellHost) -> OperationStatus:
+    return host._operations["asking"].describe("yard")
+
+
+def events(host: CellHost) -> list[Event]:
+    with closing(JournalReader(host.settings.journal)) as reader:
+        return [each.event for each in reader.envelopes("asking")]
+
+
+@pytest.mark.parametrize(("choice", "end"), [("yes", "succeeded"), ("no", "failed")])
+def test_an_operator_is_asked_and_the_answer_decides(tmp_path: Path, choice: str, end: str) -> None:
+    with asking(tmp_path) as host:
+        (prompt,) = status(host).prompts
+        assert (prompt.text, prompt.choices, prompt.default) == ("Is the cart free?", ("yes", "no"), "")
+        assert "answer" in status(host).allowed and host.loop.runs[0].stands
+        for wrong, said in (
+            (Answer("perhaps"), "`perhaps` is no choice; there is `yes`, `no`"),
+            (Answer(choice, prompt=99), f"there is no prompt 99: {prompt.id}: Is the cart free?"),
+        ):
+            refused = host.request("asking", wrong)
+            host.tick()
+            assert said in str(refused.refused)
+        host.request("asking", Answer(choice, "Ada", prompt.id))
+        (ended,) = run_all(host)
+        assert (ended.state, ended.prompts) == (end, ())
+        found = events(host)
+        assert [len(each.prompts) for each in found if isinstance(each, PromptsChanged)] == [1, 0]
+        assert [bool(each.refused) for each in found if isinstance(each, Requested)] == [True, True, False]
+        library = compile_valid(find_library(Path(host.settings.library)))
+        scene = load_scene(Path(host.settings.scene), library.vocabulary)
+        assert check_events(found, library, scene) is None
+        repeated = repeat_run(found, library, make_backend("kinematic", WorldModel(scene), 0))
+        assert repeated.difference is None and repeated.ended
+
+
+def test_nobody_is_waited_for_for_ever(tmp_path: Path) -> None:
+    with asking(tmp_path / "without") as host:
+        (ended,) = run_all(host)
+        assert ended.state == "failed" and ended.failure is not None
+        assert ended.failure.message == 'nobody has answered "Is the cart free?" within 60 s'
+        assert "answer" not in ended.allowed
+    with asking(tmp_path / "with", default="yes") as host:
+        (ended,) = run_all(host)
+        assert ended.state == "succeeded"
+
+
+def test_who_is_asked_need_not_answer_what_is_stopped(tmp_path: Path) -> None:
+    with asking(tmp_path) as host:
+        host.stop("asking", "enough")
+        (ended,) = run_all(host)
+        assert (ended.state, ended.prompts) == ("stopped", ())
+        assert [len(each.prompts) for each in events(host) if isinstance(each, PromptsChanged)] == [1, 0]
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ('choices: "yes"', '`choices` has 2 to 9 different texts, such as "yes | no"; it is "yes"'),
+        ('choices: "yes | yes"', "2 to 9 different texts"),
+        ('choices: "yes | no", default: "maybe"', 'the default "maybe" is none of the choices "yes | no"'),
+    ],
+)
+def test_choices_that_cannot_be_are_refused_before_anything_happens(tmp_path: Path, written: str, said: str) -> None:
+    with open_cell(write_asking_yard(tmp_path), SilentReporter()) as host:
+        host.submit("asking", OperationRequest(call=f'Ask(text: "Is the cart free?", {written})'))
+        (ended,) = run_all(host)
+        assert ended.state == "failed" and ended.failure is not None and said in ended.failure.message
+        assert not any(isinstance(each, PromptsChanged) for each in events(host))
