@@ -4,11 +4,23 @@ from __future__ import annotations
 
 from typing import Self
 
+from skillc_runtime.devices.backend import DeviceStop
+
+
+class NoStops:
+    """Devices that never stop by themselves; implements `DeviceStops`."""
+
+    report: DeviceStop | None = None
+
+    def clear(self) -> None:
+        """Do nothing."""
+
 
 class OwnBackend:
     """The members of `Backend` that are the same for every cell that a test moves through time by itself."""
 
     broken: str | None = None
+    stops = NoStops()
 
     @property
     def cell(self) -> Self:

@@ -1,11 +1,24 @@
-"""What devices are: the protocols that primitives use and back ends fulfil."""
+"""What devices are: the protocols that primitives use and back ends fulfil, and how simulated ones are disturbed."""
 
 from skillc_runtime.devices.arm import Arm
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell
+from skillc_runtime.devices.disturbances import LoseArm, Move, PressEmergencyStop, Push
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.simulation import Simulation
 
-__all__ = ["Arm", "Backend", "Cell", "Gripper", "MobileBase", "PoseCamera", "Simulation"]
+__all__ = [
+    "Arm",
+    "Backend",
+    "Cell",
+    "Gripper",
+    "LoseArm",
+    "MobileBase",
+    "Move",
+    "PoseCamera",
+    "PressEmergencyStop",
+    "Push",
+    "Simulation",
+]

@@ -3,6 +3,7 @@
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import (
+    Disturbed,
     Event,
     ImplementationChosen,
     NodeEnded,
@@ -23,6 +24,7 @@ from skillc_runtime.recording.events import (
 from skillc_runtime.recording.failure import Failure, Rejection
 
 __all__ = [
+    "Disturbed",
     "Envelope",
     "Event",
     "Failure",

@@ -84,7 +84,7 @@ def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
         (("start", "carry_al"), 1, "did you mean `carry_all`"),
         (("start", "carry_all", "--cell", "barn"), 2, "there is no cell `barn`; the server has yard"),
         (("start",), 2, "exactly one of a task, a goal and a skill call"),
-        (("acknowledge",), 1, "yard has no fault"),
+        (("acknowledge",), 1, "yard has no fault and no stop"),
         (("ps", "--server", "http://127.0.0.1:1"), 1, "start one with `skillc serve`"),
         (("ps", "--token-file", "none"), 2, "none has no token that this user can read"),
         (("ps", "--server", "http://example.org"), 2, "would get a token in the clear"),

@@ -10,8 +10,10 @@ import msgspec
 from msgspec import structs
 
 from skillc.cells.assigning import assign_request
+from skillc.cells.condition import CellCondition
 from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
 from skillc.cells.database import DatabaseError
+from skillc.cells.disturbing import resolve_names
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
@@ -30,6 +32,7 @@ from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
 from skillc.services.world_edits import read_edits
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.devices.disturbances import Disturbance, DisturbanceRefused
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request, TooManyRequests
@@ -43,9 +46,11 @@ from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.names import NoSuchName
 from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -101,35 +106,30 @@ class CellHost:
         self._recordings = CellRecordings(Path(settings.folder), self._backend, origin, reporter)
         self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
         place_standing_bases(self._backend.cell)
+        self._condition = CellCondition(settings.name, self.loop, journal, reader)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
 
     def describe(self, pace: float | None) -> CellStatus:
         """Return the cell as it is now; `pace` is what its ticks are limited to."""
-        reason = self.loop.fault or self._backend.broken or ""
-        settings = self.settings
+        (state, reason), settings = self._condition.describe(), self.settings
         return CellStatus(
             name=settings.name,
             scene=settings.scene,
             library=self.library.name,
             library_hash=self.library.hash,
             backend=settings.backend,
-            state="fault" if reason else "operational",
+            state=state,
             reason=reason,
             pace=pace,
         )
 
     def acknowledge(self) -> None:
-        """Take operations again after a fault whose cause is removed. RequestError if there is none, or it persists."""
-        if self._backend.broken is not None:
-            raise RequestError(f"{self._backend.broken}; start the cell again")
-        if self.loop.fault is None:
-            raise RequestError(f"{self.settings.name} has no fault")
-        try:
-            self._commit()
-        except NotDurable as error:
-            raise RequestError(str(error)) from error
-        self.loop.fault = None
+        """Take operations again after a fault or a stop whose cause is removed.
+
+        RequestError if there is none, or it persists.
+        """
+        self._condition.acknowledge(self._commit)
 
     def submit(self, operation: str, request: OperationRequest) -> None:
         """Take an operation, with an id that no other has. RequestError or DiagnosticsError if it cannot be one.
@@ -138,8 +138,7 @@ class CellHost:
         """
         if operation in self._operations or self._journal.has_operation(operation):
             raise RequestError(f"there is already an operation {operation}")
-        if (fault := self.loop.fault or self._backend.broken) is not None:
-            raise RequestError(f"{self.settings.name} takes no operations: {fault}")
+        self._condition.require_operational()
         if len(self._operations) >= MAX_OPERATIONS:
             raise TooManyRequests(f"{MAX_OPERATIONS} operations go on or wait in {self.settings.name}; try again later")
         if request.continues:
@@ -173,11 +172,26 @@ class CellHost:
 
     def edit(self, edits: Sequence[str], origin: str) -> None:
         """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
+        if self.loop.fault is not None:
+            raise RequestError(f"the world of {self.settings.name} cannot be written: {self.loop.fault}")
         changes = read_edits(edits, self.world.snapshot())
         try:
             self.world.commit(changes, origin, None)
         except (WorldError, StoreError) as error:
             raise RequestError(str(error)) from error
+
+    def disturb(self, disturbance: Disturbance, who: str) -> None:
+        """Let something happen to the simulated cell; RequestError if it is not possible."""
+        try:
+            found = resolve_names(disturbance, self.world.snapshot())
+            self._backend.disturber.disturb(found)
+        except (NoSuchName, DisturbanceRefused) as error:
+            raise RequestError(str(error)) from error
+        self._reality.has_changed()
+        event = Disturbed(time=self._backend.clock.now, disturbance=found, tick=self.loop.ticks, who=who)
+        for submitted in self._operations.values():
+            submitted.publisher(event)
+        self._condition.update()
 
     def take_changed(self) -> tuple[OperationStatus, ...]:
         """Return the operations that have changed since this was called last.
@@ -203,7 +217,14 @@ class CellHost:
 
     def tick(self) -> bool:
         """Do one tick; return whether anything happened."""
-        return self.loop.tick()
+        happened = self.loop.tick()
+        self._condition.update()
+        return happened
+
+    def obey(self) -> None:
+        """Take requests while no tick is due, and look whether devices have stopped by themselves."""
+        self.loop.obey()
+        self._condition.update()
 
     def close(self, reason: str) -> None:
         """End all operations at once, and release the devices; an end that cannot be written is, at the next start."""

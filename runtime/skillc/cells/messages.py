@@ -11,6 +11,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
+from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.recording.commands import Command
 
 
@@ -39,7 +40,7 @@ class SetPace(_Message, tag="set-pace", frozen=True, kw_only=True):
 
 
 class Acknowledge(_Message, tag="acknowledge", frozen=True, kw_only=True):
-    """The cause of a fault is removed: take operations again."""
+    """The cause of a fault or a stop is removed: take operations again."""
 
 
 class TakeSnapshot(_Message, tag="snapshot", frozen=True, kw_only=True):
@@ -56,13 +57,20 @@ class Edit(_Message, tag="edit", frozen=True, kw_only=True):
     why: str
 
 
+class Disturb(_Message, tag="disturb", frozen=True, kw_only=True):
+    """Let something happen to the simulated cell; `who` wants it. Names are IRIs or `prefix:name`."""
+
+    disturbance: Disturbance
+    who: str
+
+
 class End(_Message, tag="end", frozen=True, kw_only=True):
     """Stop everything and end the process."""
 
     reason: str
 
 
-Message: TypeAlias = Submit | Give | SetPace | Acknowledge | TakeSnapshot | Edit | End
+Message: TypeAlias = Submit | Give | SetPace | Acknowledge | TakeSnapshot | Edit | Disturb | End
 
 
 class CellRequest(msgspec.Struct, frozen=True):

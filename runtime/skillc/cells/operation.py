@@ -68,9 +68,11 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     continued_by: str = ""
 
 
-CellState: TypeAlias = Literal["off", "operational", "fault"]
-"""`off`: its process does not run. `operational`: it takes operations. `fault`: it does not, until the cause is removed
-and that is acknowledged."""
+CellState: TypeAlias = Literal["off", "operational", "protective-stop", "fault", "emergency-stop"]
+"""`off`: its process does not run. `operational`: it takes operations. In the other states it takes none until the
+cause is removed and that is acknowledged: `protective-stop` after a device has stopped by itself, because of a limit,
+an implausible measurement, or because it does not answer; `fault` if the cell cannot go on, for example because the
+disk is full; `emergency-stop` after a device has reported one."""
 
 
 class CellStatus(msgspec.Struct, frozen=True, kw_only=True):

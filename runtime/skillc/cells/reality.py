@@ -47,6 +47,10 @@ class RealityKeeper:
         self._backend, self._journal = backend, journal
         self._saved_at_s, self._due_s = -1.0, 0.0
 
+    def has_changed(self) -> None:
+        """Let the next commit save a state that has changed while no time has passed."""
+        self._saved_at_s = -1.0
+
     def keep(self, *, standing: bool) -> None:
         """Add the present state to the next commit if it has to be saved; `standing` if no time passes any more."""
         now_s = self._backend.clock.now

@@ -11,6 +11,7 @@ from skillc.cells.messages import (
     Acknowledge,
     CellAnswer,
     CellRequest,
+    Disturb,
     Edit,
     End,
     Give,
@@ -34,10 +35,14 @@ BUSY_S = 0.02
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
-    """A request that is answered after the next tick; `command` is what a run has obeyed or refused then."""
+    """A request that is answered after the next tick; `command` is what a run has obeyed or refused then.
+
+    One that is not `durable` is done also if the journal cannot be written.
+    """
 
     number: int
     command: Request | None = None
+    durable: bool = True
 
 
 class CellService:
@@ -90,8 +95,8 @@ class CellService:
         """Tick if a tick is due, else only take requests; return whether anything goes on."""
         loop = self._host.loop
         if loop.runs and self._find_remaining() <= 0.0:
-            return loop.tick()
-        loop.obey()
+            return self._host.tick()
+        self._host.obey()
         return bool(loop.runs)
 
     def _take(self, request: CellRequest) -> None:
@@ -108,7 +113,7 @@ class CellService:
                     self._pending.append(_Pending(number, self._host.request(operation, command)))
                 case SetPace(factor=factor):
                     self._pace.change(FAST if factor is None else factor)
-                    self._pending.append(_Pending(number))
+                    self._pending.append(_Pending(number, durable=False))
                 case Acknowledge():
                     self._host.acknowledge()
                     self._pending.append(_Pending(number))
@@ -118,6 +123,9 @@ class CellService:
                 case Edit(edits=edits, who=who, why=why):
                     self._host.edit(edits, f"{who}: {why}")
                     self._pending.append(_Pending(number))
+                case Disturb(disturbance=disturbance, who=who):
+                    self._host.disturb(disturbance, who)
+                    self._pending.append(_Pending(number, durable=False))
                 case End(reason=reason):
                     self._end(reason)
                     self._pending.append(_Pending(number))
@@ -136,7 +144,7 @@ class CellService:
         fault = self._host.loop.fault
         for each in self._pending:
             refused = None
-            if fault is not None:
+            if fault is not None and each.durable:
                 refused = Refused(kind="state", reason=fault)
             elif each.command is not None and each.command.refused is not None:
                 refusal = each.command.refused

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc.cli.disturbance_text import describe_disturbance
 from skillc_runtime.recording import events
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.failure import Failure
@@ -58,6 +59,8 @@ def _describe_task(event: events.Event) -> Iterator[str]:
             yield f"{state}: {reason}" if reason else state
         case events.Requested(command=command, refused=refused):
             yield f"{command.name} is refused: {refused}" if refused else f"{command.name} is requested"
+        case events.Disturbed(disturbance=disturbance, who=who):
+            yield f"{describe_disturbance(disturbance)}{f' ({who})' if who else ''}"
         case events.PlanArrived(refused=refused, detail=detail) if refused:
             yield f"no plan: {refused}{f'; {detail}' if detail else ''}"
         case events.PlanMade(steps=steps, cost=cost, quality=quality):

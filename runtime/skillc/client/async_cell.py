@@ -20,6 +20,7 @@ from skillc.server.rehearsals import Rehearsal
 from skillc.services.errors import RequestError
 from skillc.workers.jobs import PlanPreview, QueryRows, RehearsalRequest, WorldFact, WorldFacts, WorldWrite
 from skillc.workers.libraries import LibraryDescription
+from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.execution.pace import FAST
 
 OPERATIONS, FACTS, WRITES = 100, 1000, 100
@@ -101,8 +102,12 @@ class AsyncCell:
         return await self._connection.send("PUT", self._path("pace"), CellStatus, setting)
 
     async def acknowledge(self) -> CellStatus:
-        """Let it take operations again after a fault whose cause is removed."""
+        """Let it take operations again after a fault or a stop whose cause is removed."""
         return await self._connection.send("POST", self._path("acknowledge"), CellStatus)
+
+    async def disturb(self, disturbance: Disturbance) -> CellStatus:
+        """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.Push`."""
+        return await self._connection.send("POST", self._path("disturbances"), CellStatus, disturbance)
 
     async def plan(
         self,

@@ -15,6 +15,7 @@ from skillc.server.api_types import DeviceStatus
 from skillc.server.rehearsals import Rehearsal
 from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldWrite
 from skillc.workers.libraries import LibraryDescription
+from skillc_runtime.devices.disturbances import Disturbance
 
 
 class ServerCell:
@@ -82,8 +83,12 @@ class ServerCell:
         return self._loop.run(self._cell.set_pace(pace))
 
     def acknowledge(self) -> CellStatus:
-        """Let it take operations again after a fault whose cause is removed."""
+        """Let it take operations again after a fault or a stop whose cause is removed."""
         return self._loop.run(self._cell.acknowledge())
+
+    def disturb(self, disturbance: Disturbance) -> CellStatus:
+        """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.Push`."""
+        return self._loop.run(self._cell.disturb(disturbance))
 
     def plan(
         self,

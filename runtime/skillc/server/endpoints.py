@@ -6,6 +6,7 @@ from skillc.server.endpoint import ApiEndpoint
 from skillc.server.routes import (
     audit,
     cells,
+    disturbances,
     leases,
     libraries,
     metrics,
@@ -20,6 +21,7 @@ from skillc.server.routes import (
 PREFIX = "/api/v1"
 ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *cells.ENDPOINTS,
+    *disturbances.ENDPOINTS,
     *leases.ENDPOINTS,
     *operations.ENDPOINTS,
     *recordings.ENDPOINTS,

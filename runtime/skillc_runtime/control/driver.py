@@ -18,7 +18,7 @@ class CompliantArmDriver:
     """One arm, stepped every control period; implements `ArmDriver` and the functions that a cell needs.
 
     `fault` says why the driver stopped by itself, until it is taken; `broken` why the arm could not be controlled at
-    some time.
+    some time, and `violation` which safety limit it exceeded last, until `recover`.
     """
 
     def __init__(self, setup: ArmSetup) -> None:
@@ -32,6 +32,7 @@ class CompliantArmDriver:
         self._safety = self._validator.safety
         self.fault: str | None = None
         self.broken: str | None = None
+        self.violation: str | None = None
         self._seen = self._lost = 0.0
 
     @property
@@ -56,6 +57,7 @@ class CompliantArmDriver:
             self._validator.check(state)
             task.update_state(state)
             if (violation := self._safety.violation(state, task.period)) is not None:
+                self.violation = violation
                 self.hold_still(violation)
             try:
                 command = task.command(state)
@@ -73,6 +75,11 @@ class CompliantArmDriver:
         """Return why the arm stopped by itself, once; None if it did not."""
         fault, self.fault = self.fault, None
         return fault
+
+    def recover(self) -> None:
+        """Forget why the arm stopped by itself; ControlError if what it measures is still no number."""
+        self._validator.check(self._arm.state())
+        self.broken = self.violation = None
 
     def abort(self, reason: str) -> None:
         """Stop motion, overlays and push, and hold released axes; the reason is reported in `fault`."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING, Protocol
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, Protocol
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -11,6 +12,31 @@ if TYPE_CHECKING:
 
 class BackendBroken(RuntimeError):
     """A cell can never move again; the message says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceStop:
+    """Why devices have stopped by themselves, and may not move before somebody has acknowledged that."""
+
+    kind: Literal["protective-stop", "emergency-stop"]
+    reason: str
+
+
+class StopPersists(Exception):
+    """Devices may not move yet, because the cause of their stop is still there; the message says what to do."""
+
+
+class DeviceStops(Protocol):
+    """The stops that devices report."""
+
+    @property
+    def report(self) -> DeviceStop | None:
+        """The worst stop that was reported and not cleared, or whose cause is still there; None for none."""
+        ...
+
+    def clear(self) -> None:
+        """Forget the stops, because somebody has acknowledged them; StopPersists, and nothing has changed."""
+        ...
 
 
 class Clock(Protocol):
@@ -41,6 +67,11 @@ class Backend(Protocol):
     @property
     def broken(self) -> str | None:
         """Why the cell cannot go on, for example because the simulation diverged; None while it can."""
+        ...
+
+    @property
+    def stops(self) -> DeviceStops:
+        """Why devices have stopped by themselves."""
         ...
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:

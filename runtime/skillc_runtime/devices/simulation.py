@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.disturbances import Disturber
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.motion.pose import Array
@@ -58,6 +59,11 @@ class Simulation(Backend, Protocol):
     @property
     def ground_truth(self) -> GroundTruth:
         """The true state of the cell."""
+        ...
+
+    @property
+    def disturber(self) -> Disturber:
+        """Lets things happen to the cell that no skill does."""
         ...
 
     @property

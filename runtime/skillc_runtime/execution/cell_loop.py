@@ -18,7 +18,7 @@ from skillc_runtime.execution.preparation import StartPreparation
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.task_state import Refusal
 from skillc_runtime.execution.tree.gate import Gate
-from skillc_runtime.recording.commands import Command, Stop
+from skillc_runtime.recording.commands import Abort, Command, Stop
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.run_settings import RunSettings
@@ -114,7 +114,7 @@ class CellLoop:
     def request(self, run: TaskRun, command: Command) -> Request:
         """Give a command to a run in the next tick. TooManyRequests if as many as possible wait; a stop always goes."""
         request = Request(run, command)
-        if isinstance(command, Stop):
+        if isinstance(command, Stop | Abort):
             self._stops.append(request)
         elif len(self._requests) < MAX_REQUESTS:
             self._requests.append(request)
@@ -126,6 +126,11 @@ class CellLoop:
         """Stop a run in the next tick, or all."""
         for each in tuple(self.runs) if run is None else (run,):
             self._stops.append(Request(each, Stop(reason)))
+
+    def abort(self, reason: str) -> None:
+        """Let all runs fail in the next tick, because devices have stopped by themselves."""
+        for each in self.runs:
+            self._stops.append(Request(each, Abort(reason)))
 
     def tick(self) -> bool:
         """Do one tick; return whether anything happened. If not, at most planning goes on, and time stands still."""

@@ -11,6 +11,7 @@ from skillc_model.traversal import free_variables
 from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER, ENDS, TRANSITIONS
 from skillc_runtime.recording import events
+from skillc_runtime.recording.commands import Abort
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.states import State
 from skillc_runtime.world.eval.conditions import evaluate
@@ -22,6 +23,7 @@ from skillc_runtime.world.state.world_state import WorldState
 _Following: TypeAlias = (
     events.StateChanged
     | events.Requested
+    | events.Disturbed
     | events.PlanArrived
     | events.PlanMade
     | events.Replanned
@@ -116,7 +118,7 @@ class _Checker:
             case events.PromptsChanged(prompts=prompts):
                 self._asked = bool(prompts)
                 return None
-            case events.Paused() | events.Resumed() | events.Note():
+            case events.Disturbed() | events.Paused() | events.Resumed() | events.Note():
                 return None
             case _:
                 assert_never(event)
@@ -146,9 +148,11 @@ class _Checker:
     def _check_request(self, event: events.Requested) -> str | None:
         assert self._state is not None, "the run has begun"
         name, allowed = event.command.name, (*ALLOWED[self._state], *ALLOWED_AFTER_FAILURE)
-        if name == ANSWER and not event.refused:
+        if isinstance(event.command, Abort) or event.refused:
+            return None
+        if name == ANSWER:
             return None if self._asked else "nothing is asked"
-        if not event.refused and name not in (allowed if self._state == "paused" else ALLOWED[self._state]):
+        if name not in (allowed if self._state == "paused" else ALLOWED[self._state]):
             return f"a run that is {self._state} allows no {name}"
         return None
 

@@ -6,8 +6,11 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from msgspec.structs import replace
+
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.disturbances import Disturbance, DisturbanceRefused
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import TICK_S, CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop
@@ -16,7 +19,7 @@ from skillc_runtime.execution.run_events import read_arrival
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import Gate, read_breakpoint
 from skillc_runtime.planning.validation import PlanError
-from skillc_runtime.recording.events import Event, Listener, PlanArrived, Requested, TaskEnded, TaskStarted
+from skillc_runtime.recording.events import Disturbed, Event, Listener, PlanArrived, Requested, TaskEnded, TaskStarted
 
 
 class NotRepeatable(Exception):
@@ -58,16 +61,18 @@ def repeat_run(
     backend: Backend,
     listeners: Sequence[Listener] = (),
     after_tick: Sequence[Callable[[], None]] = (),
+    disturb: Callable[[Disturbance], None] | None = None,
 ) -> Repetition:
     """Run a task again as `recorded`, all events of one run; `backend` is a cell built from its scene and seed.
 
-    `listeners` get its events, `after_tick` are called whenever time has passed.
+    `listeners` get its events, `after_tick` are called whenever time has passed. `disturb` lets the recorded
+    disturbances happen to the cell.
 
     A recording that ends before its run, or because the process died, is repeated up to its last event. Only a run that
     had its cell for itself from the start of the cell can be repeated. NotRepeatable otherwise, if the library is
-    another one, or if a plan of the recording does not work with it.
+    another one, if a plan of the recording does not work with it, or if the cell cannot be disturbed as it was.
     """
-    player = _Player(recorded, library, backend, listeners, after_tick)
+    player = _Player(recorded, library, backend, listeners, after_tick, disturb)
     try:
         player.play()
     except PlanError as error:
@@ -88,6 +93,7 @@ class _Player:
         backend: Backend,
         listeners: Sequence[Listener],
         after_tick: Sequence[Callable[[], None]],
+        disturb: Callable[[Disturbance], None] | None,
     ) -> None:
         started = _find_start(recorded, library, backend)
         self.events: list[Event] = []
@@ -95,7 +101,8 @@ class _Player:
         self._is_whole = _has_end(recorded)
         self._recorded = tuple(recorded if self._is_whole else _without_end(recorded))
         self._library, self._backend = library, backend
-        self._requests = deque(event for event in recorded if isinstance(event, Requested))
+        self._inputs = deque(event for event in recorded if isinstance(event, Requested | Disturbed))
+        self._disturb, self._listeners = disturb, (self._compare, *listeners)
         self._arrivals = deque(event for event in recorded if isinstance(event, PlanArrived))
         self.loop = CellLoop(
             backend, library, self._prepare, CellOrigin(started.scene, started.seed, started.backend), after_tick
@@ -103,18 +110,31 @@ class _Player:
         gate = Gate(map(read_breakpoint, started.breakpoints))
         if started.stepped:
             gate.step("into", ())
-        self.run = self.loop.submit(
-            _make_assignment(started, backend), [self._compare, *listeners], started.settings, gate
-        )
+        self.run = self.loop.submit(_make_assignment(started, backend), self._listeners, started.settings, gate)
 
     def play(self) -> None:
         """Tick until the run has ended, or is not as recorded."""
         while self.difference is None and not self.run.ended and (self._is_whole or self._remain):
-            while self._requests and self._requests[0].tick <= self.loop.ticks:
-                self.loop.request(self.run, self._requests.popleft().command)
+            while self._inputs and self._inputs[0].tick <= self.loop.ticks:
+                self._feed(self._inputs.popleft())
             happened = self.loop.tick()
             self._find_missing(at_end=not happened)
         self._find_missing(at_end=True)
+
+    def _feed(self, event: Requested | Disturbed) -> None:
+        """Let an input take effect in the next tick, after those before it. NotRepeatable if that is not possible."""
+        if isinstance(event, Requested):
+            self.loop.request(self.run, event.command)
+            return
+        if self._disturb is None:
+            raise NotRepeatable("the cell of the run was disturbed, and this one cannot be")
+        self.loop.obey()
+        try:
+            self._disturb(event.disturbance)
+        except DisturbanceRefused as error:
+            raise NotRepeatable(f"the cell cannot be disturbed as it was: {error}") from error
+        for listener in self._listeners:
+            listener(replace(event, time=self._backend.clock.now))
 
     @property
     def _remain(self) -> bool:

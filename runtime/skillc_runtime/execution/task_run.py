@@ -168,6 +168,8 @@ class TaskRun:
                 if at_once and self._attempt is not None:
                     self._attempt.end_at_once(self._claims.devices_of(self.id))
                     self._end_attempt(self._attempt)
+            case commands.Abort(reason=reason):
+                self.end_as("failed", reason)
             case commands.Approve() | commands.Retry() | commands.Skip():
                 self._enter("queued", command.name)
             case commands.Replan():

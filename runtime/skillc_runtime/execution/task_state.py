@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import get_args
 
-from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.commands import Abort, Command
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.states import EndState, State
 
@@ -72,4 +72,4 @@ class Refusal:
 
 def refusal(command: Command, state: State, allowed: tuple[str, ...]) -> Refusal | None:
     """Return why a command is not allowed; None if it is."""
-    return None if command.name in allowed else Refusal(command.name, state, allowed)
+    return None if isinstance(command, Abort) or command.name in allowed else Refusal(command.name, state, allowed)

@@ -49,6 +49,12 @@ class Stop(_Command, tag="stop", frozen=True):
     at_once: bool = False
 
 
+class Abort(_Command, tag="abort", frozen=True):
+    """Halt everything and fail, because devices have stopped by themselves; it is given by the cell, in any state."""
+
+    reason: str
+
+
 class Retry(_Command, tag="retry", frozen=True):
     """After a failure: run the failed step again."""
 
@@ -81,5 +87,5 @@ class EditWorld(_Command, tag="edit-world", frozen=True):
 
 
 Command: TypeAlias = (
-    Approve | Pause | Resume | StepInto | StepOver | StepOut | Stop | Retry | Skip | Replan | Answer | EditWorld
+    Approve | Pause | Resume | StepInto | StepOver | StepOut | Stop | Abort | Retry | Skip | Replan | Answer | EditWorld
 )

@@ -10,6 +10,7 @@ import msgspec
 from skillc_model.conditions import Condition
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure, Rejection
@@ -67,6 +68,14 @@ class Requested(_Event, tag="requested", frozen=True, kw_only=True):
     command: Command
     tick: int
     refused: str = ""
+
+
+class Disturbed(_Event, tag="disturbed", frozen=True, kw_only=True):
+    """Something happened to the simulated cell before a tick of its loop that no skill did; `who` wanted it."""
+
+    disturbance: Disturbance
+    tick: int
+    who: str = ""
 
 
 class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
@@ -232,6 +241,7 @@ Event: TypeAlias = (
     TaskStarted
     | StateChanged
     | Requested
+    | Disturbed
     | PlanArrived
     | PlanMade
     | PromptsChanged

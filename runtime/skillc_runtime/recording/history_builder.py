@@ -55,7 +55,7 @@ class _HistoryBuilder:
                 self._record_changes(event)
             case events.TaskEnded():
                 self._ended = event
-            case events.StateChanged() | events.Requested() | events.PlanArrived():
+            case events.StateChanged() | events.Requested() | events.Disturbed() | events.PlanArrived():
                 pass
             case events.PromptsChanged() | events.Note() | events.Paused() | events.Resumed():
                 pass

@@ -1,4 +1,4 @@
-"""Let a cell take operations again after a fault."""
+"""Let a cell take operations again after a fault or a stop."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ from skillc.cli.server_access import complete_cell, connect_server, server_optio
 @click.argument("cell", required=False, shell_complete=complete_cell)
 @server_options
 def command(cell: str | None) -> None:
-    """Let CELL take operations again after a fault whose cause is removed; it may be left out if it is the only one."""
+    """Let CELL take operations again after a fault or a stop whose cause is removed.
+
+    The name may be left out if there is only one cell.
+    """
     with connect_server() as server:
         status = server.cell(cell).acknowledge()
     print_remark(f"{status.name}: {status.state}")

@@ -1,4 +1,4 @@
-"""Cells: how they are, their pace, the end of a fault, and a stop of everything."""
+"""Cells: how they are, their pace, the end of a fault or a stop, and a stop of everything."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ ENDPOINTS = (
         "POST",
         "/cells/{cell}/acknowledge",
         "operate",
-        "Let a cell take operations again after a fault whose cause is removed",
+        "Let a cell take operations again after a fault or a stop whose cause is removed",
         acknowledge_fault,
         CellStatus,
         refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),

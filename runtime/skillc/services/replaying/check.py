@@ -74,7 +74,7 @@ def _repeat(inputs: RunInputs) -> tuple[DifferentEvent | None, int]:
     """Run again; return the first event that differs, and how many were the same. NotRepeatable; ServiceError."""
     cell = build_cell(inputs)
     try:
-        repetition = repeat_run(inputs.events, inputs.library, cell)
+        repetition = repeat_run(inputs.events, inputs.library, cell, disturb=cell.disturber.disturb)
     finally:
         cell.close()
     found = repetition.difference

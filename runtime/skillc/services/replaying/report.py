@@ -26,7 +26,9 @@ def report_recorded(run: Path, out: Path, library: Path | None, looks: str, gif:
     with closing(build_cell(inputs)) as cell:
         samples, choices = make_samples(cell, looks, True, gif), ChoiceListener()
         try:
-            repeated = repeat_run(inputs.events, inputs.library, cell, (choices,), (samples.sample,))
+            repeated = repeat_run(
+                inputs.events, inputs.library, cell, (choices,), (samples.sample,), cell.disturber.disturb
+            )
         except NotRepeatable as error:
             raise ServiceError(f"no report can be made: {error}") from error
         if repeated.difference is not None:

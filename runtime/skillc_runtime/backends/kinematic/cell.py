@@ -100,6 +100,10 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         self.data.time += self._timestep
         self._compute_state()
 
+    def refresh(self) -> None:
+        """Compute what follows from positions in `data` that were changed between two steps."""
+        self._compute_state()
+
     def _compute_state(self) -> None:
         """Compute poses, what arms hold, contacts and sensors from the joints."""
         model, data = self.model, self.data

@@ -64,6 +64,10 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         mujoco.mj_forward(self.model, self.data)
         self._divergence = DivergenceMonitor(self.model, self.data)
 
+    def refresh(self) -> None:
+        """Compute what follows from positions in `data` that were changed between two steps."""
+        mujoco.mj_step1(self.model, self.data)
+
     def _move(self, now: float) -> None:
         mujoco.mj_step2(self.model, self.data)
         self._divergence.check()

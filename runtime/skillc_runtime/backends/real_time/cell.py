@@ -16,10 +16,11 @@ from typing import Protocol
 from skillc_runtime.backends.real_time.locked import CellLock, locked
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm_driver import ArmDriver
-from skillc_runtime.devices.backend import BackendBroken
+from skillc_runtime.devices.backend import BackendBroken, DeviceStops
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell, Watchdog
+from skillc_runtime.devices.disturbances import Disturber
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.devices.live import LiveSignals
@@ -92,6 +93,8 @@ class RealTimeCell:
         self.watchdog: Watchdog = locked(cell.watchdog, self._turn)
         self.ground_truth: GroundTruth = locked(cell.ground_truth, self._turn)
         self.drawing: Drawing = locked(cell.drawing, self._turn)
+        self.stops: DeviceStops = locked(cell.stops, self._turn)
+        self.disturber: Disturber = locked(cell.disturber, self._turn)
         self.live: LiveSignals = cell.live
         self._thread = Thread(target=self._run, name="control", daemon=True)
         self._thread.start()

@@ -21,6 +21,7 @@ from skillc_runtime.backends.simulation.checkpoint import (
     save_cell,
 )
 from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
+from skillc_runtime.backends.simulation.disturber import SimulatedDisturber
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
@@ -32,6 +33,7 @@ from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
+from skillc_runtime.backends.simulation.stops import SimulatedStops
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.variation import Variation
@@ -102,6 +104,8 @@ class ModelledCell(ABC, Generic[A, G]):
             scene, variation, self._observers, self.coverage, self._buttons, self.people, self._touches, self._grippers,
             self.data,
         )  # fmt: skip
+        self.stops = SimulatedStops(self._drivers, self._stopper, world, names)
+        self.disturber = SimulatedDisturber(self, self.stops)
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)
@@ -235,6 +239,10 @@ class ModelledCell(ABC, Generic[A, G]):
         """Compute what follows from the positions in `data`; called once arms, grippers and bases are in place."""
 
     @abstractmethod
+    def refresh(self) -> None:
+        """Compute what follows from positions in `data` that were changed between two steps."""
+
+    @abstractmethod
     def _move(self, now: float) -> None:
         """Move everything by one step that begins at `now` s, and observe it."""
 
@@ -253,7 +261,8 @@ class ModelledCell(ABC, Generic[A, G]):
             if self.watchdog.expired(now):
                 self.stop_all("the tree is not ticked any more")
             for individual, arm in self._drivers.items():
-                self._control(individual, arm, now)
+                if individual not in self._stopper.lost:
+                    self._control(individual, arm, now)
             for listen in self.live.listeners:
                 listen()
         self._move_devices(now)
@@ -265,6 +274,7 @@ class ModelledCell(ABC, Generic[A, G]):
             arm.before_step()
         for person in self.people:
             person.step(now)
+        self.disturber.step(now)
         self._move(now)
         self._step += 1
 

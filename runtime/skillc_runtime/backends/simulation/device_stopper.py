@@ -10,7 +10,10 @@ from skillc_runtime.control.driver import CompliantArmDriver
 
 
 class DeviceStopper:
-    """Stops arms, grippers and bases, each given by IRI; where `devices` is None, all are meant."""
+    """Stops arms, grippers and bases, each given by IRI; where `devices` is None, all are meant.
+
+    `lost` are the arms that do not answer: they stand still.
+    """
 
     def __init__(
         self,
@@ -20,11 +23,14 @@ class DeviceStopper:
         names: Mapping[str, str],
     ) -> None:
         self._arms, self._grippers, self._bases, self._names = arms, grippers, bases, names
+        self.lost = set[str]()
 
     def at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Tell whether arms and bases neither move nor push."""
         moving: dict[str, CompliantArmDriver | SimulatedBase] = {**self._arms, **self._bases}
-        return all(each.at_rest for name, each in moving.items() if devices is None or name in devices)
+        return all(
+            each.at_rest or name in self.lost for name, each in moving.items() if devices is None or name in devices
+        )
 
     def abort(self, reason: str) -> None:
         """Stop all devices; arms report the reason as a fault."""

@@ -1,0 +1,82 @@
+"""Lets things happen to a simulated cell: somebody pushes a hand, moves a thing, presses the emergency stop."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, assert_never
+
+import numpy as np
+
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.stops import SimulatedStops
+from skillc_runtime.devices.disturbances import (
+    Disturbance,
+    DisturbanceRefused,
+    LoseArm,
+    Move,
+    PressEmergencyStop,
+    Push,
+)
+from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation
+
+if TYPE_CHECKING:
+    from skillc_runtime.backends.simulation.cell import ModelledCell
+
+
+class SimulatedDisturber:
+    """Disturbs a cell; implements `Disturber`. Pushes act in each step, so that they take exactly as long as stated."""
+
+    def __init__(self, cell: ModelledCell[Any, Any], stops: SimulatedStops) -> None:
+        self._cell, self._stops = cell, stops
+        self._pushes: dict[str, tuple[Push, float]] = {}
+
+    def disturb(self, disturbance: Disturbance) -> None:
+        """Let something happen between two ticks; DisturbanceRefused if it is not possible."""
+        match disturbance:
+            case Push(arm=arm):
+                self._check_hand(arm)
+                self._pushes[arm] = disturbance, self._cell.now + disturbance.duration_s
+            case Move():
+                self._move(disturbance)
+            case PressEmergencyStop(pressed=pressed):
+                self._stops.press(pressed)
+            case LoseArm(arm=arm, lost=lost):
+                self._check_arm(arm)
+                self._stops.lose(arm, lost)
+            case _:
+                assert_never(disturbance)
+
+    def step(self, now: float) -> None:
+        """Apply the forces of the step that begins at `now` s."""
+        for arm, (push, ends) in tuple(self._pushes.items()):
+            acts = now < ends
+            self._cell.push_hand(arm, np.array(push.force_n) if acts else np.zeros(3))
+            if not acts:
+                del self._pushes[arm]
+
+    def _check_arm(self, arm: str) -> None:
+        if arm not in self._cell.arms:
+            raise DisturbanceRefused(f"{arm} is no arm of the cell")
+
+    def _check_hand(self, arm: str) -> None:
+        try:
+            self._cell.push_hand(arm, np.zeros(3))
+        except KeyError:
+            raise DisturbanceRefused(f"{arm} is no arm with a hand that can be pushed") from None
+
+    def _move(self, wanted: Move) -> None:
+        """Put a thing elsewhere, at rest; nothing else is moved out of its way."""
+        cell = self._cell
+        if all(each.individual != wanted.thing for each in cell.scene.graspable):
+            raise DisturbanceRefused(f"{wanted.thing} is nothing that can be moved")
+        name = cell.scene.names[wanted.thing]
+        hands = [arm.gripper.individual for arm in cell.scene.arms if arm.gripper is not None]
+        if any(cell.ground_truth.carried_by(hand) == wanted.thing for hand in hands):
+            raise DisturbanceRefused(f"{name} is in a gripper")
+        joint = cell.model.joint(part_name(name, "free"))
+        first, velocity = int(joint.qposadr[0]), int(joint.dofadr[0])
+        q = cell.data.qpos[first : first + 7]
+        before = Pose.of(q[:3], q[3:])
+        turned = exp(np.array([0.0, 0.0, wanted.turn_rad])) @ before.rotation
+        q[:3], q[3:] = before.position + wanted.by_m, quaternion_from_rotation(turned)
+        cell.data.qvel[velocity : velocity + 6] = 0.0
+        cell.refresh()
