@@ -20,6 +20,7 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.reality import RealityKeeper, build_again, report_devices
 from skillc.cells.recordings import CellRecordings
+from skillc.cells.samples import Sampler
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
@@ -107,6 +108,7 @@ class CellHost:
         self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
         place_standing_bases(self._backend.cell)
         self._condition = CellCondition(settings.name, self.loop, journal, reader)
+        self.sampler = Sampler(settings.name, self._backend)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
 

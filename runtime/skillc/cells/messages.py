@@ -49,6 +49,10 @@ class TakeSnapshot(_Message, tag="snapshot", frozen=True, kw_only=True):
     devices: bool = False
 
 
+class TakeSample(_Message, tag="sample", frozen=True, kw_only=True):
+    """Answer with what moves in the cell now; see `samples.py`."""
+
+
 class Edit(_Message, tag="edit", frozen=True, kw_only=True):
     """Change the world in one transaction; the edits are statements, `who` makes them, and `why`."""
 
@@ -70,7 +74,7 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
     reason: str
 
 
-Message: TypeAlias = Submit | Give | SetPace | Acknowledge | TakeSnapshot | Edit | Disturb | End
+Message: TypeAlias = Submit | Give | SetPace | Acknowledge | TakeSnapshot | Edit | TakeSample | Disturb | End
 
 
 class CellRequest(msgspec.Struct, frozen=True):

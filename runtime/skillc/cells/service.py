@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import assert_never
 
+import msgspec
+
 from skillc.cells.host import CellHost
 from skillc.cells.mailbox import Inbox, Outbox
 from skillc.cells.messages import (
@@ -20,6 +22,7 @@ from skillc.cells.messages import (
     SetPace,
     StatusChanged,
     Submit,
+    TakeSample,
     TakeSnapshot,
 )
 from skillc.cells.operation import CellStatus
@@ -120,6 +123,10 @@ class CellService:
                 case TakeSnapshot(devices=devices):
                     taken = self._host.take_twin() if devices else self._host.take_snapshot()
                     self._outbox.send(CellAnswer(number=number, result=taken))
+                case TakeSample():
+                    self._outbox.send(
+                        CellAnswer(number=number, result=msgspec.msgpack.encode(self._host.sampler.take()))
+                    )
                 case Edit(edits=edits, who=who, why=why):
                     self._host.edit(edits, f"{who}: {why}")
                     self._pending.append(_Pending(number))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from concurrent.futures import CancelledError
+from contextlib import suppress
 from queue import Empty, SimpleQueue
 from threading import Thread
 
@@ -21,6 +22,8 @@ from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import PromptsChanged, Requested, StateChanged, TaskEnded
 
 LOOK_S = 0.05
+CLOCK_HZ = 4.0
+"""How often the clock of a display goes on between events."""
 
 
 class EventQueue:
@@ -57,6 +60,20 @@ class EventQueue:
         self._waiting.put(None)  # wait ends: at once, the queue has no limit
 
 
+class CellTime:
+    """The clock of a cell, `now_s`, which a thread reads from samples, so that it goes on between events."""
+
+    def __init__(self, cell: ServerCell) -> None:
+        self.now_s = 0.0
+        self._cell = cell
+        Thread(target=self._receive, daemon=True).start()
+
+    def _receive(self) -> None:
+        with suppress(ServiceError, CancelledError):  # the events say what is wrong
+            for each in self._cell.samples(CLOCK_HZ):
+                self.now_s = each.time_s
+
+
 def attach(cell: ServerCell, operation: ServerOperation) -> int:
     """Show an operation until it has ended or its user detaches; return the exit code.
 
@@ -66,7 +83,7 @@ def attach(cell: ServerCell, operation: ServerOperation) -> int:
     pace = Pace(FAST if factor is None else factor)
     with RunProgress(operation.task, False, pace, detachable=True) as progress, progress.operating():
         feed = EventQueue(operation)
-        watcher = _Watcher(cell, operation, progress)
+        watcher = _Watcher(cell, operation, progress, CellTime(cell))
         while not feed.ended and not progress.detached and not progress.interrupted:
             watcher.show(feed.take())
     if feed.error:
@@ -83,8 +100,8 @@ def attach(cell: ServerCell, operation: ServerOperation) -> int:
 class _Watcher:
     """Shows events as they come, and passes on what the keys mean."""
 
-    def __init__(self, cell: ServerCell, operation: ServerOperation, progress: RunProgress) -> None:
-        self._cell, self._operation, self._progress = cell, operation, progress
+    def __init__(self, cell: ServerCell, operation: ServerOperation, progress: RunProgress, clock: CellTime) -> None:
+        self._cell, self._operation, self._progress, self._clock = cell, operation, progress, clock
         self._view, self._now, self._pace = EventView(), 0.0, progress.pace.factor
 
     def show(self, events: list[Envelope]) -> None:
@@ -98,6 +115,7 @@ class _Watcher:
         if status.state in ENDS:
             time.sleep(LOOK_S)
             return
+        self._now = max(self._now, self._clock.now_s)
         for command in self._progress.take_commands(lambda: self._view.view(status), self._now, LOOK_S):
             self._give(command)
         self._pass_pace_on()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping, Sequence
+from collections.abc import AsyncGenerator, Mapping, Sequence
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Literal
@@ -11,9 +11,11 @@ from uuid import uuid4
 
 from skillc.api.boundary import optional_seconds, optional_text, read_arguments, read_pace, require_choice, require_text
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
+from skillc.cells.samples import Sample
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.client.errors import RefusedError
+from skillc.client.feed import follow_samples
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, PlanRequest, StopAll, WorldEdit, WorldQuery
 from skillc.server.rehearsals import Rehearsal
@@ -193,6 +195,10 @@ class AsyncCell:
         """Return the last writes to its world, or those before a number, the last one first."""
         path = self._path("world", "history")
         return await self._connection.get(path, tuple[WorldWrite, ...], limit=limit, before=before)
+
+    def samples(self, rate_hz: float = 10.0) -> AsyncGenerator[Sample, None]:
+        """Yield what moves in it, `rate_hz` times a second at most, up to 50; who takes them slowly gets fewer."""
+        return follow_samples(self._connection, self.name, rate_hz)
 
     async def stop(self, reason: str = "stopped") -> CellStatus:
         """Stop all its operations."""

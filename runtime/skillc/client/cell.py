@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 from skillc.cells.operation import CellStatus
+from skillc.cells.samples import Sample
 from skillc.client.async_cell import OPERATIONS, PLANNING_S, WRITES, AsyncCell
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
@@ -142,6 +143,10 @@ class ServerCell:
     def world_history(self, limit: int = WRITES, before: int | None = None) -> tuple[WorldWrite, ...]:
         """Return the last writes to its world, or those before a number, the last one first."""
         return self._loop.run(self._cell.world_history(limit, before))
+
+    def samples(self, rate_hz: float = 10.0) -> Iterator[Sample]:
+        """Yield what moves in it, `rate_hz` times a second at most, up to 50; who takes them slowly gets fewer."""
+        return self._loop.iterate(self._cell.samples(rate_hz))
 
     def stop(self, reason: str = "stopped") -> CellStatus:
         """Stop all its operations."""

@@ -93,11 +93,23 @@ class Connection:
 
 
 def decode(content: bytes | str, kind: type[T]) -> T:
-    """Return what a server has sent; ServiceError if it is of another type."""
+    """Return what a server has sent as JSON; ServiceError if it is of another type."""
     try:
         return msgspec.json.decode(content, type=kind)
     except msgspec.DecodeError as error:
-        raise ServiceError(f"the server sends what this version of skillc does not know: {error}") from error
+        raise _describe_unknown(error) from error
+
+
+def decode_binary(content: bytes, kind: type[T]) -> T:
+    """Return what a server has sent as MessagePack; ServiceError if it is of another type."""
+    try:
+        return msgspec.msgpack.decode(content, type=kind)
+    except msgspec.DecodeError as error:
+        raise _describe_unknown(error) from error
+
+
+def _describe_unknown(error: msgspec.DecodeError) -> ServiceError:
+    return ServiceError(f"the server sends what this version of skillc does not know: {error}")
 
 
 def describe_loss(address: ServerAddress, error: Exception) -> str:

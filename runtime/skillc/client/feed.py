@@ -12,7 +12,8 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidMes
 
 from skillc.cells.messages import Happened, StatusChanged
 from skillc.cells.operation import CellStatus, OperationStatus
-from skillc.client.connection import Connection, decode, describe_loss
+from skillc.cells.samples import Sample
+from skillc.client.connection import Connection, decode, decode_binary, describe_loss
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.client.retries import Retries
 from skillc.services.errors import ServiceError
@@ -67,20 +68,37 @@ async def follow_states(connection: Connection) -> AsyncGenerator[Status, None]:
             await retries.wait(error)
 
 
-async def _receive(connection: Connection, hello: dict[str, object], kind: type[T]) -> AsyncGenerator[T, None]:
-    """Yield the messages of one connection until the server says that there are no more.
+async def follow_samples(connection: Connection, cell: str, rate_hz: float) -> AsyncGenerator[Sample, None]:
+    """Yield what moves in a cell, `rate_hz` times a second at most; errors as of `follow_operation`."""
+    retries = Retries()
+    while True:
+        try:
+            hello = {"cell": cell, "rate_hz": rate_hz}
+            async with aclosing(_receive(connection, hello, Sample, "samples")) as samples:
+                async for each in samples:
+                    retries.succeeded()
+                    yield each
+            raise UnavailableError(f"the server at {connection.address.url} ends")
+        except UnavailableError as error:
+            await retries.wait(error)
+
+
+async def _receive(
+    connection: Connection, hello: dict[str, object], kind: type[T], path: str = "events"
+) -> AsyncGenerator[T, None]:
+    """Yield the messages of one connection to a path until the server says that there are no more.
 
     UnavailableError if the connection breaks before.
     """
     address = connection.address
-    url = f"ws{address.url.removeprefix('http')}/events"
+    url = f"ws{address.url.removeprefix('http')}/{path}"
     try:
         async with connect(
             url, ssl=connection.tls, proxy=None if address.is_local else True, max_size=MAX_BYTES
         ) as socket:
             await socket.send(msgspec.json.encode({"token": address.token, **hello}).decode())
             while (message := await _read(socket)) is not None:
-                yield decode(message, kind)
+                yield decode(message, kind) if isinstance(message, str) else decode_binary(message, kind)
     except (OSError, TimeoutError, InvalidHandshake, InvalidMessage, ConnectionClosed) as error:
         raise UnavailableError(describe_loss(address, error)) from error
 

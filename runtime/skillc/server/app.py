@@ -30,6 +30,7 @@ from skillc.server.problems import MEDIA_TYPE, ApiRefusal
 from skillc.server.proxy import ProxiedRequests
 from skillc.server.rates import TokenBuckets
 from skillc.server.requests import decode_body, find_client, read_body, read_key, read_query, wait_until_gone
+from skillc.server.sample_stream import stream_samples
 
 REQUESTS_PER_S, BURST = 200.0, 400.0
 """How many requests a client may make; stops are not counted."""
@@ -63,6 +64,7 @@ class Application:
                 Route(f"{PREFIX}/health", _constant(b'{"status":"ok"}')),
                 Route(f"{PREFIX}/openapi.json", _constant(document)),
                 WebSocketRoute(f"{PREFIX}/events", partial(stream_events, server)),
+                WebSocketRoute(f"{PREFIX}/samples", partial(stream_samples, server, {})),
             ],
             exception_handlers={HTTPException: _refuse_unknown},
         )
