@@ -59,7 +59,7 @@ def test_samples_go_on_while_a_cell_works(server: RunningServer) -> None:
 
 def test_the_clock_of_a_display_goes_on_between_events(server: RunningServer) -> None:
     server.put_back()
-    server.client.put("/cells/yard/pace", json={"factor": 0.001})
+    server.client.put("/cells/yard/pace", json={"factor": 0.05})
     operation = server.submit(task="carry_all")["id"]
     events = server.wait_for(operation, "running")["events"]
     with skillc.connect(f"http://127.0.0.1:{server.port}", state=server.folder / "served") as connected:
