@@ -27,6 +27,7 @@ from websockets.exceptions import ConnectionClosed
 CELL, TASK = "iiwa_table", "clean_table"
 REQUESTS, STOPS, OPERATIONS = 400, 20, 60
 WATCHERS = (0, 1, 8, 64)
+SAMPLERS = (0, 1, 8)
 TICK_S = 0.01
 READY_S = 60.0
 
@@ -136,6 +137,42 @@ async def run_watched(client: httpx.Client, number: int) -> list[float]:
     return [age for ages in found for age in ages]
 
 
+def measure_samplers() -> None:
+    """Print the CPU time of a task while clients get 50 samples a second, relative to that of the cell without."""
+    alone = None
+    for number in SAMPLERS:
+        with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as (client, server, _):
+            cell = find_cell(server)
+            before = cpu_s(cell), cpu_s(server)
+            count = asyncio.run(run_sampled(client, number))
+            spent = cpu_s(cell) - before[0], cpu_s(server) - before[1]
+        alone = alone or spent
+        ratios = f"cell {spent[0] / alone[0]:.2f} x, server {spent[1] / alone[0]:.2f} x the cell"
+        print(f"{number} clients get samples: {ratios}, {count} samples each")
+
+
+async def run_sampled(client: httpx.Client, number: int) -> int:
+    """Run the task at four times real time while clients get samples; return how many each got in the mean."""
+    token = client.headers["authorization"].partition(" ")[2]
+    url = str(client.base_url.join("samples")).replace("http", "ws")
+    client.put(f"/cells/{CELL}/pace", json={"factor": 4.0})
+    operation = await asyncio.to_thread(submit, client)
+    counts = [0] * number
+
+    async def watch(index: int) -> None:
+        async with connect(url) as stream:
+            await stream.send(json.dumps({"token": token, "cell": CELL, "rate_hz": 50}))
+            while True:
+                await stream.recv()
+                counts[index] += 1
+
+    watching = [asyncio.ensure_future(watch(index)) for index in range(number)]
+    await asyncio.to_thread(wait_for, lambda: state_of(client, operation) == "succeeded")
+    for each in watching:
+        each.cancel()
+    return sum(counts) // max(1, number)
+
+
 def measure_memory(client: httpx.Client, server: int) -> None:
     """Print how memory and the time of a request grow over many operations."""
     cell = find_cell(server)
@@ -184,6 +221,7 @@ def main() -> None:
         measure_stops(client)
         measure_memory(client, server)
     measure_watchers()
+    measure_samplers()
 
 
 if __name__ == "__main__":

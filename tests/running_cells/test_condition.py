@@ -262,3 +262,21 @@ def test_a_cell_that_is_off_allows_what_the_documentation_says(tmp_path: Path, m
         return ["no" if isinstance(await cell.request(each), Refused) else "yes" for each in messages]
 
     assert asyncio.run(ask()) == read_table()["off"]
+
+
+@pytest.mark.sim
+def test_a_push_moves_the_hand_and_after_an_emergency_stop_nothing_moves(tmp_path: Path) -> None:
+    with open_cell(make_settings(tmp_path, SORTING, "mujoco"), SilentReporter()) as host:
+        cell, arm = reality(host), "http://example.org/lab#Arm-1"
+        before = cell.arms[arm].state().tool.position.copy()
+        host.disturb(Push(ARM, (0.0, 30.0, 0.0), 0.3), "bo")
+        cell.advance(0.3)
+        moved = cell.arms[arm].state().tool.position - before
+        assert 0.001 < moved[1] < 0.2, moved
+        cell.advance(2.0)
+        assert abs((cell.arms[arm].state().tool.position - before)[1]) < 0.5 * moved[1], "the push has ended"
+        ended = interrupt(host, disturbed(PRESS))
+        assert ended.state == "failed" and cell.is_at_rest()
+        where = cell.arms[arm].state().q.copy()
+        cell.advance(0.5)
+        assert np.allclose(cell.arms[arm].state().q, where, atol=0.01)
