@@ -18,8 +18,10 @@ from skillc.cli.main import skillc
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import TaskRequest, load_task
+from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import (
+    Disturbed,
     Event,
     ImplementationChosen,
     PlanMade,
@@ -74,6 +76,11 @@ def bind_another(events: list[Event]) -> None:
     )
 
 
+def disturb(events: list[Event]) -> None:
+    push = Push("http://example.org/x#arm", (0.0, 30.0, 0.0))
+    events.insert(1, Disturbed(time=events[0].time, disturbance=push, tick=0, who="bo"))
+
+
 def drop_last_step(events: list[Event]) -> None:
     place = next(place for place, event in enumerate(events) if isinstance(event, PlanMade))
     event = events[place]
@@ -88,6 +95,7 @@ def drop_last_step(events: list[Event]) -> None:
         (change(TaskStarted, hash="0123"), "settings", "library hash"),
         (change(Requested, command=commands.Pause("tea")), "requests", "request 1"),
         (change(Requested, 2, tick=99999), "requests", "request 3"),
+        (disturb, "requests", "request 1"),
         (change(PlanMade, planner="guess"), "plan", "planner of plan 1"),
         (drop_last_step, "plan", "step 4"),
         (change(ImplementationChosen, implementation="other"), "choices", "1 "),

@@ -22,7 +22,7 @@ from skillc.services.run_diff.difference import Difference, Leaf, Part, RunDiff,
 from skillc.services.run_diff.recorded import RecordedRunData, read_recorded_run
 from skillc.services.run_diff.signals import compare_signals
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.recording.events import Requested, TaskStarted
+from skillc_runtime.recording.events import Disturbed, Requested, TaskStarted
 from skillc_runtime.recording.known_facts import format_status
 
 
@@ -81,7 +81,7 @@ def _describe_objective(start: TaskStarted) -> str:
 
 
 def _list_requests(run: RecordedRunData) -> list[str]:
-    return [_describe_request(event) for event in run.events if isinstance(event, Requested)]
+    return [_describe_request(event) for event in run.events if isinstance(event, Requested | Disturbed)]
 
 
 def _compare_requests(first: list[str], second: list[str]) -> tuple[Difference, ...]:
@@ -92,12 +92,11 @@ def _compare_requests(first: list[str], second: list[str]) -> tuple[Difference, 
     )
 
 
-def _describe_request(event: Requested) -> str:
-    fields = ", ".join(
-        f"{name}: {value}" for name, value in msgspec.to_builtins(event.command).items() if name != "type"
-    )
-    refused = ", refused" if event.refused else ""
-    return f"{event.command.name} in tick {event.tick}{f' ({fields})' if fields else ''}{refused}"
+def _describe_request(event: Requested | Disturbed) -> str:
+    wanted = msgspec.to_builtins(event.command if isinstance(event, Requested) else event.disturbance)
+    fields = ", ".join(f"{name}: {value}" for name, value in wanted.items() if name != "type")
+    refused = ", refused" if isinstance(event, Requested) and event.refused else ""
+    return f"{wanted['type']} in tick {event.tick}{f' ({fields})' if fields else ''}{refused}"
 
 
 def _describe_end(run: RecordedRunData) -> str:
