@@ -218,6 +218,16 @@ def reach(host: CellHost, state: str) -> None:
     assert find_state(host)[0] == state
 
 
+def test_a_stop_that_cannot_be_forgotten_durably_is_not_acknowledged(tmp_path: Path) -> None:
+    with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
+        reach(host, "emergency-stop")
+        host.obey()
+        fill_the_disk(host)
+        assert "full" in acknowledge(host) and find_state(host)[0] == "emergency-stop"
+        host._journal._connection.execute("PRAGMA max_page_count = 1000000")
+        assert acknowledge(host) == "" and find_state(host) == ("operational", "")
+
+
 def is_done(request: Callable[[], object]) -> str:
     try:
         request()

@@ -60,12 +60,15 @@ class CellCondition:
             raise RequestError(f"{broken}; start the cell again")
         if self._loop.fault is None and self._stop is None:
             raise RequestError(f"{self._name} has no fault and no stop")
+        stop = self._stop
         try:
             self._loop.backend.stops.clear()
-            if self._stop is not None:
+            if stop is not None:
                 self._set(None)
             commit()
         except (NotDurable, StopPersists) as error:
+            if stop is not None:
+                self._set(stop)
             raise RequestError(str(error)) from error
         self._loop.fault = None
 
