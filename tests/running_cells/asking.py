@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from running_cells.yard import write_yard
-from skillc.cells.host import CellSettings
+from skillc.cells.settings import CellSettings
 
 SKILLS = """# Somebody is asked.
 

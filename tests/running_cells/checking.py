@@ -6,8 +6,9 @@ import time
 from collections import Counter
 from contextlib import closing
 
-from skillc.cells.host import CellSettings, open_cell
+from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.settings import CellSettings
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.recording.events import TaskEnded, WorldChanged
 from skillc_runtime.store.disk import DiskStore

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillc.cells.host import CellSettings
+from skillc.cells.settings import CellSettings
 
 CRATES = 6
 SKILLS = """# Crates are carried one after the other.

@@ -89,10 +89,16 @@ def serving(
         process.wait(30.0)
 
 
-def start_server(folder: Path, port: int, options: Sequence[str | Path] = ()) -> subprocess.Popen[bytes]:
-    """Start the process of a server."""
-    always = ("--cell", "yard.ttl", "--state", "served", "--bind", f"127.0.0.1:{port}", "--backend", "kinematic")
-    command = (sys.executable, "-m", "skillc", "serve", str(folder), *always, *map(str, options))
+def start_server(
+    folder: Path,
+    port: int,
+    options: Sequence[str | Path] = (),
+    libraries: Sequence[str] = (".",),
+    cells: Sequence[str] = ("--cell", "yard.ttl"),
+) -> subprocess.Popen[bytes]:
+    """Start the process of a server in a folder."""
+    always = ("--state", "served", "--bind", f"127.0.0.1:{port}", "--backend", "kinematic")
+    command = (sys.executable, "-m", "skillc", "serve", *libraries, *cells, *always, *map(str, options))
     paths = os.pathsep.join(filter(None, sys.path))
     return subprocess.Popen(command, cwd=folder, env={**os.environ, "PYTHONPATH": paths}, stderr=subprocess.PIPE)
 

@@ -14,8 +14,9 @@ from msgspec import structs
 from running_cells.checking import check_cell
 from running_cells.yard import CRATES, find_settings, write_yard
 from server.running import RunningServer, serving
-from skillc.cells.host import CellSettings, open_cell
+from skillc.cells.host import open_cell
 from skillc.cells.operation import OperationRequest
+from skillc.cells.settings import CellSettings
 from skillc.cli.main import skillc
 from skillc.services.reporting import SilentReporter
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
-import msgspec
 from msgspec import structs
 
 from skillc.cells.assigning import assign_request
@@ -17,18 +16,18 @@ from skillc.cells.disturbing import resolve_names
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.library import decode_library, load_library
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.reality import RealityKeeper, build_again, report_devices
 from skillc.cells.recordings import CellRecordings
 from skillc.cells.samples import Sampler
+from skillc.cells.settings import WORLD, CellSettings
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
-from skillc.services.backends import BackendName
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import RequestError
-from skillc.services.libraries import compile_valid
-from skillc.services.library_files import find_library, find_scene
+from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
 from skillc.services.world_edits import read_edits
@@ -55,30 +54,8 @@ from skillc_runtime.world.state.names import NoSuchName
 from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
 
-JOURNAL, WORLD = "journal.sqlite", "world"
-"""The files of a cell in its folder."""
-
 MAX_OPERATIONS = 200
 """How many operations may go on or wait in a cell; those beyond are refused."""
-
-
-class CellSettings(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """A cell named `name` with the scene and the library in these files, which keeps its state in a folder.
-
-    `seed` determines how the reality of a simulation differs from the scene.
-    """
-
-    name: str
-    scene: str
-    library: str
-    folder: str
-    backend: BackendName = "mujoco"
-    seed: int = 0
-
-    @property
-    def journal(self) -> Path:
-        """The file of its journal, which exists once the cell was started."""
-        return Path(self.folder) / JOURNAL
 
 
 class CellHost:
@@ -160,6 +137,11 @@ class CellHost:
             self.loop.stop(reason)
         elif (submitted := self._operations.get(operation)) is not None:
             self.loop.stop(reason, submitted.run)
+
+    def take_library(self, content: bytes) -> None:
+        """Let operations that are submitted from now on run another library; its vocabulary has the same terms."""
+        self.library = self.loop.library = decode_library(content)
+        self._snapshot = (None, b"")
 
     def take_snapshot(self) -> bytes:
         """Return what the cell knows now, encoded; the same again while nothing is written."""
@@ -282,7 +264,7 @@ class CellHost:
         return assign_request(request.task, request.goal, request.call, request.arguments, self.library, state)
 
     def _plan(self, assignment: Assignment, failures: FailedSteps) -> PlanningJob:
-        return PlanningJob(assignment, self.library, failures)
+        return PlanningJob(assignment, failures.library, failures)
 
 
 @contextmanager
@@ -291,7 +273,7 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
 
     ServiceError, StoreError, DatabaseError, NotDurable, SheetError or FrameError if that is not possible.
     """
-    library, scene = compile_valid(find_library(Path(settings.library))), find_scene(Path(settings.scene))
+    library, scene = load_library(settings), find_scene(Path(settings.scene))
     folder = Path(settings.folder)
     folder.mkdir(parents=True, exist_ok=True)
     choice = StoreChoice(str(folder / WORLD))

@@ -68,13 +68,21 @@ class Disturb(_Message, tag="disturb", frozen=True, kw_only=True):
     who: str
 
 
+class TakeLibrary(_Message, tag="library", frozen=True, kw_only=True):
+    """Run another library from the next operation on; it was checked."""
+
+    content: bytes
+
+
 class End(_Message, tag="end", frozen=True, kw_only=True):
     """Stop everything and end the process."""
 
     reason: str
 
 
-Message: TypeAlias = Submit | Give | SetPace | Acknowledge | TakeSnapshot | Edit | TakeSample | Disturb | End
+Message: TypeAlias = (
+    Submit | Give | SetPace | Acknowledge | TakeSnapshot | TakeSample | Edit | Disturb | TakeLibrary | End
+)
 
 
 class CellRequest(msgspec.Struct, frozen=True):

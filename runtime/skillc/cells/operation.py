@@ -78,13 +78,15 @@ disk is full; `emergency-stop` after a device has reported one."""
 class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
     """A cell as it is now; `reason` is why it is in its state.
 
-    `library_hash` identifies the library that its next operation runs. `pace` is None for as fast as it computes.
+    `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
+    disk. `pace` is None for as fast as it computes.
     """
 
     name: str
     scene: str
     library: str
     library_hash: str
+    library_problem: str = ""
     backend: str
     state: CellState = "operational"
     reason: str = ""

@@ -14,10 +14,11 @@ from contextlib import suppress
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
-from skillc.cells.host import CellSettings, open_cell
+from skillc.cells.host import open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
 from skillc.cells.messages import StartFailed
 from skillc.cells.service import CellService
+from skillc.cells.settings import CellSettings
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source

@@ -16,8 +16,8 @@ from typing import TextIO
 import msgspec
 
 from skillc.cells.frames import LENGTH, encode_frame
-from skillc.cells.host import CellSettings
 from skillc.cells.messages import CellAnswer, CellRequest, Message, Report, StopRequest
+from skillc.cells.settings import CellSettings
 
 
 class CellGone(Exception):
@@ -130,7 +130,7 @@ async def start_cell(settings: CellSettings, log: TextIO, report: Callable[[Repo
             stdout=log,
             stderr=log,
             start_new_session=True,
-            env={**os.environ, "PYTHONPATH": paths},
+            env={**os.environ, "PYTHONPATH": paths, **settings.environment},
         )
     except BaseException:
         for each in ours:

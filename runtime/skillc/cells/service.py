@@ -22,6 +22,7 @@ from skillc.cells.messages import (
     SetPace,
     StatusChanged,
     Submit,
+    TakeLibrary,
     TakeSample,
     TakeSnapshot,
 )
@@ -133,6 +134,9 @@ class CellService:
                 case Disturb(disturbance=disturbance, who=who):
                     self._host.disturb(disturbance, who)
                     self._pending.append(_Pending(number, durable=False))
+                case TakeLibrary(content=content):
+                    self._host.take_library(content)
+                    self._pending.append(_Pending(number))
                 case End(reason=reason):
                     self._end(reason)
                     self._pending.append(_Pending(number))

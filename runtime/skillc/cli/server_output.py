@@ -26,6 +26,8 @@ def print_cells(cells: Sequence[CellStatus], operations: Sequence[OperationStatu
 def format_cells(cells: Sequence[CellStatus], operations: Sequence[OperationStatus], page: TerminalPage) -> list[str]:
     """Return the lines of cells, and of operations below them."""
     lines = page.columns([_cell_row(each) for each in cells])
+    for each in dict.fromkeys(each.library_problem for each in cells if each.library_problem):
+        lines += ["", *_describe_problem(each).splitlines()]
     if operations:
         lines += ["", *page.columns([_operation_row(each) for each in operations])]
     return lines
@@ -64,7 +66,12 @@ def _operation_row(operation: OperationStatus) -> Row:
     return TableCell(operation.id, "name"), operation.cell, what, operation.request.owner, state
 
 
+def _describe_problem(problem: str) -> str:
+    return f"the library on disk is not used:\n{problem}"
+
+
 def _describe(status: CellStatus | OperationStatus) -> str:
     if isinstance(status, OperationStatus):
         return f"{status.id}: {describe_state(status)}"
-    return f"{status.name}: {status.state}{f': {status.reason}' if status.reason else ''}"
+    problem = f"; {_describe_problem(status.library_problem)}" if status.library_problem else ""
+    return f"{status.name}: {status.state}{f': {status.reason}' if status.reason else ''}{problem}"

@@ -13,7 +13,7 @@ from skillc.client.connection import Connection, join
 from skillc.client.feed import Status, follow_states
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
-from skillc.server.api_types import MadeToken, NewToken, VersionInfo
+from skillc.server.api_types import LibraryStatus, MadeToken, NewToken, VersionInfo
 from skillc.services.errors import RequestError
 
 
@@ -29,6 +29,10 @@ class AsyncServer:
     async def version(self) -> VersionInfo:
         """Return its version of skillc and of the API."""
         return await self._connection.get("/version", VersionInfo)
+
+    async def libraries(self) -> tuple[LibraryStatus, ...]:
+        """Return its libraries, and why one on disk is not used."""
+        return await self._connection.get("/libraries", tuple[LibraryStatus, ...])
 
     async def cells(self) -> tuple[CellStatus, ...]:
         """Return how its cells are."""

@@ -13,7 +13,7 @@ from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
-from skillc.server.api_types import VersionInfo
+from skillc.server.api_types import LibraryStatus, VersionInfo
 
 
 class Server:
@@ -28,6 +28,10 @@ class Server:
     def version(self) -> VersionInfo:
         """Return its version of skillc and of the API."""
         return self._loop.run(self._server.version())
+
+    def libraries(self) -> tuple[LibraryStatus, ...]:
+        """Return its libraries, and why one on disk is not used."""
+        return self._loop.run(self._server.libraries())
 
     def cells(self) -> tuple[CellStatus, ...]:
         """Return how its cells are."""

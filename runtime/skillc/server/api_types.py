@@ -56,6 +56,18 @@ class VersionInfo(msgspec.Struct, frozen=True):
     api: str
 
 
+class LibraryStatus(msgspec.Struct, frozen=True):
+    """A library, and the cells whose next operations run it.
+
+    `problem` is why that is not the one on disk; empty if it is.
+    """
+
+    name: str
+    hash: str
+    problem: str
+    cells: tuple[str, ...]
+
+
 class DeviceStatus(msgspec.Struct, frozen=True):
     """A device, and the operation that holds it; null if it is free."""
 

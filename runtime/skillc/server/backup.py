@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from skillc.cells.database import describe_error
-from skillc.cells.host import WORLD
+from skillc.cells.settings import WORLD
 from skillc.server.state import ADMIN_TOKEN, CELLS, DATABASE, LOCK
 from skillc.services.errors import RequestError, ServiceError
 from skillc_runtime.store.disk import copy_store

@@ -16,6 +16,7 @@ from skillc.server.idempotency import RequestKeys
 from skillc.server.metrics import Metrics
 from skillc.server.problems import ApiRefusal
 from skillc.server.rehearsals import Rehearsals
+from skillc.server.served_library import ServedLibrary
 from skillc.server.state import REHEARSALS, ServerState
 from skillc.server.supervisor import CellSupervisor
 from skillc.server.watchers import Watchers
@@ -29,6 +30,7 @@ class ServerContext:
     state: ServerState
     cells: dict[str, CellSupervisor]
     hub: EventHub
+    libraries: tuple[ServedLibrary, ...] = ()
     leases: Leases = field(default_factory=Leases)
     workers: Workers = field(default_factory=Workers)
     rehearsals: Rehearsals = field(init=False)
@@ -42,6 +44,10 @@ class ServerContext:
         object.__setattr__(self, "audit", AuditLog(self.state.database))
         object.__setattr__(self, "keys", RequestKeys(self.state.database))
         object.__setattr__(self, "metrics", Metrics(self.cells.values(), lambda: self.hub.count))
+
+    def find_users(self, library: ServedLibrary) -> tuple[CellSupervisor, ...]:
+        """Return the cells that run a library."""
+        return tuple(each for each in self.cells.values() if each.settings.library == library.path)
 
     def find_cell(self, name: str) -> CellSupervisor:
         """Return a cell; ApiRefusal (404) if there is none of this name."""

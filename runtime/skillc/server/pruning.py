@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from skillc.cells.database import DatabaseError
-from skillc.cells.host import JOURNAL
 from skillc.cells.journal.pruning import prune_journal
 from skillc.cells.recordings import RECORDINGS, recording_file
+from skillc.cells.settings import JOURNAL
 from skillc.server.state import CELLS, DATABASE
 from skillc.services.errors import RequestError, ServiceError
 

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import socket
-from collections.abc import Iterable
 from contextlib import AbstractContextManager, suppress
 
 import uvicorn
 from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
-from skillc.cells.host import CellSettings
 from skillc.cells.messages import StatusChanged
 from skillc.cells.operation import CellStatus
 from skillc.server.app import Application
+from skillc.server.cells import ServedCells
 from skillc.server.connections import BoundedConnection
 from skillc.server.context import ServerContext
 from skillc.server.endpoints import PREFIX
@@ -34,7 +33,7 @@ GRACE_S = 5
 
 
 def serve(
-    cells: Iterable[CellSettings], listening: Listening, state: AbstractContextManager[ServerState], reporter: Reporter
+    served: ServedCells, listening: Listening, state: AbstractContextManager[ServerState], reporter: Reporter
 ) -> None:
     """Serve cells until SIGINT or SIGTERM, and let them come to rest then; say how the cells are.
 
@@ -43,7 +42,7 @@ def serve(
     raise_open_files_limit()
     try:
         with state as opened, listening.open_socket() as listener:
-            asyncio.run(_serve(opened, list(cells), listening, listener, reporter))
+            asyncio.run(_serve(opened, served, listening, listener, reporter))
     except (DatabaseError, StoreError) as error:
         raise ServiceError(str(error)) from error
     except OSError as error:
@@ -52,7 +51,7 @@ def serve(
 
 async def _serve(
     state: ServerState,
-    settings: list[CellSettings],
+    served: ServedCells,
     listening: Listening,
     listener: socket.socket,
     reporter: Reporter,
@@ -66,13 +65,14 @@ async def _serve(
             reporter.say(_describe(news.status))
             log("cell", cell=news.status.name, state=news.status.state, reason=news.status.reason)
 
-    cells = {each.name: CellSupervisor(each, publish) for each in settings}
-    context = ServerContext(state, cells, hub)
+    cells = {each.name: CellSupervisor(each, publish, served.find_library(each).find_obstacle) for each in served.cells}
+    context = ServerContext(state, cells, hub, served.libraries)
     application = Application(context, listening.find_hosts(port), listening.proxy)
     server = uvicorn.Server(_configure(application.asgi, listening))
     address = f"{listening.scheme}://{listening.host}:{port}{PREFIX}"
     reporter.say(f"serving at {address}; the token of the command line is in {state.token_file.resolve()}")
     going = [asyncio.create_task(each.keep_going()) for each in cells.values()]
+    going += [asyncio.create_task(each.keep_up(context.find_users(each))) for each in served.libraries]
     try:
         await server.serve(sockets=[listener])
     finally:

@@ -12,10 +12,11 @@ from typing import assert_never
 
 from msgspec import structs
 
-from skillc.cells.host import CellSettings
 from skillc.cells.messages import Alive, CellAnswer, Happened, Message, Refused, Report, StartFailed, StatusChanged
 from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
+from skillc.cells.settings import CellSettings
+from skillc.workers.library_check import CheckedLibrary
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.states import State
 
@@ -34,19 +35,26 @@ LOG = "log"
 class CellSupervisor:
     """One cell of a server. `status` is how it is, `operations` are those that go on; `publish` hears what happens.
 
+    `find_obstacle` returns why its process must not be started now; empty if it may.
+
     `starts` counts how often its process was started, `ended` the operations that ended, by state.
     """
 
-    def __init__(self, settings: CellSettings, publish: Callable[[Happened | StatusChanged], None]) -> None:
-        self.settings = settings
+    def __init__(
+        self,
+        settings: CellSettings,
+        publish: Callable[[Happened | StatusChanged], None],
+        find_obstacle: Callable[[], str] = lambda: "",
+    ) -> None:
+        self.settings, self._find_obstacle = settings, find_obstacle
         self.status = _off(settings, "it has not been started")
         self.operations: dict[str, OperationStatus] = {}
         self.starts, self.ended = 0, Counter[State]()
         self._publish = publish
         self._cell: RemoteCell | None = None
         self._rounds, self._heard_at = 0, time.monotonic()
-        self._problem = ""
         self._settled = asyncio.Event()  # whether it has started, or failed to
+        self._problem = self._library_problem = ""
 
     @property
     def ready(self) -> bool:
@@ -81,6 +89,12 @@ class CellSupervisor:
             return Refused(kind="off", reason=f"{error}; whether it has done what was requested, its journal says")
         return answer.refused or answer.result
 
+    def set_library(self, checked: CheckedLibrary, problem: str) -> None:
+        """Let the cell start with a library from now on; `problem` is why that is not the one on disk."""
+        self.settings = structs.replace(self.settings, content=checked.content)
+        self._library_problem = problem
+        self._set_status(self.status)
+
     def stop(self, reason: str, operation: str | None = None) -> None:
         """Stop an operation in the next tick, or all; a cell that is off has nothing to stop."""
         if self._cell is not None:
@@ -92,6 +106,10 @@ class CellSupervisor:
         folder.mkdir(parents=True, exist_ok=True)
         self._problem, self._heard_at = "", time.monotonic()
         self._settled.clear()
+        if obstacle := await asyncio.to_thread(self._find_obstacle):
+            self._set_status(_off(self.settings, obstacle))
+            self._settled.set()
+            return
         self._set_status(_off(self.settings, "it starts"))
         try:
             with (folder / LOG).open("a", encoding="utf-8") as log:
@@ -153,6 +171,7 @@ class CellSupervisor:
                 assert_never(report)
 
     def _set_status(self, status: CellStatus) -> None:
+        status = structs.replace(status, library_problem=self._library_problem)
         if status != self.status:
             self.status = status
             self._publish(StatusChanged(status=status))

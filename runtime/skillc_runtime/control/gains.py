@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from types import MappingProxyType
 from typing import Any, TypeAlias, get_args
 
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.arm_driver import TaskLimits
+from skillc_runtime.platforms.python_modules import import_named
 
 NumberReader: TypeAlias = Callable[[str], float]
 """Returns a number of a data sheet by name, or raises an error that names the missing one."""
@@ -174,7 +174,7 @@ def load_own_law(name: str, number: NumberReader) -> OwnGains:
     """Import the class that `module:Class` names; UnknownController if it is not there or cannot be used."""
     module, _, attribute = name.partition(":")
     try:
-        law = getattr(import_module(module), attribute)
+        law = getattr(import_named(module), attribute)
     except Exception as error:
         raise UnknownController(f"the controller {name!r} cannot be imported: {error}") from error
     mode: Any = getattr(law, "mode", None)

@@ -28,7 +28,7 @@ skillc serve --bind 0.0.0.0:8421 --host cells.example.org:8421 --tls-cert chain.
 
 
 @click.command(cls=Command, examples=EXAMPLES)
-@click.argument("library", type=PATH, default=Path())
+@click.argument("libraries", metavar="[LIBRARY]..", type=PATH, nargs=-1)
 @click.option("--cell", "scenes", type=PATH, multiple=True, help="A scene to run as a cell. Can be repeated.")
 @click.option("--bind", default=DEFAULT_BIND, show_default=True, metavar="HOST:PORT", help="Listen to this address.")
 @click.option("--state", type=FOLDER, default=Path(".skillc"), show_default=True, help="Keep the state in this folder.")
@@ -51,7 +51,7 @@ skillc serve --bind 0.0.0.0:8421 --host cells.example.org:8421 --tls-cert chain.
 @grouped_option(NETWORK, "--tls-key", type=PATH, help="The key of the certificate (PEM).")
 @grouped_option(NETWORK, "--behind-proxy", "proxy", metavar="ADDRESS", help="Take requests from this proxy only.")
 def command(
-    library: Path,
+    libraries: tuple[Path, ...],
     scenes: tuple[Path, ...],
     bind: str,
     state: Path,
@@ -64,7 +64,10 @@ def command(
     tls_key: Path | None,
     proxy: str | None,
 ) -> None:
-    """Serve the cells with the skills of LIBRARY, by default the project here."""
+    """Serve cells with the skills of libraries, by default of the project here.
+
+    A cell has the skills of the library in whose folder its scene is, otherwise those of the first one.
+    """
     if find_spec("uvicorn") is None:
         raise click.UsageError("the server needs uvicorn and starlette: pip install 'skillc[server]'")
     from skillc.cli.console import Terminal
@@ -82,9 +85,9 @@ def command(
         raise click.UsageError("give both --tls-cert and --tls-key")
     certificate = Certificate(tls_cert, tls_key) if tls_cert is not None and tls_key is not None else None
     listening = Listening(*_parse_address(bind), names, certificate, proxy)
-    cells = choose_cells(library, scenes, state, backend, seed)
+    served = choose_cells(libraries or (Path(),), scenes, state, backend, seed)
     with logging_to(log_file):
-        serve(cells, listening, open_state(state, token_file), Terminal())
+        serve(served, listening, open_state(state, token_file), Terminal())
 
 
 def _parse_address(bind: str) -> tuple[str, int]:

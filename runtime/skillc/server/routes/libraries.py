@@ -5,7 +5,7 @@ from __future__ import annotations
 from http import HTTPStatus
 from importlib.metadata import version
 
-from skillc.server.api_types import DeviceStatus, VersionInfo
+from skillc.server.api_types import DeviceStatus, LibraryStatus, VersionInfo
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.openapi import VERSION
@@ -18,6 +18,18 @@ from skillc.workers.libraries import LibraryDescription
 
 async def show_version(call: ApiCall) -> VersionInfo:
     return VersionInfo(version("skillc"), VERSION)
+
+
+async def list_libraries(call: ApiCall) -> tuple[LibraryStatus, ...]:
+    return tuple(
+        LibraryStatus(
+            each.checked.name,
+            each.checked.hash,
+            each.refused,
+            tuple(cell.settings.name for cell in call.server.find_users(each)),
+        )
+        for each in call.server.libraries
+    )
 
 
 async def show_library(call: ApiCall) -> LibraryDescription:
@@ -39,6 +51,14 @@ def _find_holder(device: str, held: dict[str, tuple[str, ...] | None]) -> str | 
 REFUSALS = (HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE)
 ENDPOINTS = (
     ApiEndpoint("GET", "/version", "view", "Show the versions of skillc and of the API", show_version, VersionInfo),
+    ApiEndpoint(
+        "GET",
+        "/libraries",
+        "view",
+        "List the libraries, and why the one on disk is not used",
+        list_libraries,
+        tuple[LibraryStatus, ...],
+    ),
     ApiEndpoint(
         "GET",
         "/cells/{cell}/library",

@@ -36,7 +36,7 @@ class FailedSteps:
     """
 
     def __init__(self, library: SkillLibrary) -> None:
-        self._library = library
+        self.library = library
         self._failed: list[FailedStep] = []
 
     @property
@@ -86,10 +86,10 @@ class FailedSteps:
         found: list[Step] = []
         for step in steps:
             try:
-                possible = find_startable_implementations(step, self._library, state)
+                possible = find_startable_implementations(step, self.library, state)
                 if all(self.find_repeated(step.skill, step.arguments, each.name, state) for each in possible):
                     found.append(step)
-                state = apply_step(step, self._library, state)
+                state = apply_step(step, self.library, state)
             except (PlanError, EvaluationError):
                 break
         return tuple(found)
@@ -104,8 +104,8 @@ class FailedSteps:
 
     def _reads(self, failed: FailedStep) -> Iterator[FactPattern]:
         step = failed.step
-        implementation = self._library.implementations[f"{step.skill}.{failed.implementation}"]
-        skill = self._library.skills[step.skill]
+        implementation = self.library.implementations[f"{step.skill}.{failed.implementation}"]
+        skill = self.library.skills[step.skill]
         for requirement in (*skill.pre, *skill.hold, *implementation.pre, *implementation.hold):
             yield from facts_read(requirement.condition, step.arguments, failed.state.vocabulary)
 

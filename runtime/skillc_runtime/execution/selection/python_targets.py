@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import get_args
 
 from skillc_model.skills import Parameter
+from skillc_runtime.platforms.python_modules import import_named
 from skillc_runtime.primitives.primitive import Activity, Phase, Primitive
 from skillc_runtime.world.state.python_calls import (
     FOREIGN_ERRORS,
@@ -42,7 +42,7 @@ def import_primitive(python: str) -> type[Primitive]:
     module_name, _, class_name = python.partition(":")
     try:
         with foreign_code:
-            module = importlib.import_module(module_name)
+            module = import_named(module_name)
     except FOREIGN_ERRORS as error:  # user code: whatever it raises, it cannot be used
         reason = error if isinstance(error, ImportError | ForeignError) else f"{type(error).__name__}: {error}"
         raise PrimitiveError(f"the Python module of `{python}` cannot be imported: {reason}") from error

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from importlib import import_module
 from types import TracebackType
 from typing import Any, TypeVar
 
 from skillc_rdf.vocabulary.types import local_name
+from skillc_runtime.platforms.python_modules import import_named
 
 T = TypeVar("T")
 
@@ -49,7 +49,7 @@ def load_python(target: str) -> Any:
     module, _, attribute = target.partition(":")
     try:
         with foreign_code:
-            return getattr(import_module(module), attribute)
+            return getattr(import_named(module), attribute)
     except FOREIGN_ERRORS as error:  # foreign code: it may raise anything
         expected = isinstance(error, ImportError | AttributeError | ValueError | ForeignError)
         reason = error if expected else f"{type(error).__name__}: {error}"
