@@ -1,4 +1,4 @@
-"""A library that changes on disk is checked and taken for the next operation; code that was not there at first is not."""
+"""A library that changes on disk is checked and taken for the next operation; code that is new is not."""
 
 from __future__ import annotations
 

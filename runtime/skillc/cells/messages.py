@@ -80,9 +80,8 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
     reason: str
 
 
-Message: TypeAlias = (
-    Submit | Give | SetPace | Acknowledge | TakeSnapshot | TakeSample | Edit | Disturb | TakeLibrary | End
-)
+Change: TypeAlias = Submit | Give | SetPace | Acknowledge | Edit | Disturb | TakeLibrary | End
+Message: TypeAlias = Change | TakeSnapshot | TakeSample
 
 
 class CellRequest(msgspec.Struct, frozen=True):

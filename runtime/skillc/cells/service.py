@@ -13,6 +13,7 @@ from skillc.cells.messages import (
     Acknowledge,
     CellAnswer,
     CellRequest,
+    Change,
     Disturb,
     Edit,
     End,
@@ -109,41 +110,47 @@ class CellService:
         try:
             if self._ending is not None:
                 raise RequestError(f"the cell ends: {self._ending}")
-            match message:
-                case Submit(operation=operation, request=wanted):
-                    self._host.submit(operation, wanted)
-                    self._pending.append(_Pending(number))
-                case Give(operation=operation, command=command):
-                    self._pending.append(_Pending(number, self._host.request(operation, command)))
-                case SetPace(factor=factor):
-                    self._pace.change(FAST if factor is None else factor)
-                    self._pending.append(_Pending(number, durable=False))
-                case Acknowledge():
-                    self._host.acknowledge()
-                    self._pending.append(_Pending(number))
-                case TakeSnapshot(devices=devices):
-                    taken = self._host.take_twin() if devices else self._host.take_snapshot()
-                    self._outbox.send(CellAnswer(number=number, result=taken))
-                case TakeSample():
-                    self._outbox.send(
-                        CellAnswer(number=number, result=msgspec.msgpack.encode(self._host.sampler.take()))
-                    )
-                case Edit(edits=edits, who=who, why=why):
-                    self._host.edit(edits, f"{who}: {why}")
-                    self._pending.append(_Pending(number))
-                case Disturb(disturbance=disturbance, who=who):
-                    self._host.disturb(disturbance, who)
-                    self._pending.append(_Pending(number, durable=False))
-                case TakeLibrary(content=content):
-                    self._host.take_library(content)
-                    self._pending.append(_Pending(number))
-                case End(reason=reason):
-                    self._end(reason)
-                    self._pending.append(_Pending(number))
-                case _:
-                    assert_never(message)
+            if isinstance(message, TakeSnapshot | TakeSample):
+                self._outbox.send(CellAnswer(number=number, result=self._look(message)))
+            else:
+                self._pending.append(self._carry_out(message, number))
         except (ServiceError, TooManyRequests, NotDurable) as error:
             self._outbox.send(CellAnswer(number=number, refused=_refuse(error)))
+
+    def _look(self, message: TakeSnapshot | TakeSample) -> bytes:
+        """Return what is asked for; nothing changes."""
+        match message:
+            case TakeSnapshot(devices=devices):
+                return self._host.take_twin() if devices else self._host.take_snapshot()
+            case TakeSample():
+                return msgspec.msgpack.encode(self._host.sampler.take())
+            case _:
+                assert_never(message)
+
+    def _carry_out(self, message: Change, number: int) -> _Pending:
+        """Do what a message with a number says, and return what is answered after the next tick."""
+        match message:
+            case Submit(operation=operation, request=wanted):
+                self._host.submit(operation, wanted)
+            case Give(operation=operation, command=command):
+                return _Pending(number, self._host.request(operation, command))
+            case SetPace(factor=factor):
+                self._pace.change(FAST if factor is None else factor)
+                return _Pending(number, durable=False)
+            case Acknowledge():
+                self._host.acknowledge()
+            case Edit(edits=edits, who=who, why=why):
+                self._host.edit(edits, f"{who}: {why}")
+            case Disturb(disturbance=disturbance, who=who):
+                self._host.disturb(disturbance, who)
+                return _Pending(number, durable=False)
+            case TakeLibrary(content=content):
+                self._host.take_library(content)
+            case End(reason=reason):
+                self._end(reason)
+            case _:
+                assert_never(message)
+        return _Pending(number)
 
     def _end(self, reason: str) -> None:
         """Interrupt all operations; the loop ends when everything is at rest."""
