@@ -167,6 +167,14 @@ def test_a_disturbance_that_is_not_possible_says_why(disturbance: Disturbance, r
         host.disturb(disturbance, "bo")
 
 
+def test_a_simulation_that_has_diverged_is_not_disturbed(tmp_path: Path) -> None:
+    with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
+        reality(host)._broken = "the acceleration of a joint is too large"
+        with pytest.raises(RequestError, match="nothing moves any more: the acceleration"):
+            host.disturb(Move("lab:Part-A", (0.1, 0.0, 0.0)), "bo")
+        assert find_state(host)[0] == "fault" and "start the cell again" in acknowledge(host)
+
+
 def test_a_thing_that_somebody_moved_is_there_when_the_cell_is_started_again(tmp_path: Path) -> None:
     settings, part = make_settings(tmp_path, SORTING, "kinematic"), "http://example.org/lab#Part-A"
     with open_cell(settings, SilentReporter()) as host:

@@ -166,6 +166,8 @@ class CellHost:
 
     def disturb(self, disturbance: Disturbance, who: str) -> None:
         """Let something happen to the simulated cell; RequestError if it is not possible."""
+        if (broken := self._backend.broken) is not None:
+            raise RequestError(f"nothing moves any more: {broken}")
         try:
             found = resolve_names(disturbance, self.world.snapshot())
             self._backend.disturber.disturb(found)
