@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
-from collections.abc import Callable, Mapping
-from contextlib import closing
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -61,6 +61,18 @@ def open_for_reading(path: Path, schema: Schema) -> sqlite3.Connection:
         connection.close()
         raise DatabaseError(f"{path} has the format {found}, and this skillc reads {schema.format}")
     return connection
+
+
+@contextmanager
+def transaction(connection: sqlite3.Connection) -> Iterator[None]:
+    """Do what a `with` statement does together, durably, or not at all."""
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        yield
+    except BaseException:
+        connection.execute("ROLLBACK")
+        raise
+    connection.execute("COMMIT")
 
 
 def describe_error(path: Path, error: sqlite3.Error) -> DatabaseError:

@@ -37,6 +37,7 @@ SECTIONS = {
         "serve",
         "ps",
         "start",
+        "orders",
         "rehearse",
         "attach",
         "logs",

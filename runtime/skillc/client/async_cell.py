@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncGenerator, Mapping, Sequence
+from datetime import datetime
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Literal
@@ -18,6 +19,7 @@ from skillc.client.errors import RefusedError
 from skillc.client.feed import follow_samples
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, PlanRequest, StopAll, WorldEdit, WorldQuery
+from skillc.server.orders.order import Missed, Order, OrderRequest
 from skillc.server.rehearsals import Rehearsal
 from skillc.services.errors import RequestError
 from skillc.workers.jobs import PlanPreview, QueryRows, RehearsalRequest, WorldFact, WorldFacts, WorldWrite
@@ -64,10 +66,10 @@ class AsyncCell:
         before its first call with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is
         one operation.
         """
-        request = OperationRequest(
-            task=optional_text(task, "the task"),
-            goal=optional_text(goal, "the goal"),
-            call=optional_text(skill, "the skill call"),
+        request = _describe(
+            task,
+            goal,
+            skill,
             arguments=read_arguments(arguments),
             approve=approve,
             ask_after_failure=ask_after_failure,
@@ -76,12 +78,58 @@ class AsyncCell:
             step=step,
             breakpoints=tuple(pause_at),
         )
-        if [request.task, request.goal, request.call].count(None) != 2:
-            raise RequestError("name exactly one of a task, a goal and a skill call")
         status = await self._connection.send(
             "POST", self._path("operations"), OperationStatus, request, key=key or str(uuid4())
         )
         return AsyncOperation(self._connection, status)
+
+    async def order(
+        self,
+        task: str | None = None,
+        *,
+        at: datetime,
+        every_s: float | None = None,
+        until: datetime | None = None,
+        count: int | None = None,
+        missed: Missed = "run-once",
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        skill: str | None = None,
+        approve: bool = False,
+        ask_after_failure: bool = False,
+        priority: int = 0,
+        deadline_s: float | None = None,
+        key: str | None = None,
+    ) -> Order:
+        """Let the server submit a task, a goal or a skill call `at` a time, with its offset from UTC.
+
+        It is submitted again every `every_s` s, `count` times or `until` a time. If that was not possible within 60 s,
+        the last one that was missed is submitted as soon as it is, or none with `missed="skip"`. The other parameters
+        are those of `start`.
+        """
+        request = _describe(
+            task,
+            goal,
+            skill,
+            arguments=read_arguments(arguments),
+            approve=approve,
+            ask_after_failure=ask_after_failure,
+            priority=priority,
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
+        )
+        if at.tzinfo is None or (until is not None and until.tzinfo is None):
+            raise RequestError("`at` and `until` need their offset from UTC, such as `datetime.now(UTC)` has")
+        choice = require_choice(missed, Missed, "`missed`")
+        order = OrderRequest(request, at, optional_seconds(every_s, "`every_s`"), until, count, choice)
+        return await self._connection.send("POST", self._path("orders"), Order, order, key=key or str(uuid4()))
+
+    async def orders(self) -> tuple[Order, ...]:
+        """Return the orders for it, also the last ones that have ended."""
+        return await self._connection.get(self._path("orders"), tuple[Order, ...])
+
+    async def remove_order(self, order: str) -> None:
+        """Forget an order by its id; what it has submitted goes on."""
+        await self._connection.send("DELETE", join("orders", require_text(order, "the order")), type(None))
 
     async def operations(self, limit: int = OPERATIONS, ongoing: bool = False) -> tuple[AsyncOperation, ...]:
         """Return its last operations, the last one first; with `ongoing` all that have not ended, and no others."""
@@ -218,3 +266,15 @@ class AsyncCell:
 
     def _path(self, *parts: str) -> str:
         return join("cells", self.name, *parts)
+
+
+def _describe(task: str | None, goal: str | None, skill: str | None, **settings: Any) -> OperationRequest:
+    """Return a request; RequestError unless it is for exactly one of a task, a goal and a skill call."""
+    if [task, goal, skill].count(None) != 2:
+        raise RequestError("name exactly one of a task, a goal and a skill call")
+    return OperationRequest(
+        task=optional_text(task, "the task"),
+        goal=optional_text(goal, "the goal"),
+        call=optional_text(skill, "the skill call"),
+        **settings,
+    )

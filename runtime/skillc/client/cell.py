@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal
 
@@ -13,6 +14,7 @@ from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus
+from skillc.server.orders.order import Missed, Order
 from skillc.server.rehearsals import Rehearsal
 from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldWrite
 from skillc.workers.libraries import LibraryDescription
@@ -65,6 +67,51 @@ class ServerCell:
             key=key,
         )
         return ServerOperation(self._loop, self._loop.run(starting))
+
+    def order(
+        self,
+        task: str | None = None,
+        *,
+        at: datetime,
+        every_s: float | None = None,
+        until: datetime | None = None,
+        count: int | None = None,
+        missed: Missed = "run-once",
+        arguments: Mapping[str, Any] | None = None,
+        goal: str | None = None,
+        skill: str | None = None,
+        approve: bool = False,
+        ask_after_failure: bool = False,
+        priority: int = 0,
+        deadline_s: float | None = None,
+        key: str | None = None,
+    ) -> Order:
+        """Let the server submit something at a time, once or again; the parameters are those of `AsyncCell`."""
+        ordering = self._cell.order(
+            task,
+            at=at,
+            every_s=every_s,
+            until=until,
+            count=count,
+            missed=missed,
+            arguments=arguments,
+            goal=goal,
+            skill=skill,
+            approve=approve,
+            ask_after_failure=ask_after_failure,
+            priority=priority,
+            deadline_s=deadline_s,
+            key=key,
+        )
+        return self._loop.run(ordering)
+
+    def orders(self) -> tuple[Order, ...]:
+        """Return the orders for it, also the last ones that have ended."""
+        return self._loop.run(self._cell.orders())
+
+    def remove_order(self, order: str) -> None:
+        """Forget an order by its id; what it has submitted goes on."""
+        self._loop.run(self._cell.remove_order(order))
 
     def operations(self, limit: int = OPERATIONS, ongoing: bool = False) -> tuple[ServerOperation, ...]:
         """Return its last operations, the last one first; with `ongoing` all that have not ended, and no others."""

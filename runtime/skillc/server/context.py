@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import closing
 from dataclasses import dataclass, field
+from datetime import datetime
 from http import HTTPStatus
 
 from skillc.cells.journal.reading import JournalReader
@@ -14,6 +15,8 @@ from skillc.server.audit import AuditLog
 from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
 from skillc.server.metrics import Metrics
+from skillc.server.orders.store import Orders
+from skillc.server.orders.submitting import now_utc
 from skillc.server.problems import ApiRefusal
 from skillc.server.rehearsals import Rehearsals
 from skillc.server.served_library import ServedLibrary
@@ -25,7 +28,7 @@ from skillc.workers.pool import Workers
 
 @dataclass(frozen=True, slots=True)
 class ServerContext:
-    """A running server."""
+    """A running server; `clock` is that by which orders are due."""
 
     state: ServerState
     cells: dict[str, CellSupervisor]
@@ -35,14 +38,17 @@ class ServerContext:
     workers: Workers = field(default_factory=Workers)
     rehearsals: Rehearsals = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
+    clock: Callable[[], datetime] = now_utc
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
+    orders: Orders = field(init=False)
     metrics: Metrics = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rehearsals", Rehearsals(self.state.folder / REHEARSALS))
         object.__setattr__(self, "audit", AuditLog(self.state.database))
         object.__setattr__(self, "keys", RequestKeys(self.state.database))
+        object.__setattr__(self, "orders", Orders(self.state.database))
         object.__setattr__(self, "metrics", Metrics(self.cells.values(), lambda: self.hub.count))
 
     def find_users(self, library: ServedLibrary) -> tuple[CellSupervisor, ...]:

@@ -20,6 +20,7 @@ from skillc.server.endpoints import PREFIX
 from skillc.server.hub import EventHub, News
 from skillc.server.listening import Listening
 from skillc.server.log import log
+from skillc.server.orders.submitting import keep_submitting
 from skillc.server.state import ServerState
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import ServiceError
@@ -73,6 +74,7 @@ async def _serve(
     reporter.say(f"serving at {address}; the token of the command line is in {state.token_file.resolve()}")
     going = [asyncio.create_task(each.keep_going()) for each in cells.values()]
     going += [asyncio.create_task(each.keep_up(context.find_users(each))) for each in served.libraries]
+    going += [asyncio.create_task(keep_submitting(context, each)) for each in cells.values()]
     try:
         await server.serve(sockets=[listener])
     finally:

@@ -14,10 +14,16 @@ from skillc.server.access.tokens import TABLE as TOKENS
 from skillc.server.access.tokens import Tokens
 from skillc.server.audit import TABLE as AUDIT
 from skillc.server.idempotency import TABLE as REQUESTS
+from skillc.server.orders.store import TABLE as ORDERS
 from skillc.services.errors import ServiceError
 from skillc_runtime.store.store_lock import StoreLock
 
-SCHEMA = Schema(1, ";\n".join((TOKENS, AUDIT, REQUESTS)))
+
+def _add_orders(database: sqlite3.Connection) -> None:
+    database.execute(ORDERS)
+
+
+SCHEMA = Schema(2, ";\n".join((TOKENS, AUDIT, REQUESTS, ORDERS)), {1: _add_orders})
 LOCK, DATABASE, ADMIN_TOKEN, CELLS, REHEARSALS = "lock", "server.sqlite", "admin.token", "cells", "rehearsals"
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""

@@ -7,22 +7,27 @@ Exit code 3 if the task does not succeed, with --wait or --attach.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from datetime import datetime
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_task
 from skillc.cli.options import EXECUTION, grouped_option, task_arguments
+from skillc.cli.order_options import order_options
 from skillc.cli.server_access import complete_cell, connect_server, remark_going_on, remark_status, server_options
 
 if TYPE_CHECKING:
+    from skillc.client.cell import ServerCell
     from skillc.client.operation import ServerOperation
+    from skillc.server.orders.order import Missed
 
 EXAMPLES = """
 skillc start clean_table --cell iiwa_table
 skillc start deliver tray=lab:Tray-1 --wait
 skillc start --goal "lab:Bin-A contain lab:Part-1" --approve
+skillc start clean_table --at 2027-01-04T07:00:00+01:00 --every 86400 --missed skip
 """
 
 
@@ -53,6 +58,7 @@ skillc start --goal "lab:Bin-A contain lab:Part-1" --approve
 )
 @grouped_option(EXECUTION, "--priority", default=0, help="Of operations that wait, the higher comes first.")
 @grouped_option(EXECUTION, "--key", metavar="TEXT", help="The same request with the same key is one operation.")
+@order_options
 @server_options
 def command(
     task: str | None,
@@ -69,31 +75,52 @@ def command(
     deadline: float | None,
     priority: int,
     key: str | None,
+    at: datetime | None,
+    **repeated: Any,
 ) -> int:
-    """Start TASK of the cell's library, and print the id of the operation."""
+    """Start TASK of the cell's library, and print the id of the operation, or with --at that of the order."""
     if wait and attach:
         raise click.UsageError("--wait and --attach cannot be combined")
+    if at is None and any(value is not None for value in repeated.values()):
+        raise click.UsageError("--every, --until, --count and --missed need --at")
+    if at is not None and (wait or attach or step or pause_at):
+        raise click.UsageError("--at cannot be combined with --wait, --attach, --step and --pause-at")
     with connect_server() as server:
         place = server.cell(cell)
-        started = place.start(
-            task,
-            arguments=arguments,
-            goal=goal,
-            skill=skill,
-            approve=approve,
-            ask_after_failure=ask,
-            priority=priority,
-            deadline_s=deadline,
-            step=step,
-            pause_at=pause_at,
-            key=key,
-        )
+        request: dict[str, Any] = {
+            "arguments": arguments,
+            "goal": goal,
+            "skill": skill,
+            "approve": approve,
+            "ask_after_failure": ask,
+            "priority": priority,
+            "deadline_s": deadline,
+            "key": key,
+        }
+        if at is not None:
+            return _order(place, task, at, request, **repeated)
+        started = place.start(task, step=step, pause_at=pause_at, **request)
         click.echo(started.id)
         if attach:
             from skillc.cli.attached import attach as show
 
             return show(place, started)
         return wait_for_end(started) if wait else 0
+
+
+def _order(
+    place: ServerCell,
+    task: str | None,
+    at: datetime,
+    request: dict[str, Any],
+    every: float | None,
+    until: datetime | None,
+    count: int | None,
+    missed: Missed | None,
+) -> int:
+    order = place.order(task, at=at, every_s=every, until=until, count=count, missed=missed or "run-once", **request)
+    click.echo(order.id)
+    return 0
 
 
 def wait_for_end(operation: ServerOperation) -> int:

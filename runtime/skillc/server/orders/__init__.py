@@ -1,0 +1,1 @@
+"""Orders: operations that a server submits at a time, once or again and again."""

@@ -1,0 +1,88 @@
+"""Orders: operations that are submitted at a time, once or again and again."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+from http import HTTPStatus
+
+from skillc.cells.database import transaction
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.idempotency import KeyReused
+from skillc.server.orders.order import LATE_S, Order, OrderRequest
+from skillc.server.orders.store import TooManyOrders
+from skillc.server.problems import ApiRefusal
+from skillc_runtime.recording.envelope import make_run_id
+
+LAST = datetime(2200, 1, 1, tzinfo=UTC)
+"""Orders do not begin after this."""
+
+
+async def add_order(call: ApiCall) -> Order:
+    cell, wanted = call.server.find_cell(call.path["cell"]).settings.name, call.body
+    name = make_run_id(wanted.request.task or "order")
+    try:
+        with transaction(call.server.state.database):
+            if call.key is not None and (first := _claim(call, cell, call.key, name)) != name:
+                return _find(call, first)
+            _check(wanted, call.server.clock())
+            call.server.orders.add(name, cell, call.client.name, wanted)
+    except TooManyOrders as error:
+        raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, str(error)) from error
+    return _find(call, name)
+
+
+async def list_orders(call: ApiCall) -> tuple[Order, ...]:
+    return call.server.orders.list(call.server.find_cell(call.path["cell"]).settings.name)
+
+
+async def remove_order(call: ApiCall) -> None:
+    call.server.orders.remove(_find(call, call.path["order"]).id)
+
+
+def _find(call: ApiCall, name: str) -> Order:
+    if (found := call.server.orders.find(name)) is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no order `{name}`")
+    return found
+
+
+def _claim(call: ApiCall, cell: str, key: str, name: str) -> str:
+    try:
+        return call.server.keys.claim(call.client.name, key, b"\0".join((b"order", cell.encode(), call.content)), name)
+    except KeyReused as error:
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+
+
+def _check(wanted: OrderRequest, now: datetime) -> None:
+    """Raise ApiRefusal for an order that cannot be one; whether the task exists then, its cell says."""
+    request = wanted.request
+    if request.continues:
+        raise _refuse("an order cannot continue an operation")
+    if [request.task, request.goal, request.call].count(None) != 2:
+        raise _refuse("name exactly one of a task, a goal and a skill call")
+    if not now - timedelta(seconds=LATE_S) <= wanted.at <= LAST:
+        raise _refuse(f"{wanted.at.isoformat()} is past, or after {LAST.year}; it is {now.isoformat()}")
+    if wanted.every_s is None and (wanted.until is not None or wanted.count is not None):
+        raise _refuse("`until` and `count` need `every_s`")
+    if wanted.until is not None and wanted.until < wanted.at:
+        raise _refuse("`until` is before `at`")
+
+
+def _refuse(detail: str) -> ApiRefusal:
+    return ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, detail)
+
+
+NOT_FOUND = (HTTPStatus.NOT_FOUND,)
+ENDPOINTS = (
+    ApiEndpoint(
+        "POST", "/cells/{cell}/orders", "operate", "Order an operation at a time, or again and again", add_order,
+        Order, body=OrderRequest, status=HTTPStatus.CREATED, refusals=NOT_FOUND, takes_key=True,
+    ),
+    ApiEndpoint(
+        "GET", "/cells/{cell}/orders", "view", "List the orders for a cell", list_orders, tuple[Order, ...],
+        refusals=NOT_FOUND,
+    ),
+    ApiEndpoint(
+        "DELETE", "/orders/{order}", "operate", "Remove an order; what it has submitted goes on", remove_order,
+        status=HTTPStatus.NO_CONTENT, refusals=NOT_FOUND,
+    ),
+)  # fmt: skip
