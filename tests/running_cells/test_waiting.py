@@ -1,0 +1,59 @@
+"""Nobody waits for ever for a planner, or for an approval."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from execution.test_planning_job import hanging_planners, runs, wait_until
+from running_cells.test_operations import run_all
+from running_cells.yard import write_yard
+from skillc.cells.host import CellHost, open_cell
+from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.services.reporting import SilentReporter
+from skillc_runtime.execution.planning_job import PlanningJob
+
+LOAD = OperationRequest(call="Load(cart: lab:Cart-1, crate: lab:crate-1)")
+
+
+def run_until_ended(host: CellHost, operation: str) -> OperationStatus:
+    """Tick until an operation has ended; return how. It has to end while others go on."""
+    found = list[OperationStatus]()
+
+    def has_ended() -> bool:
+        if not host.tick():
+            host.loop.wait(0.01)
+        found.extend(each for each in host.take_changed() if each.id == operation)
+        return operation not in host._operations
+
+    wait_until(has_ended)
+    return found[-1]
+
+
+def test_a_planner_that_hangs_is_ended_and_holds_up_no_other_operation(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    planners, pid = hanging_planners(tmp_path)
+    job = partial(PlanningJob, planners=planners, deadline_s=2.0)
+    monkeypatch.setattr("skillc.cells.host.PlanningJob", job)
+    with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
+        host.submit("hangs", OperationRequest(task="carry_all"))
+        wait_until(lambda: host.tick() or pid.exists())
+        wait_until(pid.exists)
+        host.submit("goes", LOAD)
+        assert run_until_ended(host, "goes").state == "succeeded"
+        assert host.loop.runs[0].state == "planning"
+        (ended,) = run_all(host)
+    assert ended.id == "hangs" and ended.state == "failed" and "time" in ended.reason
+    wait_until(lambda: not runs(int(pid.read_text())))
+
+
+def test_an_approval_that_never_comes_ends_with_the_deadline(tmp_path: Path) -> None:
+    with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
+        host.submit("waits", OperationRequest(task="carry_all", approve=True, deadline_s=5.0))
+        host.submit("goes", LOAD)
+        assert run_until_ended(host, "goes").state == "succeeded"
+        (ended,) = run_all(host)
+    assert ended.state == "failed" and "5 s" in ended.reason
