@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -11,11 +11,19 @@ import pytest
 
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
+from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.services.backends import make_backend
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.execution.cell_loop import TooManyRequests
+from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.planning_queue import PlanningQueue
+from skillc_runtime.execution.repeat import repeat_run
 from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording.commands import EditWorld
+from skillc_runtime.recording.events import Requested
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.model import WorldModel
 
 CRATES = [f"lab:crate-{number}" for number in range(4)]
 
@@ -56,3 +64,25 @@ def test_operations_wait_for_the_cell_by_priority_up_to_a_number(
         "op-2": "succeeded",
         "op-3": "failed",
     }
+
+
+@pytest.mark.parametrize("ticks", [0, 12])
+def test_an_edit_of_a_person_is_an_input_that_can_be_repeated(tmp_path: Path, ticks: int) -> None:
+    with opened(tmp_path) as host:
+        host.submit("first", OperationRequest(task="carry_all"))
+        while ticks and not host.loop.runs[0].tree:
+            if not host.tick():
+                host.loop.wait(0.01)
+        for _ in range(ticks):
+            host.tick()
+        host.edit(["lab:Goal skiros:contain lab:crate-5"], "Ada", "I carried it")
+        (ended,) = run_all(host)
+        assert ended.state == "succeeded"
+        with closing(JournalReader(host.settings.journal)) as reader:
+            recorded = [each.event for each in reader.envelopes("first")]
+        scene = load_scene(Path(host.settings.scene), host.library.vocabulary)
+        assert check_events(recorded, host.library, scene) is None
+        repeated = repeat_run(recorded, host.library, make_backend("kinematic", WorldModel(scene), 0))
+    (edit,) = (each.command for each in recorded if isinstance(each, Requested))
+    assert isinstance(edit, EditWorld) and (edit.who, edit.why) == ("Ada", "I carried it")
+    assert repeated.difference is None and repeated.ended, str(repeated.difference)

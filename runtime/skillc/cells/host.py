@@ -13,6 +13,7 @@ from skillc.cells.condition import CellCondition
 from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
 from skillc.cells.database import DatabaseError
 from skillc.cells.disturbing import resolve_names
+from skillc.cells.editing import edit_world
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
@@ -30,7 +31,6 @@ from skillc.services.errors import RequestError
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
-from skillc.services.world_edits import read_edits
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.disturbances import Disturbance, DisturbanceRefused
 from skillc_runtime.execution.assignment import Assignment
@@ -49,9 +49,8 @@ from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
-from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.names import NoSuchName
-from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_OPERATIONS = 200
@@ -154,15 +153,11 @@ class CellHost:
         """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that."""
         return encode_snapshot(self._describe_known(report_devices(self._backend)))
 
-    def edit(self, edits: Sequence[str], origin: str) -> None:
+    def edit(self, edits: Sequence[str], who: str, why: str) -> None:
         """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
         if self.loop.fault is not None:
             raise RequestError(f"the world of {self.settings.name} cannot be written: {self.loop.fault}")
-        changes = read_edits(edits, self.world.snapshot())
-        try:
-            self.world.commit(changes, origin, None)
-        except (WorldError, StoreError) as error:
-            raise RequestError(str(error)) from error
+        edit_world(self.world, edits, who, why, self.loop, self._operations.values())
 
     def disturb(self, disturbance: Disturbance, who: str) -> None:
         """Let something happen to the simulated cell; RequestError if it is not possible."""

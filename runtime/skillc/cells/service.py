@@ -140,7 +140,7 @@ class CellService:
             case Acknowledge():
                 self._host.acknowledge()
             case Edit(edits=edits, who=who, why=why):
-                self._host.edit(edits, f"{who}: {why}")
+                self._host.edit(edits, who, why)
             case Disturb(disturbance=disturbance, who=who):
                 self._host.disturb(disturbance, who)
                 return _Pending(number, durable=False)
