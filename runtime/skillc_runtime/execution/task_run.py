@@ -6,7 +6,6 @@ from contextlib import nullcontext
 from dataclasses import replace
 from typing import Literal
 
-from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
@@ -22,8 +21,8 @@ from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy
 from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
-from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER, Ending, Refusal, refusal
-from skillc_runtime.execution.tree.run import TreeRun
+from skillc_runtime.execution.run_status import RunStatus
+from skillc_runtime.execution.task_state import Ending, Refusal, refusal
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
@@ -31,17 +30,15 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure
-from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.transactions import StoreError
 
 
-class TaskRun:
+class TaskRun(RunStatus):
     """One execution of a task, from its submission to its end; `id` names it in its cell.
 
-    It has no loop: `tick` is called once a tick of the cell, and never waits. `attempts` are those that have ended;
-    `failure` is why it did not succeed, `facts` what its success rests on, `reason` why it is in its state.
+    It has no loop: `tick` is called once a tick of the cell, and never waits.
     """
 
     def __init__(
@@ -54,71 +51,12 @@ class TaskRun:
         settings: RunSettings,
     ) -> None:
         """Submit a task; nothing starts before the first tick."""
-        self.id, self.assignment, self.settings = run_id, assignment, settings
-        self.state: State = "queued"
-        self.reason = ""
-        self.end: EndState | None = None
-        self.attempts: list[AttemptResult] = []
-        self.failure: Failure | None = None
-        self.facts: tuple[KnownFact, ...] = ()
-        self._context, self._claims = context, claims
-        self._next = NextAttempt(start_preparation)
+        super().__init__(run_id, assignment, settings, claims, NextAttempt(start_preparation))
+        self._context = context
         self._submitted_at = context.backend.clock.now
-        self._attempt: Attempt | None = None
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._emit(make_start_event(assignment, context.library, context.origin, self._now, settings, context.gate))
-
-    @property
-    def ended(self) -> bool:
-        """Whether it has ended."""
-        return self.end is not None
-
-    @property
-    def needs_time(self) -> bool:
-        """Whether the clock of the cell must go on for this run: not while it only plans, or waits for devices."""
-        return self._attempt is not None or self.state in ("planned", "paused")
-
-    @property
-    def waits_for_decision(self) -> bool:
-        """Whether a step failed and somebody has to decide how to go on."""
-        return self.state == "paused" and self._attempt is None
-
-    @property
-    def waits_for(self) -> str:
-        """For what its planning waits before it begins; empty if for nothing. It is no event: it depends on others."""
-        return self._next.waits_for
-
-    @property
-    def devices(self) -> frozenset[str] | None:
-        """The devices, by IRI, that it holds; None for the whole cell."""
-        return self._claims.devices_of(self.id)
-
-    @property
-    def tree(self) -> TreeRun | None:
-        """The tree that runs; None between attempts."""
-        return self._attempt.tree if self._attempt is not None else None
-
-    @property
-    def allowed(self) -> tuple[str, ...]:
-        """The names of the commands that are allowed now."""
-        allowed = ALLOWED_AFTER_FAILURE if self.waits_for_decision else ALLOWED[self.state]
-        return (*allowed, ANSWER) if self.prompts and self.state != "stopping" else allowed
-
-    @property
-    def prompts(self) -> tuple[Prompt, ...]:
-        """What its skills ask operators."""
-        return self._attempt.tree.prompts if self._attempt is not None else ()
-
-    @property
-    def stands(self) -> bool:
-        """Whether it is paused, or all that goes on is that operators are asked."""
-        return self.state == "paused" or (self._attempt is not None and self._attempt.tree.only_asks)
-
-    @property
-    def verified(self) -> bool | None:
-        """Whether a success rests on no fact that is only assumed; None if the task did not succeed."""
-        return None if self.state != "succeeded" else not unverified_facts(self.facts)
 
     def request(self, command: commands.Command, tick: int) -> Refusal | None:
         """Do what is requested in a tick of the loop; return why not if it is refused, and nothing has changed."""
