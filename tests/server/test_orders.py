@@ -229,6 +229,9 @@ def test_the_same_request_twice_is_one_order(server: RunningServer) -> None:
         ({"every_s": 10, "until": "2001-01-01T00:00:00Z"}, "`until` is before `at`"),
         ({"request": {}}, "exactly one"),
         ({"request": {"continues": "one"}}, "cannot continue"),
+        ({"request": {"task": "carry_al"}}, "did you mean `carry_all`"),
+        ({"request": {"task": "carry", "arguments": {"crate": "lab:crate-1"}}}, "to"),
+        ({"request": {"goal": "lab:Goal contains lab:crate-1"}}, "contains"),
     ],
 )
 def test_what_is_no_order_is_refused(server: RunningServer, order: dict[str, Any], detail: str) -> None:

@@ -9,13 +9,16 @@ from typing import TypeAlias, assert_never
 
 import msgspec
 
+from skillc.cells.assigning import assign_request
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot
+from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.scenes import describe_state, query_document
 from skillc.workers.devices import Device, list_devices
 from skillc.workers.jobs import (
+    CheckRequest,
     DescribeLibrary,
     Job,
     ListDevices,
@@ -48,7 +51,14 @@ MAX_ROWS = 10_000
 """How many rows of the answer to a query are returned."""
 
 JobAnswer: TypeAlias = (
-    QueryRows | WorldFacts | tuple[WorldWrite, ...] | LibraryDescription | tuple[Device, ...] | PlanPreview | TaskResult
+    QueryRows
+    | WorldFacts
+    | tuple[WorldWrite, ...]
+    | LibraryDescription
+    | tuple[Device, ...]
+    | PlanPreview
+    | TaskResult
+    | None
 )
 
 
@@ -88,8 +98,17 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return describe_library(known.library)
         case ListDevices():
             return list_devices(known.state)
+        case CheckRequest():
+            _check(job, known)
+            return None
         case _:
             assert_never(job)
+
+
+def _check(job: CheckRequest, known: CellSnapshot) -> None:
+    """Raise ServiceError for an operation that could not be submitted."""
+    assign_request(job.task, job.goal, job.call, job.arguments, known.library, known.state)
+    parse_breakpoints(job.breakpoints, known.library)
 
 
 def _query(sparql: str, known: CellSnapshot) -> QueryRows:

@@ -44,6 +44,16 @@ class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
     """List the devices of the cell."""
 
 
+class CheckRequest(msgspec.Struct, frozen=True, tag="check"):
+    """Check that an operation could be submitted now; its values are those of an OperationRequest."""
+
+    task: str | None
+    goal: str | None
+    call: str | None
+    arguments: dict[str, str]
+    breakpoints: tuple[str, ...]
+
+
 class PreviewPlan(msgspec.Struct, frozen=True, tag="plan"):
     """Plan for a task with arguments, or for a goal; the search ends after `deadline_s` s."""
 
@@ -61,7 +71,9 @@ class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
     folder: str | None
 
 
-Job: TypeAlias = QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | PreviewPlan | Rehearse
+Job: TypeAlias = (
+    QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | CheckRequest | PreviewPlan | Rehearse
+)
 
 
 class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):

@@ -6,11 +6,15 @@ from datetime import UTC, datetime, timedelta
 from http import HTTPStatus
 
 from skillc.cells.database import transaction
+from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
 from skillc.server.orders.order import LATE_S, Order, OrderRequest
 from skillc.server.orders.store import TooManyOrders
+from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import ApiRefusal
+from skillc.server.routes.world import QUERY_S
+from skillc.workers.jobs import CheckRequest
 from skillc_runtime.recording.envelope import make_run_id
 
 LAST = datetime(2200, 1, 1, tzinfo=UTC)
@@ -20,11 +24,14 @@ LAST = datetime(2200, 1, 1, tzinfo=UTC)
 async def add_order(call: ApiCall) -> Order:
     cell, wanted = call.server.find_cell(call.path["cell"]).settings.name, call.body
     name = make_run_id(wanted.request.task or "order")
+    _check(wanted, call.server.clock())
+    request = wanted.request
+    possible = CheckRequest(request.task, request.goal, request.call, request.arguments, request.breakpoints)
+    await ask_about(call, possible, type(None), QUERY_S)
     try:
         with transaction(call.server.state.database):
             if call.key is not None and (first := _claim(call, cell, call.key, name)) != name:
                 return _find(call, first)
-            _check(wanted, call.server.clock())
             call.server.orders.add(name, cell, call.client.name, wanted)
     except TooManyOrders as error:
         raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, str(error)) from error
@@ -53,7 +60,7 @@ def _claim(call: ApiCall, cell: str, key: str, name: str) -> str:
 
 
 def _check(wanted: OrderRequest, now: datetime) -> None:
-    """Raise ApiRefusal for an order that cannot be one; whether the task exists then, its cell says."""
+    """Raise ApiRefusal for an order that cannot be one at this time, whatever its operation is."""
     request = wanted.request
     if request.continues:
         raise _refuse("an order cannot continue an operation")
@@ -72,10 +79,11 @@ def _refuse(detail: str) -> ApiRefusal:
 
 
 NOT_FOUND = (HTTPStatus.NOT_FOUND,)
+REFUSALS = (*NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE)
 ENDPOINTS = (
     ApiEndpoint(
         "POST", "/cells/{cell}/orders", "operate", "Order an operation at a time, or again and again", add_order,
-        Order, body=OrderRequest, status=HTTPStatus.CREATED, refusals=NOT_FOUND, takes_key=True,
+        Order, body=OrderRequest, status=HTTPStatus.CREATED, refusals=REFUSALS, takes_key=True,
     ),
     ApiEndpoint(
         "GET", "/cells/{cell}/orders", "view", "List the orders for a cell", list_orders, tuple[Order, ...],
