@@ -13,6 +13,7 @@ from typing import TypeVar
 import pytest
 
 from skillc.cells.database import DatabaseError
+from skillc.cells.evidence import EvidenceKeeper, read_merged
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.journal.schema import SCHEMA
@@ -99,6 +100,28 @@ def test_the_evidence_for_each_fact_survives(
     with opened(tmp_path, DiskStore) as (again, _, _):
         assert evidence(again) == before
     assert len(set(before.values())) >= 3
+
+
+@pytest.mark.parametrize("kept", [3, 8, 500])
+@pytest.mark.parametrize("seed", range(6))
+def test_of_a_long_history_only_the_last_writes_are_read(
+    tmp_path: Path, seed: int, kept: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("skillc_runtime.world.state.evidence.MAX_WRITES", kept)
+    monkeypatch.setattr("skillc.cells.evidence.PERIOD", 7)
+    chance = Random(f"long {seed}")
+    for _ in range(3):
+        with opened(tmp_path, DiskStore) as (world, journal, _), reading(journal.path) as reader:
+            keeper = EvidenceKeeper(world, journal, reader)
+            for _ in range(chance.randint(5, 25)):
+                write(world, chance)
+                keeper.keep()
+                journal.commit()
+            before, facts = evidence(world), facts_of(world.snapshot())
+        with opened(tmp_path, DiskStore) as (again, journal, _), reading(journal.path) as reader:
+            assert (evidence(again), facts_of(again.snapshot())) == (before, facts)
+            merged = read_merged(reader)
+            assert merged is not None and len(reader.writes(merged.sequence)) < kept + 7
 
 
 def test_a_world_that_is_older_than_the_journal_is_refused(tmp_path: Path) -> None:

@@ -95,6 +95,7 @@ PRESSING = {
     "tolerance": 0.05,
 }
 SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
+ASKING = {"text": "Is it empty?", "choices": "yes | no", "default": None, "limit": 60.0}
 FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
 
 
@@ -130,7 +131,7 @@ def arguments(scene: str, cell: Cell) -> dict[str, object]:
     beside = Pose(tool.position + np.array([0.02, 0.0, 0.025]), tool.rotation)
     poses = {"via": beside, "target": raised, "path": [raised, tool], "at": tool}
     directions = {"along": -tool.rotation[:, 2], "plane": tool.rotation[:, 0]}
-    return {**things(scene), **MOTION, **PRESSING, **SWINGING, **FIGURE, **poses, **directions}
+    return {**things(scene), **MOTION, **PRESSING, **SWINGING, **FIGURE, **ASKING, **poses, **directions}
 
 
 class Pushing(Primitive):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import types
 import typing
 from collections.abc import Sequence
@@ -187,6 +188,10 @@ def value(kind: Any) -> Any:
     match get_origin(kind):
         case typing.Literal:
             return get_args(kind)[0]
+        case typing.Annotated:
+            return value(get_args(kind)[0])
+        case builtins.tuple if ... not in get_args(kind):
+            return tuple(map(value, get_args(kind)))
         case typing.Union | types.UnionType:
             return value(get_args(kind)[0])
         case origin:

@@ -14,6 +14,7 @@ from skillc.cells.continuing import decisions_about, find_interrupted, prepare_c
 from skillc.cells.database import DatabaseError
 from skillc.cells.disturbing import resolve_names
 from skillc.cells.editing import edit_world
+from skillc.cells.evidence import EvidenceKeeper
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
@@ -79,6 +80,7 @@ class CellHost:
         self.world, self._journal, self._reader = world, journal, reader
         self._backend = build_again(settings.backend, world, settings.seed, reader)
         self._reality = RealityKeeper(self._backend, journal)
+        self._evidence = EvidenceKeeper(world, journal, reader)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
         self._recordings = CellRecordings(Path(settings.folder), self._backend, origin, reporter)
         self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
@@ -222,6 +224,7 @@ class CellHost:
     def _commit(self) -> None:
         """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""
         self._reality.keep(standing=not self.loop.runs)
+        self._evidence.keep()
         self._journal.commit()
 
     def _continue(self, operation: str, request: OperationRequest) -> None:

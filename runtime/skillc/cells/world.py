@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from skillc.cells.database import DatabaseError
+from skillc.cells.evidence import read_merged, restore_evidence
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalledWrite, JournalReader
-from skillc_runtime.world.state.evidence import EvidenceLedger
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, TransactionLog
 from skillc_runtime.world.state.world_state import WorldState
@@ -18,15 +18,13 @@ def restore_world(
 ) -> WorldModel:
     """Return the world that a store and a journal keep, with the evidence for its facts.
 
-    The store is in `state` after the write `sequence`; it gets the writes that it missed. All writes are read: no fact
-    that was ever assumed may count as given. DatabaseError if store and journal do not belong together, StoreError if
-    the store cannot be written.
+    The store is in `state` after the write `sequence`; it gets the writes that it missed. All writes are taken into
+    account: no fact that was ever assumed may count as given. DatabaseError if store and journal do not belong
+    together, StoreError if the store cannot be written.
     """
-    writes = reader.writes()
-    missed = [each for each in writes if each.transaction.sequence > sequence]
-    state, sequence = _catch_up(store, state, sequence, missed)
-    world = WorldModel(state, journal, sequence)
-    _restore_evidence(world.ledger, state, writes)
+    state, sequence = _catch_up(store, state, sequence, reader.writes(after=sequence))
+    world, merged = WorldModel(state, journal, sequence), read_merged(reader)
+    restore_evidence(world.ledger, state, merged, reader.writes(after=merged.sequence if merged else 0))
     return world
 
 
@@ -45,13 +43,3 @@ def _catch_up(
             raise DatabaseError(f"{store} was written to by others; only its cell may write to it")
         state, sequence = after, transaction.sequence
     return state, sequence
-
-
-def _restore_evidence(ledger: EvidenceLedger, state: WorldState, writes: Sequence[JournalledWrite]) -> None:
-    """Add the writes that led to `state` to a ledger, each with the versions before and after it."""
-    versions = [state]
-    for write in reversed(writes):
-        versions.append(versions[-1].with_changes(write.undo))
-    for write, before, after in zip(writes, versions[:0:-1], versions[-2::-1], strict=True):
-        transaction = write.transaction
-        ledger.add(transaction.changes, before, after, write.evidence, transaction.origin)

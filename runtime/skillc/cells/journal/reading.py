@@ -94,9 +94,9 @@ class JournalReader:
             row = connection.execute("SELECT value FROM cell_state WHERE name = ?", (name,)).fetchone()
             return None if row is None else bytes(row[0])
 
-    def writes(self) -> tuple[JournalledWrite, ...]:
-        """Return the writes to the world, in order."""
-        return self._select_writes("ORDER BY sequence")
+    def writes(self, after: int = 0) -> tuple[JournalledWrite, ...]:
+        """Return the writes to the world after a number, in order."""
+        return self._select_writes("WHERE sequence > ? ORDER BY sequence", after)
 
     def latest_writes(self, before: int, limit: int) -> tuple[JournalledWrite, ...]:
         """Return the last writes to the world before a number, the last one first."""

@@ -60,6 +60,17 @@ def describe_evidence(known: DecidingWrite | None) -> str:
 
 
 @dataclass(frozen=True, slots=True)
+class Merged:
+    """Writes that are kept as one, with the weakest evidence; they lead from one version to another."""
+
+    evidence: Evidence | None
+    origin: str
+    changes: tuple[Change, ...]
+    before: WorldState
+    after: WorldState
+
+
+@dataclass(frozen=True, slots=True)
 class _Entry:
     write: DecidingWrite
     changes: tuple[Change, ...]
@@ -87,6 +98,19 @@ class EvidenceLedger:
         self._entries.append(_Entry(DecidingWrite(self.count, evidence, origin), changes, before, after))
         if len(self._entries) > MAX_WRITES:
             self._entries[:2] = [_merge(*self._entries[:2])]
+
+    @property
+    def merged(self) -> Merged | None:
+        """The oldest writes, as one; None if there are none."""
+        if not self._entries:
+            return None
+        oldest = self._entries[0]
+        return Merged(oldest.write.evidence, oldest.write.origin, oldest.changes, oldest.before, oldest.after)
+
+    @property
+    def separate(self) -> int:
+        """The number of writes that are kept separately, after those that are merged."""
+        return max(0, len(self._entries) - 1)
 
     def drop_last(self) -> None:
         """Remove the last write, which was undone: its facts have their former evidence again."""

@@ -1,0 +1,75 @@
+"""The evidence for the facts of a cell, kept so that a cell with a long history starts as quickly as a new one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+
+from skillc.cells.database import DatabaseError
+from skillc.cells.journal.journal import CellJournal
+from skillc.cells.journal.reading import JournalledWrite, JournalReader
+from skillc_runtime.store.change_json import decode_changes, encode_changes
+from skillc_runtime.world.state.difference import changes_between
+from skillc_runtime.world.state.evidence import Evidence, EvidenceLedger
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
+
+MERGED = "evidence"
+"""The name of the merged writes in the journal."""
+PERIOD = 1000
+"""After how many writes those that the ledger has merged are saved again."""
+
+
+class MergedWrites(msgspec.Struct, frozen=True):
+    """All writes up to `sequence` as one, as the ledger keeps them; `undo` leads back to the scene."""
+
+    sequence: int
+    evidence: Evidence | None
+    origin: str
+    changes: str
+    undo: str
+
+
+class EvidenceKeeper:
+    """Saves in the journal which writes the ledger of a world has merged: those need not be read again."""
+
+    def __init__(self, world: WorldModel, journal: CellJournal, reader: JournalReader) -> None:
+        saved = read_merged(reader)
+        self._world, self._journal = world, journal
+        self._sequence = saved.sequence if saved is not None else 0
+
+    def keep(self) -> None:
+        """Add the merged writes to the next commit if that is due."""
+        world, ledger = self._world, self._world.ledger
+        if world.sequence - self._sequence < PERIOD or (merged := ledger.merged) is None:
+            return
+        self._sequence = world.sequence - ledger.separate
+        undo = changes_between(merged.after, merged.before)
+        changes = encode_changes(merged.changes)
+        saved = MergedWrites(self._sequence, merged.evidence, merged.origin, changes, encode_changes(undo))
+        self._journal.set_state(MERGED, msgspec.msgpack.encode(saved))
+
+
+def read_merged(reader: JournalReader) -> MergedWrites | None:
+    """Return the merged writes that were saved last; None if none were. DatabaseError if they cannot be read."""
+    saved = reader.state(MERGED)
+    try:
+        return None if saved is None else msgspec.msgpack.decode(saved, type=MergedWrites)
+    except msgspec.MsgspecError as error:
+        raise DatabaseError(f"{reader} has evidence that cannot be read ({error}): restore a backup") from error
+
+
+def restore_evidence(
+    ledger: EvidenceLedger, state: WorldState, merged: MergedWrites | None, writes: Sequence[JournalledWrite]
+) -> None:
+    """Add the merged writes, and those after them that led to `state`, to a ledger, each with its versions."""
+    versions = [state]
+    for write in reversed(writes):
+        versions.append(versions[-1].with_changes(write.undo))
+    if merged is not None:
+        scene = versions[-1].with_changes(decode_changes(merged.undo))
+        ledger.add(decode_changes(merged.changes), scene, versions[-1], merged.evidence, merged.origin)
+    for write, before, after in zip(writes, versions[:0:-1], versions[-2::-1], strict=True):
+        transaction = write.transaction
+        ledger.add(transaction.changes, before, after, write.evidence, transaction.origin)
