@@ -120,18 +120,18 @@ def _count_repeats(
     operations: Mapping[str, RecordedOperation],
     histories: Mapping[str, Sequence[Envelope]],
 ) -> int:
-    """Return how many steps of an operation were begun before; that which ran at a crash may be, by a decision."""
+    """Return how many steps of an operation were begun again though they were done, by a skill or by hand.
+
+    One that ran at a crash may be begun again, by a decision.
+    """
     begun = Counter(key for key, _ in _steps(histories[operation.id]))
     within = sum(count - 1 for count in begun.values())
-    earlier = operations.get(operation.request.continues)
-    allowed = set[str]()
-    if earlier is not None and operation.request.decision != "skip":
-        allowed = {key for key, succeeded in _steps(histories[earlier.id]) if not succeeded}
-    before = set[str]()
-    while earlier is not None:
-        before |= {key for key, _ in _steps(histories[earlier.id])}
-        earlier = operations.get(earlier.request.continues)
-    return within + len((begun.keys() & before) - allowed)
+    done, following = set[str](), operation
+    while (earlier := operations.get(following.request.continues)) is not None:
+        skipped = following.request.decision == "skip"
+        done |= {key for key, succeeded in _steps(histories[earlier.id]) if succeeded or skipped}
+        following = earlier
+    return within + len(begun.keys() & done)
 
 
 def _steps(history: Sequence[Envelope]) -> list[tuple[str, bool]]:

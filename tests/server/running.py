@@ -53,7 +53,9 @@ class RunningServer:
 
     def wait_for(self, operation: str, *states: str) -> dict[str, Any]:
         """Wait until an operation is in one of the states, and return it."""
-        return wait_until(lambda: self.client.get(f"/operations/{operation}").json(), lambda it: it["state"] in states)
+        return wait_until(
+            lambda: self.client.get(f"/operations/{operation}").json(), lambda it: it.get("state") in states
+        )
 
     def wait_ready(self) -> dict[str, Any]:
         """Wait until the cell takes operations."""

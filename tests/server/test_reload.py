@@ -131,6 +131,9 @@ def test_code_that_has_changed_is_not_loaded_by_a_cell_that_dies(tmp_path: Path)
         assert cell(server)["state"] == "off" and not (folder / "changed").exists()
         (folder / "horn.py").write_text(CODE, encoding="utf-8")
         server.wait_ready()
+        (folder / "sounds").mkdir()
+        (folder / "sounds" / "tone.py").write_text("", encoding="utf-8")
+        wait_until(lambda: cell(server)["library_problem"], lambda found: "(tone.py)" in found)
 
 
 def test_a_cell_has_the_library_in_whose_folder_its_scene_is(tmp_path: Path) -> None:

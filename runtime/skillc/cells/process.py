@@ -23,11 +23,14 @@ from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 from skillc_runtime.execution.cell_loop import NotDurable
+from skillc_runtime.platforms.memory import limit_memory, physical_bytes
 from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.transactions import StoreError
 
+MEMORY_BYTES = max(4 * 2**30, (physical_bytes() or 0) // 4)
+"""The largest address space of a cell: a primitive that wants more fails, before the machine has none left."""
 CLOSE_S = 5.0
 """How long the last reports may take to be sent, in s."""
 
@@ -45,6 +48,7 @@ class _Log:
 
 def main(requests: socket.socket, stops: socket.socket) -> int:
     """Serve a cell until the other end is gone or asks for the end; return the exit code."""
+    limit_memory(MEMORY_BYTES)
     settings = FrameReader(requests, CellSettings).read()
     if settings is None:
         return 1

@@ -18,31 +18,29 @@ Stamp: TypeAlias = frozenset[tuple[str, int, int, int]]
 
 def read_stamp(folders: Iterable[str]) -> Stamp:
     """Return how the files in folders are now; hidden folders, other projects and environments are not entered."""
-    return frozenset(each for folder in folders for each in _stamp_folder(Path(folder)))
+    files = (file for folder in folders for file in _list_files(Path(folder), ENDINGS))
+    return frozenset(each for file in files for each in _stamp_file(file))
 
 
-def read_code(folders: Iterable[str], modules: Iterable[str]) -> dict[str, str]:
-    """Return the digests of the Python files of modules in folders, and of those beside them, by path."""
-    places = {Path(folder, *each.split(".")) for folder in folders for each in modules}
-    files = {file for each in places for file in (each.with_suffix(".py"), each / "__init__.py") if file.is_file()}
-    return {str(file): _digest(file) for each in files for file in each.parent.glob("*.py")}
+def read_code(folders: Iterable[str]) -> dict[str, str]:
+    """Return the digests of the Python files in folders, by path; what is not entered is as for `read_stamp`."""
+    files = (file for folder in folders for file in _list_files(Path(folder), (".py",)))
+    return {str(file): _digest(file) for file in files}
 
 
-def describe_changed(code: Mapping[str, str]) -> str:
-    """Return which of the files have other content than their digests say; empty if none."""
-    changed = [Path(path).name for path, digest in sorted(code.items()) if _digest(Path(path)) != digest]
+def describe_changed(before: Mapping[str, str], now: Mapping[str, str]) -> str:
+    """Return which Python files are new, are gone, or have other content than before; empty if none."""
+    changed = sorted(Path(path).name for path in before.keys() | now.keys() if before.get(path) != now.get(path))
     if not changed:
         return ""
     return f"Python files have changed ({', '.join(changed)}), which is not loaded; start the server again to use them"
 
 
-def _stamp_folder(folder: Path) -> Iterator[tuple[str, int, int, int]]:
+def _list_files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
     for place, folders, names in os.walk(folder):
-        inner = (each for each in folders if not each.startswith("."))
+        inner = (each for each in folders if not each.startswith(".") and each != "__pycache__")
         folders[:] = [each for each in inner if not is_nested_project(Path(place, each))]
-        for name in names:
-            if name.endswith(ENDINGS):
-                yield from _stamp_file(Path(place, name))
+        yield from (Path(place, name) for name in names if name.endswith(endings))
 
 
 def _stamp_file(file: Path) -> Iterator[tuple[str, int, int, int]]:

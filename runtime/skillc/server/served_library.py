@@ -66,7 +66,7 @@ class ServedLibrary:
 
     def find_obstacle(self) -> str:
         """Return why no cell may be started now: its code would be other than the server was started with."""
-        return describe_changed(self.code)
+        return describe_changed(self.code, read_code(self.checked.basis.folders))
 
     async def _check(self) -> None:
         answer = await asyncio.to_thread(self.outside.run, self._ask)
@@ -119,5 +119,5 @@ def open_library(path: Path, scenes: Sequence[Path]) -> ServedLibrary:
         }
         folders, added = catalogue.user_folders(), [each for each in sys.path if each not in before]
     sys.path[:] = before
-    code, stamp = read_code(basis.folders, basis.modules), read_stamp(basis.folders)
+    code, stamp = read_code(basis.folders), read_stamp(basis.folders)
     return ServedLibrary(place, checked, code, stamp, environment, tuple(folders), tuple(added), outside)

@@ -68,9 +68,11 @@ class JobRefused(msgspec.Struct, frozen=True):
     why: str
 
 
-def answer_job(request: tuple[Job, bytes]) -> bytes | JobRefused:
-    """Return the answer to a job for an encoded snapshot, as JSON, or why there is none."""
+def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
+    """Return the answer to a job for an encoded snapshot, as JSON, or why there is none; None asks if it is ready."""
     limit_memory(MEMORY_BYTES)
+    if request is None:
+        return b""
     job, snapshot = request
     try:
         return msgspec.json.encode(_answer(job, decode_snapshot(snapshot)))

@@ -19,6 +19,8 @@ MAX_WORKERS, MAX_WAITING = 2, 20
 """How many jobs are done at once, and how many wait."""
 TURN_S = 30.0
 """How long a job may wait for a process, in s."""
+START_S = 60.0
+"""How long a process may take to start, in s."""
 LOOK_S = 0.1
 """How often it is looked whether somebody still waits for an answer, in s."""
 
@@ -60,10 +62,10 @@ class Workers:
         If this is cancelled, the process is killed.
         """
         async with self._turn():
-            cancel = CancelToken(seconds)
+            cancel = CancelToken()
             self._ongoing.add(cancel)
             try:
-                answer = await asyncio.to_thread(self._ask, job, snapshot, cancel)
+                answer = await asyncio.to_thread(self._ask, job, snapshot, cancel, seconds)
             except Cancelled as error:
                 raise JobTimedOut(f"it took more than {seconds:g} s, and was ended; ask for less") from error
             finally:
@@ -95,14 +97,18 @@ class Workers:
         finally:
             self._free.release()
 
-    def _ask(self, job: Job, snapshot: bytes, cancel: CancelToken) -> bytes:
-        """Let a process do a job; it is kept for the next one if it has answered. Cancelled if it is not to go on."""
-        worker = self._idle.pop() if self._idle else WorkerProcess(answer_job, "spawn")
+    def _ask(self, job: Job, snapshot: bytes, cancel: CancelToken, seconds: float) -> bytes:
+        """Let a process do a job; it is kept for the next one if it has answered. Cancelled if it is not to go on.
+
+        The time in which a process starts does not count.
+        """
+        new = not self._idle
+        worker = WorkerProcess(answer_job, "spawn") if new else self._idle.pop()
         result: WorkerResult | None = None
         try:
-            worker.ask((job, snapshot))
-            while result is None and cancel.reason is None:
-                result = worker.wait(min(LOOK_S, cancel.remaining_s))
+            ready = not new or isinstance(_wait(worker, None, cancel.limited(START_S)), Returned)
+            limit = cancel.limited(seconds if ready else 0.0)
+            result = _wait(worker, (job, snapshot), limit) if ready else None
         finally:
             if isinstance(result, Returned):
                 self._idle.append(worker)
@@ -116,4 +122,13 @@ class Workers:
             case Died(why):
                 raise JobFailed(f"the process that should have answered has ended: {why}")
             case _:
-                raise Cancelled(cancel.reason or "")
+                raise Cancelled(limit.reason or "")
+
+
+def _wait(worker: WorkerProcess, request: tuple[Job, bytes] | None, cancel: CancelToken) -> WorkerResult | None:
+    """Return what a process answers to a request; None if it is not waited for any longer."""
+    result: WorkerResult | None = None
+    worker.ask(request)
+    while result is None and cancel.reason is None:
+        result = worker.wait(min(LOOK_S, cancel.remaining_s))
+    return result
