@@ -64,11 +64,17 @@ def test_what_is_written_of_a_condition_means_the_same(text: str) -> None:
     assert meant is not None and goal(format_condition(meant, known)).value == meant
 
 
+TINY = "lab:Felt.Weight > 0.00000001 kg"
+
+
 def as_json(condition: Condition) -> str:
     return msgspec.json.encode(condition).decode()
 
 
-@pytest.mark.parametrize("text", [*WRITTEN, "lab:Felt.Weight > 1 kg and lab:Felt.Weight != 0.5 kg"])
+@pytest.mark.parametrize(
+    "text",
+    [*WRITTEN, "lab:Felt.Weight > 1 kg and lab:Felt.Weight != 0.123456789 kg and lab:Felt.Weight > 0.00000001 kg"],
+)
 def test_a_goal_in_json_is_a_condition_of_a_compiled_library(text: str) -> None:
     meant = goal(text).value
     assert meant is not None and goal(as_json(meant)).value == meant
@@ -91,6 +97,8 @@ def test_a_goal_in_json_is_a_condition_of_a_compiled_library(text: str) -> None:
             '{"type": "has", "subject": {"type": "individual", "iri": "lab:Felt"}, "property": "skiros:Wait"}',
             "there is no property `skiros:Wait`",
         ),
+        ('{"type": "not", "body": ' * 1500 + "1" + "}" * 1500, "the goal is nested too deeply"),
+        ("{" + " " * 60_000 + "}", "the goal has 60002 characters, and 50000 at most are read"),
         ('{"type": "not", "body": ' * 200 + "1" + "}" * 200, "this is no condition in JSON"),
     ],
 )

@@ -122,3 +122,16 @@ def is_alive(pid: int) -> bool:
     except ProcessLookupError:
         return False
     return True
+
+
+def test_a_process_that_cannot_be_started_is_said(snapshot: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: Any) -> WorkerProcess:
+        raise OSError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(pool, "WorkerProcess", refuse)
+
+    async def ask(workers: Workers) -> None:
+        with pytest.raises(TooManyJobs, match=r"no process can be started \(Resource temporarily unavailable\)"):
+            await workers.answer(QUICK, snapshot, QueryRows, LIMIT_S)
+
+    use(ask)

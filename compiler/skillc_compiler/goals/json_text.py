@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from decimal import Decimal
 from typing import Any
 
 import msgspec
 
 from skillc_model.conditions import Condition
 from skillc_model.format_condition import format_condition
-from skillc_model.format_type import format_quantity
+from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 
 NAMES = frozenset(("iri", "relation", "property", "cls"))
@@ -26,7 +27,10 @@ def is_json(text: str) -> bool:
 
 
 def write_goal(text: str, vocabulary: Vocabulary, prefixes: Mapping[str, str]) -> str:
-    """Return a goal in JSON in the syntax of the language, numbers with their SI units; JsonGoalError if it is none."""
+    """Return a goal in JSON in the syntax of the language, numbers with their SI units.
+
+    JsonGoalError if it is none, RecursionError if it is nested too deeply.
+    """
     known = msgspec.structs.replace(vocabulary, prefixes={**vocabulary.prefixes, **prefixes})
     try:
         written = _Writer(known).rewrite(msgspec.json.decode(text))
@@ -59,7 +63,7 @@ class _Writer:
             case ({"type": "literal", "value": int() | float() as number}, {"type": "property", "property": str(name)}):
                 term = self._vocabulary.properties.get(self._expand(name))
                 if term is not None and isinstance(term.type, NumberType):
-                    return {"type": "variable", "name": format_quantity(float(number), term.type)}
+                    return {"type": "variable", "name": _format_exactly(number, term.type)}
         return side
 
     def _shorten(self, name: Any) -> Any:
@@ -68,3 +72,8 @@ class _Writer:
     def _expand(self, name: str) -> str:
         prefix, _, _ = name.partition(":")
         return self._vocabulary.expand(name) if prefix in self._vocabulary.prefixes else name
+
+
+def _format_exactly(number: float, type_: NumberType) -> str:
+    """Return a number with the SI unit of its type, with all its digits and without an exponent."""
+    return f"{Decimal(repr(number)):f} {SI_UNITS.get(type_.dimension, '')}".strip()

@@ -65,10 +65,14 @@ def _goal_in_json(
     text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str]
 ) -> Outcome[Condition | None]:
     """Parse a goal in JSON. What is wrong with its names and types has no place in the text."""
+    if len(text) > LONGEST:
+        return _refused("goal", f"the goal has {len(text)} characters, and {LONGEST} at most are read")
     try:
         written = write_goal(text, vocabulary, prefixes)
     except JsonGoalError as error:
         return _refused("goal", f"this is no condition in JSON: {error}")
+    except RecursionError:
+        return _refused("goal", "the goal is nested too deeply")
     outcome = parse_goal(written, vocabulary, individuals, prefixes)
     start = Span("goal", 1, 1, 1, 2)
     return Outcome(outcome.value, tuple(replace(each, span=start, labels=(), fix=None) for each in outcome.diagnostics))

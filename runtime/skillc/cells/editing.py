@@ -31,14 +31,14 @@ def edit_world(
     """
     state, now = world.snapshot(), loop.backend.clock.now
     changes = read_edits(edits, state)
+    publishers = [each.publisher for each in operations if not each.run.tree_runs]
     try:
         with ExitStack() as stack:
-            for each in operations:
-                if each.run.tree is None:  # a tree records changes itself
-                    stack.enter_context(recorded_changes(world, each.publisher, now))
+            for each in publishers:
+                stack.enter_context(recorded_changes(world, each, now))
             world.commit(changes, f"{who}: {why}", None)
     except (WorldError, StoreError) as error:
         raise RequestError(str(error)) from error
     labelled = tuple(label_change(each, state.vocabulary) for each in changes)
-    for each in operations:
-        each.publisher(Requested(time=now, command=EditWorld(labelled, who, why), tick=loop.ticks))
+    for operation in operations:
+        operation.publisher(Requested(time=now, command=EditWorld(labelled, who, why), tick=loop.ticks))

@@ -23,6 +23,6 @@ def decode_library(content: bytes) -> SkillLibrary:
 def load_library(settings: CellSettings) -> SkillLibrary:
     """Return the library of a cell, with the modules loaded that it was checked with."""
     for each in settings.modules:
-        with suppress(*FOREIGN_ERRORS, ForeignError), foreign_code:  # who uses it is told why it cannot be imported
+        with suppress(*FOREIGN_ERRORS, ForeignError), foreign_code:  # the skill that needs it reports the reason
             import_named(each)
     return decode_library(settings.content) if settings.content else compile_valid(find_library(Path(settings.library)))

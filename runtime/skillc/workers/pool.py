@@ -36,7 +36,7 @@ class JobTimedOut(Exception):
 
 
 class TooManyJobs(Exception):
-    """So many jobs wait that no more are taken."""
+    """So many jobs wait, or so many processes run, that no more are taken."""
 
 
 @dataclass(slots=True)
@@ -66,6 +66,8 @@ class Workers:
             self._ongoing.add(cancel)
             try:
                 answer = await asyncio.to_thread(self._ask, job, snapshot, cancel, seconds)
+            except OSError as error:
+                raise TooManyJobs(f"no process can be started ({error.strerror or error}); try again later") from error
             except Cancelled as error:
                 raise JobTimedOut(f"it took more than {seconds:g} s, and was ended; ask for less") from error
             finally:

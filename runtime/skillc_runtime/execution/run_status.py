@@ -9,6 +9,7 @@ from skillc_runtime.execution.device_claims import DeviceClaims
 from skillc_runtime.execution.preparation import NextAttempt
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER
 from skillc_runtime.execution.tree.run import TreeRun
+from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
 from skillc_runtime.recording.run_settings import RunSettings
@@ -64,6 +65,11 @@ class RunStatus:
     def tree(self) -> TreeRun | None:
         """The tree that runs; None between attempts."""
         return self._attempt.tree if self._attempt is not None else None
+
+    @property
+    def tree_runs(self) -> bool:
+        """Whether its tree runs, which then records the changes of the world by itself."""
+        return self._attempt is not None and self._attempt.tree.status is Status.RUNNING
 
     @property
     def allowed(self) -> tuple[str, ...]:

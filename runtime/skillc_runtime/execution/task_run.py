@@ -124,10 +124,9 @@ class TaskRun(RunStatus):
 
     def _try(self, command: commands.Command) -> Refusal | None:
         """Do the part of a command that may turn out to be impossible; return why, and then nothing has changed."""
-        tree_runs = self._attempt is not None and self._attempt.tree.status is Status.RUNNING
         world = self._context.backend.cell.world
         try:
-            with nullcontext() if tree_runs else recorded_changes(world, self._emit, self._now):
+            with nullcontext() if self.tree_runs else recorded_changes(world, self._emit, self._now):
                 prepared = try_command(command, self.assignment, self.attempts, self._context, self.tree)
         except (PlanError, StoreError, ValueError) as error:  # refused by the plan, by the store, or by the world model
             return Refusal(command.name, self.state, self.allowed, str(error))
