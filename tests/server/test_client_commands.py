@@ -99,6 +99,7 @@ def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
         (("world", "yard.ttl", "--cell", "yard"), 2, "name neither SCENE nor several individuals"),
         (("world", "--cell", "yard", "--show", "lab:crat-1"), 1, "did you mean lab:crate-1"),
         (("world", "--cell", "yard", "--query", "SELECT"), 1, "line 1, column 7"),
+        (("world", "--cell", "yard", "--history", "--query", "ASK {}"), 2, "--export and --history cannot be combined"),
         (("world", "--history"), 2, "--history requires --cell or --server"),
         (("scene", "edit", "--cell", "yard", "lab:Goal skiros:contain lab:crate-1"), 2, "--why"),
         (

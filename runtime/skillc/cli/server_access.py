@@ -11,7 +11,8 @@ import click
 from click.shell_completion import CompletionItem
 
 from skillc.cli.command import Command
-from skillc.cli.options import PATH, grouped_option
+from skillc.cli.completions import complete_task
+from skillc.cli.options import PATH, grouped_option, task_arguments
 from skillc.services.errors import ServiceError
 
 if TYPE_CHECKING:
@@ -45,6 +46,26 @@ def server_options(function: Function) -> Function:
         callback=lambda context, _, value: _keep(context, _TOKEN_FILE, value),
     )
     return url(file(function))
+
+
+def request_options(function: Function) -> Function:
+    """Add TASK with its arguments, `--goal` and `--skill` in its place, and `--cell`, to a command that is a client."""
+    options = (
+        click.argument("task", required=False, shell_complete=complete_task),
+        task_arguments,
+        click.option(
+            "--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one."
+        ),
+        click.option(
+            "--goal", metavar="CONDITION", help="Instead of a task: plan for this goal, a condition, PDDL or JSON."
+        ),
+        click.option(
+            "--skill", metavar="CALL", help="Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`."
+        ),
+    )
+    for option in reversed(options):
+        function = option(function)
+    return function
 
 
 def cell_options(function: Function) -> Function:

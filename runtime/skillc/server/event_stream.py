@@ -49,7 +49,7 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
     try:
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=Hello)
-            stream = EventStream(server, socket, hello.token)
+            stream = TokenSocket(server, socket, hello.token)
             name = stream.check_token().name
         with server.watchers.watching(name), server.hub.listening() as listener:
             if hello.operation is None:
@@ -67,7 +67,7 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class EventStream:
+class TokenSocket:
     """A WebSocket of a client with a token, to which nothing more is sent once the token is revoked."""
 
     server: ServerContext

@@ -14,7 +14,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from skillc.cells.messages import Refused, TakeSample
 from skillc.server.context import ServerContext
-from skillc.server.event_stream import CLOSE_CODES, HELLO_S, REFUSED, EventStream
+from skillc.server.event_stream import CLOSE_CODES, HELLO_S, REFUSED, TokenSocket
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 
@@ -55,7 +55,7 @@ async def stream_samples(server: ServerContext, sources: dict[str, SampleSource]
     async with _closing(socket):
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=SampleHello)
-            stream = EventStream(server, socket, hello.token)
+            stream = TokenSocket(server, socket, hello.token)
             name = stream.check_token().name
         cell = server.find_cell(hello.cell)
         source = sources.setdefault(hello.cell, SampleSource())

@@ -18,7 +18,7 @@ from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.scenes import describe_state, query_document
 from skillc.workers.devices import Device, list_devices
 from skillc.workers.jobs import (
-    CheckRequest,
+    CheckOperation,
     DescribeLibrary,
     Job,
     ListDevices,
@@ -100,14 +100,14 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return describe_library(known.library)
         case ListDevices():
             return list_devices(known.state)
-        case CheckRequest():
+        case CheckOperation():
             _check(job, known)
             return None
         case _:
             assert_never(job)
 
 
-def _check(job: CheckRequest, known: CellSnapshot) -> None:
+def _check(job: CheckOperation, known: CellSnapshot) -> None:
     """Raise ServiceError for an operation that could not be submitted."""
     assign_request(job.task, job.goal, job.call, job.arguments, known.library, known.state)
     parse_breakpoints(job.breakpoints, known.library)

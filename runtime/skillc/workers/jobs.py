@@ -44,7 +44,7 @@ class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
     """List the devices of the cell."""
 
 
-class CheckRequest(msgspec.Struct, frozen=True, tag="check"):
+class CheckOperation(msgspec.Struct, frozen=True, tag="check"):
     """Check that an operation could be submitted now; its values are those of an OperationRequest."""
 
     task: str | None
@@ -72,7 +72,7 @@ class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
 
 
 Job: TypeAlias = (
-    QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | CheckRequest | PreviewPlan | Rehearse
+    QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | CheckOperation | PreviewPlan | Rehearse
 )
 
 
@@ -124,7 +124,7 @@ class WorldWrite(msgspec.Struct, frozen=True):
     changes: tuple[LabelledChange, ...]
 
 
-class PlannedStep(msgspec.Struct, frozen=True):
+class PreviewedStep(msgspec.Struct, frozen=True):
     """A step of a plan: its skill, its arguments in short names, where the skill is defined, and when it runs, in s.
 
     The times are those of a schedule; without one they are None.
@@ -137,7 +137,7 @@ class PlannedStep(msgspec.Struct, frozen=True):
     duration_s: float | None = None
 
 
-class LeftOut(msgspec.Struct, frozen=True):
+class OmittedPart(msgspec.Struct, frozen=True):
     """Things without which a plan was made, and why; `harmless` if that is proved to make no difference."""
 
     kind: str
@@ -156,13 +156,13 @@ class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
     status: Literal["solved", "unsolvable", "gave-up"]
     sequence: int
     text: str
-    plan: tuple[PlannedStep, ...] = ()
+    plan: tuple[PreviewedStep, ...] = ()
     plan_optimal: bool = False
     optimal: str = ""
     at_least_s: float | None = None
     quality: str = ""
     assumptions: tuple[str, ...] = ()
-    left_out: tuple[LeftOut, ...] = ()
+    left_out: tuple[OmittedPart, ...] = ()
     duration_s: float | None = None
     makespan_s: float | None = None
     planner: str = ""

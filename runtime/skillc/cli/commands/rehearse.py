@@ -15,9 +15,8 @@ import click
 import msgspec
 
 from skillc.cli.command import Command
-from skillc.cli.completions import complete_task
-from skillc.cli.options import EXECUTION, PATH, grouped_option, json_option, task_arguments
-from skillc.cli.server_access import complete_cell, connect_server, server_options
+from skillc.cli.options import EXECUTION, PATH, grouped_option, json_option
+from skillc.cli.server_access import connect_server, request_options, server_options
 
 EXAMPLES = """
 skillc rehearse clean_table --cell iiwa_table
@@ -27,11 +26,7 @@ skillc rehearse --goal "lab:Bin-A contain lab:Part-1" --seed 3
 
 
 @click.command(cls=Command, examples=EXAMPLES)
-@click.argument("task", required=False, shell_complete=complete_task)
-@task_arguments
-@click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one.")
-@click.option("--goal", metavar="CONDITION", help="Instead of a task: plan for this goal, a condition or PDDL.")
-@click.option("--skill", metavar="CALL", help="Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.")
+@request_options
 @click.option("--film", type=PATH, metavar="FILE", help="Write a film of it, an MP4 file.")
 @grouped_option(
     EXECUTION, "--seed", default=0, show_default=True, help="Determines how the twin differs from what is known."

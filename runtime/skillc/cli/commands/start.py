@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.completions import complete_task
-from skillc.cli.options import EXECUTION, grouped_option, task_arguments
+from skillc.cli.options import EXECUTION, grouped_option
 from skillc.cli.order_options import order_options
-from skillc.cli.server_access import complete_cell, connect_server, remark_going_on, remark_status, server_options
+from skillc.cli.server_access import connect_server, remark_going_on, remark_status, request_options, server_options
 
 if TYPE_CHECKING:
     from skillc.client.cell import ServerCell
@@ -32,11 +31,7 @@ skillc start clean_table --at 2027-01-04T07:00:00+01:00 --every 86400 --missed s
 
 
 @click.command(cls=Command, examples=EXAMPLES)
-@click.argument("task", required=False, shell_complete=complete_task)
-@task_arguments
-@click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one.")
-@click.option("--goal", metavar="CONDITION", help="Instead of a task: plan for this goal, a condition or PDDL.")
-@click.option("--skill", metavar="CALL", help="Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.")
+@request_options
 @click.option("--wait", is_flag=True, help="Wait for the end.")
 @click.option("--attach", is_flag=True, help="Show the task while it runs, as `skillc attach` does.")
 @grouped_option(EXECUTION, "--approve", is_flag=True, help="Let each plan wait for `skillc approve`.")

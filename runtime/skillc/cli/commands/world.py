@@ -99,12 +99,21 @@ def command(
     if edits:
         words_of_edits = " ".join(map(shlex.quote, edits))
         raise click.UsageError(f"`world` only reads; write `skillc scene edit {scene or 'SCENE'} {words_of_edits}`")
-    if sum(map(bool, (sparql is not None, words is not None, names, other, graph, form))) > 1:
-        raise click.UsageError("--query, --search, --show, --diff, --graph and --export cannot be combined")
+    if sum(map(bool, (sparql is not None, words is not None, names, other, graph, form, history))) > 1:
+        raise click.UsageError("--query, --search, --show, --diff, --graph, --export and --history cannot be combined")
     if output and not form:
         raise click.UsageError("--output requires --export FORMAT")
     if asks_cell():
-        refuse_options(search=words, diff=other, graph=graph, export=form, library=library, store=store, all=everything)
+        refuse_options(
+            search=words,
+            diff=other,
+            graph=graph,
+            export=form,
+            library=library,
+            store=store,
+            reset=reset,
+            all=everything,
+        )
         if scene is not None or len(names) > 1:
             raise click.UsageError("name neither SCENE nor several individuals with a cell of a server")
         cell_questions.show_world(sparql, names[0] if names else None, history, as_json)

@@ -14,7 +14,7 @@ from skillc.server.orders.store import TooManyOrders
 from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import ApiRefusal
 from skillc.server.routes.world import QUERY_S
-from skillc.workers.jobs import CheckRequest
+from skillc.workers.jobs import CheckOperation
 from skillc_runtime.recording.envelope import make_run_id
 
 LAST = datetime(2200, 1, 1, tzinfo=UTC)
@@ -26,7 +26,7 @@ async def add_order(call: ApiCall) -> Order:
     name = make_run_id(wanted.request.task or "order")
     _check(wanted, call.server.clock())
     request = wanted.request
-    possible = CheckRequest(request.task, request.goal, request.call, request.arguments, request.breakpoints)
+    possible = CheckOperation(request.task, request.goal, request.call, request.arguments, request.breakpoints)
     await ask_about(call, possible, type(None), QUERY_S)
     try:
         with transaction(call.server.state.database):
