@@ -16,7 +16,7 @@ skill {name} {{
 }}
 impl by_{name} of {name} {{ run python "bad:{name}" }}
 """
-CODE = """
+CODE = '''
 import ctypes
 import os
 import time
@@ -26,26 +26,38 @@ import numpy as np
 from skillc_runtime.primitives.primitive import Primitive, Status
 
 
-class Blocks(Primitive):
+class Late(Primitive):
+    """Misbehaves after half a second, when whoever has submitted it knows."""
+
+    def start(self):
+        self.due = self.cell.now + 0.5
+
     def tick(self):
+        if self.cell.now < self.due:
+            return Status.RUNNING
+        self.misbehave()
+        return Status.SUCCESS
+
+
+class Blocks(Late):
+    def misbehave(self):
         time.sleep(1e6)
 
 
-class Exits(Primitive):
-    def tick(self):
+class Exits(Late):
+    def misbehave(self):
         os._exit(7)
 
 
-class Crashes(Primitive):
-    def tick(self):
+class Crashes(Late):
+    def misbehave(self):
         ctypes.string_at(0)
 
 
-class Devours(Primitive):
-    def tick(self):
+class Devours(Late):
+    def misbehave(self):
         self.eaten = [np.empty(2**30, np.uint8) for _ in range(10_000)]
-        return Status.SUCCESS
-"""
+'''
 NAMES = ("Blocks", "Exits", "Crashes", "Devours")
 
 
@@ -74,6 +86,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
 def test_a_primitive_that_ends_its_cell_ends_nothing_else(server: RunningServer, name: str, said: str) -> None:
     other = server.client.post("/cells/barn/operations", json={"task": "carry_all"}).json()["id"]
     server.wait_for(other, "running")
+    server.client.put("/cells/yard/pace", json={"factor": 1.0})
     operation = server.submit(call=f"{name}()")["id"]
     wait_until(lambda: server.client.get("/cells/yard").json(), lambda cell: said in cell["reason"])
     ended = server.wait_for(operation, "interrupted")
