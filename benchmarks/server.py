@@ -25,7 +25,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
 CELL, TASK = "iiwa_table", "clean_table"
-REQUESTS, STOPS, OPERATIONS = 400, 20, 60
+REQUESTS, STOPS, OPERATIONS, KILLS = 400, 20, 2_000, 3
 WATCHERS = (0, 1, 8, 64)
 SAMPLERS = (0, 1, 8)
 TICK_S = 0.01
@@ -174,15 +174,49 @@ async def run_sampled(client: httpx.Client, number: int) -> int:
 
 
 def measure_memory(client: httpx.Client, server: int) -> None:
-    """Print how memory and the time of a request grow over many operations."""
+    """Print how the memory of both processes grows over many operations, after a tenth of them and after all."""
     cell = find_cell(server)
-    before = rss_mb(server), rss_mb(cell)
-    for _ in range(OPERATIONS):
+    for number in range(OPERATIONS):
         operation = submit(client, approve=True)
         client.post(f"/operations/{operation}/stop", json={})
         wait_for(lambda operation=operation: state_of(client, operation) == "stopped")
+        if number == OPERATIONS // 10:
+            before = rss_mb(server), rss_mb(cell)
     grown = rss_mb(server) / before[0], rss_mb(cell) / before[1]
-    print(f"memory after {OPERATIONS} operations: server {grown[0]:.2f} x, cell {grown[1]:.2f} x")
+    print(f"memory after {OPERATIONS} operations, of that after {OPERATIONS // 10}: ", end="")
+    print(f"server {grown[0]:.3f} x, cell {grown[1]:.3f} x")
+
+
+def measure_restarts(ready_s: float) -> None:
+    """Print the time from a kill of the cell, and of the server, in the middle of an operation until it is ready again.
+
+    The times are relative to that of a first start. The server is started again at once.
+    """
+    cells, servers = list[float](), list[float]()
+    for _ in range(KILLS):
+        with tempfile.TemporaryDirectory() as folder:
+            with serving(Path(folder)) as (client, server, _):
+                run_for_a_while(client)
+                cell = find_cell(server)
+                began = time.monotonic()
+                os.kill(cell, signal.SIGKILL)
+                find_cell(server, cell)
+                wait_for(lambda: client.get(f"/cells/{CELL}").json()["state"] == "operational")
+                cells.append(time.monotonic() - began)
+                run_for_a_while(client)
+                os.kill(server, signal.SIGKILL)
+            with serving(Path(folder)) as (_, _, again_s):
+                servers.append(again_s)
+    ratios = f"cell {median(cells) / ready_s:.2f} x, server and cell {median(servers) / ready_s:.2f} x"
+    print(f"from kill to ready again, of the time from start to ready: {ratios}")
+
+
+def run_for_a_while(client: httpx.Client) -> None:
+    """Start the task at real pace; return when it has been under way for a second."""
+    client.put(f"/cells/{CELL}/pace", json={"factor": 1.0})
+    operation = submit(client)
+    wait_for(lambda: state_of(client, operation) == "running")
+    time.sleep(1.0)
 
 
 def submit(client: httpx.Client, **more: Any) -> str:
@@ -197,10 +231,15 @@ def state_of(client: httpx.Client, operation: str) -> str:
     return str(client.get(f"/operations/{operation}").json()["state"])
 
 
-def find_cell(server: int) -> int:
-    """Return the id of the process of the cell."""
-    children = Path(f"/proc/{server}/task/{server}/children").read_text().split()
-    return next(int(each) for each in children if b"skillc.cells.process" in Path(f"/proc/{each}/cmdline").read_bytes())
+def find_cell(server: int, former: int | None = None) -> int:
+    """Return the id of the process of the cell, which is not the former one; wait for it."""
+    end = time.monotonic() + READY_S
+    while time.monotonic() < end:
+        for each in map(int, Path(f"/proc/{server}/task/{server}/children").read_text().split()):
+            if each != former and b"skillc.cells.process" in Path(f"/proc/{each}/cmdline").read_bytes():
+                return each
+        time.sleep(0.02)
+    raise AssertionError("there is no process of the cell")
 
 
 def cpu_s(process: int) -> float:
@@ -220,6 +259,7 @@ def main() -> None:
         measure_requests(client)
         measure_stops(client)
         measure_memory(client, server)
+    measure_restarts(ready_s)
     measure_watchers()
     measure_samplers()
 

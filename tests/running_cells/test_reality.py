@@ -131,17 +131,25 @@ def test_a_simulation_that_cannot_be_read_is_refused_with_a_sentence(tmp_path: P
         pass
 
 
-def test_a_journal_of_the_first_format_is_migrated_and_a_copy_kept(tmp_path: Path) -> None:
+@pytest.mark.parametrize("former", [1, 2])
+def test_a_journal_of_a_former_format_is_migrated_and_a_copy_kept(tmp_path: Path, former: int) -> None:
     settings = make_settings(tmp_path, SORTING, "kinematic")
     with open_cell(settings, SilentReporter()) as host:
         host.tick()
     with closing(sqlite3.connect(settings.journal, isolation_level=None)) as database:
-        database.execute("DROP TABLE cell_state")
-        database.execute("ALTER TABLE transactions DROP COLUMN written_ns")
-        database.execute("PRAGMA user_version = 1")
+        database.execute("DROP INDEX unfinished_operations")
+        if former == 1:
+            database.execute("DROP TABLE cell_state")
+            database.execute("ALTER TABLE transactions DROP COLUMN written_ns")
+        database.execute(f"PRAGMA user_version = {former}")
     with open_cell(settings, SilentReporter()) as host:
         assert host.describe(None).state == "operational"
-    assert settings.journal.with_name("journal.sqlite.format-1").exists()
+        with closing(sqlite3.connect(settings.journal)) as database:
+            query = "EXPLAIN QUERY PLAN SELECT id FROM operations WHERE ended IS NULL ORDER BY submitted_ns, id"
+            assert "USING INDEX unfinished_operations" in database.execute(query).fetchone()[-1].replace(
+                "COVERING ", ""
+            )
+    assert settings.journal.with_name(f"journal.sqlite.format-{former}").exists()
 
 
 def drive_away(host: CellHost) -> None:

@@ -8,14 +8,21 @@ import os
 import re
 import signal
 from pathlib import Path
+from typing import cast
 
+import httpx
+import msgspec
 import pytest
+from starlette.routing import Route
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
 from server.running import RunningServer, serving, start_server, wait_until
 from skillc.server.access.roles import ROLES, includes
-from skillc.server.endpoints import ENDPOINTS
+from skillc.server.app import Application
+from skillc.server.context import ServerContext
+from skillc.server.endpoints import ENDPOINTS, PREFIX
+from skillc.server.openapi import make_openapi
 
 
 def test_an_operation_is_paused_resumed_and_stopped(server: RunningServer) -> None:
@@ -43,19 +50,40 @@ def test_the_same_request_twice_is_one_operation(server: RunningServer) -> None:
     server.wait_for(first.json()["id"], "stopped")
 
 
-@pytest.mark.parametrize("endpoint", ENDPOINTS, ids=lambda each: f"{each.method} {each.path}")
-def test_each_endpoint_needs_its_role(server: RunningServer, endpoint: object) -> None:
+DOCUMENT = make_openapi(ENDPOINTS, PREFIX)
+OPERATIONS = [(method.upper(), path) for path, methods in DOCUMENT["paths"].items() for method in methods]
+OPEN_PATHS = {f"{PREFIX}/health", f"{PREFIX}/openapi.json"}
+SOCKETS = {f"{PREFIX}/events", f"{PREFIX}/samples"}
+"""What the document cannot describe; test_watching.py has who may open them."""
+
+
+@pytest.mark.parametrize(("method", "path"), OPERATIONS)
+def test_each_operation_of_the_document_needs_its_role(server: RunningServer, method: str, path: str) -> None:
+    security = DOCUMENT["paths"][path][method.lower()]["security"]
+    url = f"{server.url.removesuffix(PREFIX)}{re.sub(r'{.*?}', 'none', path)}"
+    if path in OPEN_PATHS:
+        assert security == [] and httpx.request(method, url).status_code == 200
+        return
+    ((needed,),) = (each["token"] for each in security)
     for role in ROLES:
-        name = f"{role}-{ENDPOINTS.index(endpoint)}"
+        name = f"{role}-{OPERATIONS.index((method, path))}"
         token = server.client.post("/tokens", json={"name": name, "role": role}).json()["token"]
-        path = re.sub(r"\{\w+\}", "none", endpoint.path)
         with server.client_of(token) as client:
-            answer = client.request(endpoint.method, path, json={})
-        assert (answer.status_code == 403) == (not includes(role, endpoint.role)), (role, answer.text)
+            answer = client.request(method, url, json={})
+        assert (answer.status_code == 403) == (not includes(role, needed)), (role, answer.text)
         assert server.client.delete(f"/tokens/{name}").status_code == 204
     with server.client_of(token) as client:
-        refused = client.request(endpoint.method, path, json={}).status_code
+        refused = client.request(method, url, json={}).status_code
     assert refused in (401, 429), "a revoked token; many of them in a short time are too many"
+
+
+def test_each_route_is_in_the_document_that_is_served(server: RunningServer) -> None:
+    assert server.client.get("/openapi.json").json() == json.loads(msgspec.json.encode(DOCUMENT))
+    app = Application(cast(ServerContext, None), frozenset())
+    routes = {(method, each.path) for each in app.routes if isinstance(each, Route) for method in each.methods or ()}
+    others = {each.path for each in app.routes if not isinstance(each, Route)}
+    unknown = {(method, path) for method, path in routes if method != "HEAD"} - {*OPERATIONS, ("GET", "/metrics")}
+    assert not unknown and others == SOCKETS
 
 
 def test_a_token_that_does_not_exist_is_named(server: RunningServer) -> None:

@@ -69,11 +69,11 @@ def test_a_backup_is_restored_in_the_place_of_a_state_that_nobody_uses(tmp_path:
 
 def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer) -> None:
     folder = server.folder / "served"
-    first, second = (
-        (server.submit(call="Load(cart: lab:Cart-1, crate: lab:nothing)", approve=True) for _ in range(2))
-        if False
-        else (submit_and_stop(server), submit_and_stop(server))
-    )
+    first, second = submit_and_stop(server), submit_and_stop(server)
+    key = {"Idempotency-Key": "once"}
+    keyed = server.client.post("/cells/yard/operations", json={"task": "carry_all", "approve": True}, headers=key)
+    server.client.post(f"/operations/{keyed.json()['id']}/stop", json={})
+    server.wait_for(keyed.json()["id"], "stopped")
     going = server.submit(task="carry_all", approve=True)["id"]
     none = state("prune", "--state", folder, "--older-than", "1")
     assert none.exit_code == 0 and "yard: 0 operations are forgotten" in none.output
@@ -82,6 +82,10 @@ def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer)
     assert [server.client.get(f"/operations/{each}").status_code for each in (first, second, going)] == [404, 404, 200]
     server.client.post("/cells/yard/stop", json={})
     server.wait_for(going, "stopped")
+    again = server.client.post("/cells/yard/operations", json={"task": "carry_all", "approve": True}, headers=key)
+    assert again.json()["id"] != keyed.json()["id"], "the key was forgotten with its operation"
+    server.client.post("/cells/yard/stop", json={})
+    server.wait_for(again.json()["id"], "stopped")
     assert state("prune", "--state", folder, "--larger-than", "1kB").exit_code == 0
     assert server.client.get("/cells/yard/operations").json() == []
     again = submit_and_stop(server)

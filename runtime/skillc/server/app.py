@@ -12,7 +12,7 @@ from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
-from starlette.routing import Route, WebSocketRoute
+from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
@@ -57,17 +57,15 @@ class Application:
             Route(PREFIX + path, partial(self._answer, methods), methods=list(methods))
             for path, methods in by_path.items()
         ]
-        app = Starlette(
-            routes=[
-                *routes,
-                Route("/metrics", partial(self._answer, by_path["/metrics"])),
-                Route(f"{PREFIX}/health", _constant(b'{"status":"ok"}')),
-                Route(f"{PREFIX}/openapi.json", _constant(document)),
-                WebSocketRoute(f"{PREFIX}/events", partial(stream_events, server)),
-                WebSocketRoute(f"{PREFIX}/samples", partial(stream_samples, server, {})),
-            ],
-            exception_handlers={HTTPException: _refuse_unknown},
+        self.routes: tuple[BaseRoute, ...] = (
+            *routes,
+            Route("/metrics", partial(self._answer, by_path["/metrics"])),
+            Route(f"{PREFIX}/health", _constant(b'{"status":"ok"}')),
+            Route(f"{PREFIX}/openapi.json", _constant(document)),
+            WebSocketRoute(f"{PREFIX}/events", partial(stream_events, server)),
+            WebSocketRoute(f"{PREFIX}/samples", partial(stream_samples, server, {})),
         )
+        app = Starlette(routes=self.routes, exception_handlers={HTTPException: _refuse_unknown})
         guarded = Guard(app, hosts)
         self.asgi: ASGIApp = guarded if proxy is None else ProxiedRequests(guarded, proxy)
 

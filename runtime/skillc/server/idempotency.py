@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from collections.abc import Set
 from hashlib import sha256
 
 TABLE = """
@@ -45,3 +46,9 @@ class RequestKeys:
     def release(self, who: str, key: str) -> None:
         """Forget a key whose request was refused, so that it can be repeated."""
         self._database.execute("DELETE FROM requests WHERE who = ? AND key = ?", (who, key))
+
+    def forget(self, operations: Set[str]) -> None:
+        """Forget the keys of the requests that started operations."""
+        rows = self._database.execute("SELECT who, key, operation FROM requests")
+        found = [(who, key) for who, key, operation in rows if operation in operations]
+        self._database.executemany("DELETE FROM requests WHERE who = ? AND key = ?", found)

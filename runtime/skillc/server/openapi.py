@@ -26,6 +26,11 @@ WITH_BODY = (
     HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
     HTTPStatus.UNSUPPORTED_MEDIA_TYPE,
 )
+OPEN = {
+    "/health": ("health", "Whether the server answers"),
+    "/openapi.json": ("openapi", "This document"),
+}
+"""The paths that need no token, with their operations and what they are for."""
 REF = "#/components/schemas/{name}"
 
 
@@ -42,7 +47,7 @@ def make_openapi(endpoints: Iterable[ApiEndpoint], prefix: str) -> dict[str, Any
         "openapi": "3.1.0",
         "info": {"title": "skillc", "version": VERSION, "description": "Cells that run skills, and their operations."},
         "security": [{"token": []}],
-        "paths": paths,
+        "paths": paths | {prefix + path: {"get": _describe_open(*each)} for path, each in OPEN.items()},
         "components": {
             "schemas": components,
             "securitySchemes": {"token": {"type": "http", "scheme": "bearer"}},
@@ -55,12 +60,18 @@ def _describe(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> di
         "operationId": endpoint.handle.__name__,
         "summary": endpoint.summary,
         "description": f"Needs the role `{endpoint.role}`.",
+        "security": [{"token": [endpoint.role]}],
         "parameters": [*_path_parameters(endpoint), *_query_parameters(endpoint), *_header_parameters(endpoint)],
         "responses": _responses(endpoint, schema_of),
     }
     if endpoint.body is not None:
         described["requestBody"] = {"required": True, "content": {JSON: {"schema": schema_of[id(endpoint.body)]}}}
     return described
+
+
+def _describe_open(operation: str, summary: str) -> dict[str, Any]:
+    answer = {"description": HTTPStatus.OK.phrase, "content": {JSON: {"schema": {"type": "object"}}}}
+    return {"operationId": operation, "summary": summary, "security": [], "responses": {"200": answer}}
 
 
 def _responses(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:

@@ -2,39 +2,48 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 
-from skillc.cells.database import DatabaseError
+from skillc.cells.database import DatabaseError, open_for_writing
 from skillc.cells.journal.pruning import prune_journal
 from skillc.cells.recordings import RECORDINGS, recording_file
 from skillc.cells.settings import JOURNAL
-from skillc.server.state import CELLS, DATABASE
+from skillc.server.idempotency import RequestKeys
+from skillc.server.state import CELLS, DATABASE, SCHEMA
 from skillc.services.errors import RequestError, ServiceError
 
 
 def prune(state: Path, before_ns: int | None, max_bytes: int | None) -> dict[str, int]:
     """Forget operations that have ended, as `prune_journal` does for each cell; return how many of each cell.
 
-    RequestError if there is no state, ServiceError if it cannot be written.
+    The keys of their requests are forgotten with them. RequestError if there is no state, ServiceError if it cannot be
+    written.
     """
     if not (state / DATABASE).exists():
         raise RequestError(f"{state} is not the state of a server: it has no {DATABASE}")
     cells = [each for each in sorted((state / CELLS).glob("*")) if (each / JOURNAL).exists()]
-    return {each.name: _prune_cell(each, before_ns, max_bytes) for each in cells}
+    forgotten = {each.name: _prune_cell(each, before_ns, max_bytes) for each in cells}
+    try:
+        with closing(open_for_writing(state / DATABASE, SCHEMA)) as database:
+            RequestKeys(database).forget({each for cell in forgotten.values() for each in cell})
+    except DatabaseError as error:
+        raise ServiceError(str(error)) from error
+    return {cell: len(operations) for cell, operations in forgotten.items()}
 
 
-def _prune_cell(cell: Path, before_ns: int | None, max_bytes: int | None) -> int:
-    """Forget operations of a cell, with their recordings."""
-    count = 0
+def _prune_cell(cell: Path, before_ns: int | None, max_bytes: int | None) -> list[str]:
+    """Forget operations of a cell, with their recordings; return their ids."""
+    forgotten = list[str]()
     try:
         for operation in prune_journal(cell / JOURNAL, before_ns, max_bytes, lambda: _count_bytes(cell / RECORDINGS)):
             recording_file(cell, operation).unlink(missing_ok=True)
-            count += 1
+            forgotten.append(operation)
     except DatabaseError as error:
         raise ServiceError(str(error)) from error
     except OSError as error:
         raise ServiceError(f"{cell / RECORDINGS} cannot be pruned: {error.strerror or error}") from error
-    return count
+    return forgotten
 
 
 def _count_bytes(folder: Path) -> int:

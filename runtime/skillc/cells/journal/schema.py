@@ -10,6 +10,7 @@ _CELL_STATE = """CREATE TABLE cell_state (
     name  TEXT PRIMARY KEY,
     value BLOB NOT NULL
 ) WITHOUT ROWID"""
+_UNFINISHED = "CREATE INDEX unfinished_operations ON operations (submitted_ns) WHERE ended IS NULL"
 
 
 def _add_cell_state(connection: sqlite3.Connection) -> None:
@@ -17,8 +18,12 @@ def _add_cell_state(connection: sqlite3.Connection) -> None:
     connection.execute("ALTER TABLE transactions ADD COLUMN written_ns INTEGER NOT NULL DEFAULT 0")
 
 
+def _add_index_of_unfinished(connection: sqlite3.Connection) -> None:
+    connection.execute(_UNFINISHED)
+
+
 SCHEMA = Schema(
-    format=2,
+    format=3,
     tables=f"""{_CELL_STATE};
 CREATE TABLE operations (
     id           TEXT PRIMARY KEY,
@@ -27,6 +32,7 @@ CREATE TABLE operations (
     ended        BLOB                           -- OperationStatus as JSON at its end; NULL before
 ) WITHOUT ROWID;
 CREATE INDEX operations_by_time ON operations (submitted_ns);
+{_UNFINISHED};
 CREATE TABLE events (
     operation TEXT NOT NULL,
     sequence  INTEGER NOT NULL,                 -- from 1 without gaps in each operation
@@ -42,5 +48,5 @@ CREATE TABLE transactions (
     written_ns INTEGER NOT NULL DEFAULT 0       -- wall time, ns since 1970-01-01 UTC; 0 if it is not known
 )
 """,
-    migrations={1: _add_cell_state},
+    migrations={1: _add_cell_state, 2: _add_index_of_unfinished},
 )
