@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from contextlib import closing
 
 from skillc.cells.host import open_cell
-from skillc.cells.journal.reading import JournalReader
+from skillc.cells.journal.reading import LATEST_NS, JournalReader
 from skillc.cells.settings import CellSettings
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.recording.events import TaskEnded, WorldChanged
@@ -23,7 +22,7 @@ def check_cell(settings: CellSettings) -> Counter[str]:
         world = host.world.snapshot()
     with closing(JournalReader(journal)) as reader:
         writes = [each.transaction for each in reader.writes()]
-        histories = [[each.event for each in reader.envelopes(one.id)] for one in reader.latest(time.time_ns(), 1000)]
+        histories = [[each.event for each in reader.envelopes(one.id)] for one in reader.latest(LATEST_NS, 1000)]
     assert histories and all(isinstance(each[-1], TaskEnded) for each in histories)
     assert [each.sequence for each in writes] == list(range(2, len(writes) + 2))
     with closing(DiskStore(journal.parent / "world")) as store:

@@ -10,9 +10,10 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import httpx
@@ -21,6 +22,7 @@ import uvicorn
 from running_cells.yard import write_yard
 
 READY_S = 60.0
+NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class RunningServer:
@@ -73,13 +75,17 @@ def wait_until(look: Any, condition: Any) -> Any:
 
 @contextmanager
 def serving(
-    folder: Path, takes_ms: int = 100, options: Sequence[str | Path] = (), authority: Path | None = None
+    folder: Path,
+    takes_ms: int = 100,
+    options: Sequence[str | Path] = (),
+    authority: Path | None = None,
+    environment: Mapping[str, str] = NOTHING,
 ) -> Iterator[RunningServer]:
     """Serve a yard in a folder, in which it may have been served before; with a certificate of `authority`, if any."""
     write_yard(folder, takes_ms)
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    process = start_server(folder, port, options)
+    process = start_server(folder, port, options, environment=environment)
     try:
         wait_until(lambda: is_listening(port) or process.poll() is not None, bool)
         assert process.poll() is None, "the server has ended"
@@ -97,12 +103,14 @@ def start_server(
     options: Sequence[str | Path] = (),
     libraries: Sequence[str] = (".",),
     cells: Sequence[str] = ("--cell", "yard.ttl"),
+    environment: Mapping[str, str] = NOTHING,
 ) -> subprocess.Popen[bytes]:
     """Start the process of a server in a folder."""
     always = ("--state", "served", "--bind", f"127.0.0.1:{port}", "--backend", "kinematic")
     command = (sys.executable, "-m", "skillc", "serve", *libraries, *cells, *always, *map(str, options))
     paths = os.pathsep.join(filter(None, sys.path))
-    return subprocess.Popen(command, cwd=folder, env={**os.environ, "PYTHONPATH": paths}, stderr=subprocess.PIPE)
+    environment = {**os.environ, "PYTHONPATH": paths, **environment}
+    return subprocess.Popen(command, cwd=folder, env=environment, stderr=subprocess.PIPE)
 
 
 def is_listening(port: int) -> bool:

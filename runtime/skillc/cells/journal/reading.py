@@ -21,6 +21,8 @@ from skillc_runtime.world.state.transactions import Transaction
 
 MAX_EVENTS = 1000
 """The largest number of events that one query returns."""
+LATEST_NS = 2**63 - 1
+"""A wall time after all others: the clock may have been set back since something was recorded."""
 
 
 @dataclass(frozen=True, slots=True)

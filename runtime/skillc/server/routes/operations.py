@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable
 from contextlib import closing
 from http import HTTPStatus
@@ -11,6 +10,7 @@ from typing import Annotated
 import msgspec
 from msgspec import structs
 
+from skillc.cells.journal.reading import LATEST_NS
 from skillc.cells.messages import Give, Refused, Submit
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.server.api_types import StopReason
@@ -114,7 +114,7 @@ def _read_history(cell: CellSupervisor, page: HistoryPage) -> Iterable[Operation
     if not cell.settings.journal.exists():
         return
     with closing(open_journal(cell)) as reader:
-        before_ns = time.time_ns() + 1 if page.before_ns is None else page.before_ns
+        before_ns = LATEST_NS if page.before_ns is None else page.before_ns
         for each in reader.latest(before_ns, page.limit):
             found = each.ended or cell.operations.get(each.id)
             if found is not None:
