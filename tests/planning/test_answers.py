@@ -59,7 +59,7 @@ def plan(depot: Path, goal: str, *options: str) -> Result:
 def test_the_answer_names_what_it_was_made_without(depot: Path) -> None:
     said = plan(depot, "lab:truck stores lab:c150")
     assert said.exit_code == 0
-    assert "1 steps, 2 s expected, proved optimal" in said.stdout
+    assert "1 step, 2 s expected, proved optimal" in said.stdout
     assert "planned without lab:c" in said.stdout and "more: they are far from what the goal refers to" in said.stdout
     assert said.stdout.rstrip().endswith("yet no better plan needs them")
 

@@ -108,7 +108,7 @@ def plan(lib: Path, goal: str, *skills: str, options: tuple[str, ...] = ()) -> R
 def test_a_skill_that_names_an_individual_is_planned_with(lib: Path) -> None:
     said = plan(lib, "lab:Cart-1 standsAt lab:Home", DRIVE, GO_HOME)
     assert said.stdout.splitlines()[0] == "1  GoHome(cart: lab:Cart-1)"
-    assert "1 steps, 3 s expected, proved optimal" in said.stdout
+    assert "1 step, 3 s expected, proved optimal" in said.stdout
 
 
 def test_an_optional_individual_keeps_its_default_in_conditions_and_posts(lib: Path) -> None:
@@ -127,7 +127,7 @@ def test_another_individual_as_the_default_of_an_implementation_is_no_effect_of_
 def test_a_scene_without_the_individual_says_so_and_nothing_is_proved(lib: Path) -> None:
     (lib / "scene.ttl").write_text(TTL + SCENE + "lab:S2 a lib:Spot .\n", "utf-8")
     away = plan(lib, "lab:Cart-1 standsAt lab:S2", DRIVE, GO_HOME).stdout
-    assert "1 steps, 10 s expected, optimal for the skills that can be planned with" in away
+    assert "1 step, 10 s expected, optimal for the skills that can be planned with" in away
     missing = "planned without GoHome: it names `lab:Home` (lib.skill:23), which is not in the scene"
     assert f"{missing}; a better plan may need it" in away
     none = plan(lib, PARKED, DRIVE, PARK)

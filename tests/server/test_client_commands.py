@@ -174,6 +174,10 @@ def test_a_shell_offers_what_the_server_has(here: RunningServer, monkeypatch: py
     found = offered.get_completions(["pause"], "carry_")
     assert [(each.value, each.help) for each in found] == [(name, "planned: waits for approval")]
     assert [each.value for each in offered.get_completions(["start", "--cell"], "")] == ["yard"]
+    assert type_in("start", "carry_all", "--at", "2100-01-01T00:00:00Z").exit_code == 0
+    orders = offered.get_completions(["orders", "--remove"], "carry_")
+    assert [each.help for each in orders] == ["carry_all"]
+    assert type_in("orders", "--remove", orders[0].value).exit_code == 0
     with monkeypatch.context() as patch:
         patch.setenv("SKILLC_SERVER", "http://127.0.0.1:1")
         assert offered.get_completions(["pause"], "") == []

@@ -204,6 +204,17 @@ def complete_answer(context: click.Context, _parameter: click.Parameter, begun: 
     return [CompletionItem(choice, help=text) for choice, text in found.items() if choice.startswith(begun)]
 
 
+def complete_order(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the orders of all cells, with what they start; none without a server."""
+    try:
+        with context.scope(cleanup=False), connect_server() as server:
+            found = [order for each in server.cells() for order in server.cell(each.name).orders()]
+    except ServiceError:
+        return []
+    offered = {each.id: each.order.request for each in found if each.id.startswith(begun)}
+    return [CompletionItem(name, help=made.task or made.goal or made.call or "") for name, made in offered.items()]
+
+
 def complete_cell(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the cells, with how they are; none without a server."""
     try:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc.services.planning import Answer
+from skillc.services.reporting import format_count
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import Scheduled
@@ -20,7 +21,8 @@ def format_plan(answer: Answer, loaded: LoadedTask) -> str:
     match answer:
         case Solved(plan=plan, planner=planner):
             lines = [f"{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, 1)]
-            total = f"{len(plan.steps)} steps, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
+            steps = format_count(len(plan.steps), "step")
+            total = f"{steps}, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
             return "\n".join([*lines, total, *_assumed(answer), *_left_out(answer, loaded)])
         case Scheduled():
             return _schedule_text(answer, loaded)
@@ -33,8 +35,8 @@ def format_plan(answer: Answer, loaded: LoadedTask) -> str:
 def _schedule_text(answer: Scheduled, loaded: LoadedTask) -> str:
     timed = answer.schedule.steps
     lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, loaded)}" for each in timed]
-    over = f"{len(timed)} steps, over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
-    lines.append(f"{over}, {_quality(answer)} ({answer.planner})")
+    over = f"over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
+    lines.append(f"{format_count(len(timed), 'step')}, {over}, {_quality(answer)} ({answer.planner})")
     lines += [f"times: {answer.times}", *_assumed(answer), *_left_out(answer, loaded)]
     return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
 

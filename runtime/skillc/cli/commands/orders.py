@@ -13,7 +13,7 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.console import page_of, print_json, print_lines, print_remark
 from skillc.cli.options import json_option
-from skillc.cli.server_access import complete_cell, connect_server, server_options
+from skillc.cli.server_access import complete_cell, complete_order, connect_server, server_options
 
 if TYPE_CHECKING:
     from skillc.cli.layout import Row
@@ -27,7 +27,9 @@ skillc orders --remove clean_table-20270104T060000Z-1f0c9a
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one.")
-@click.option("--remove", metavar="ORDER", help="Forget this order; what it has started goes on.")
+@click.option(
+    "--remove", metavar="ORDER", shell_complete=complete_order, help="Forget this order; what it has started goes on."
+)
 @json_option
 @server_options
 def command(cell: str | None, remove: str | None, as_json: bool) -> None:

@@ -49,7 +49,7 @@ def _robot_rows(result: TaskResult) -> list[tuple[str, str]]:
 
 
 def _describe_plan(result: TaskResult) -> str:
-    return f"{len(result.plan)} steps by {result.planner}, {result.plan_quality}"
+    return f"{len(result.plan)} step{'s' * (len(result.plan) != 1)} by {result.planner}, {result.plan_quality}"
 
 
 def format_placement(placed: PlacementResult) -> str:
