@@ -146,9 +146,7 @@ def test_a_journal_of_a_former_format_is_migrated_and_a_copy_kept(tmp_path: Path
         assert host.describe(None).state == "operational"
         with closing(sqlite3.connect(settings.journal)) as database:
             query = "EXPLAIN QUERY PLAN SELECT id FROM operations WHERE ended IS NULL ORDER BY submitted_ns, id"
-            assert "USING INDEX unfinished_operations" in database.execute(query).fetchone()[-1].replace(
-                "COVERING ", ""
-            )
+            assert "unfinished_operations" in database.execute(query).fetchone()[-1]
     assert settings.journal.with_name(f"journal.sqlite.format-{former}").exists()
 
 

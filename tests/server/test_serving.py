@@ -54,7 +54,7 @@ DOCUMENT = make_openapi(ENDPOINTS, PREFIX)
 OPERATIONS = [(method.upper(), path) for path, methods in DOCUMENT["paths"].items() for method in methods]
 OPEN_PATHS = {f"{PREFIX}/health", f"{PREFIX}/openapi.json"}
 SOCKETS = {f"{PREFIX}/events", f"{PREFIX}/samples"}
-"""What the document cannot describe; test_watching.py has who may open them."""
+"""What the document cannot describe; test_attacks.py and test_samples.py have who may open them."""
 
 
 @pytest.mark.parametrize(("method", "path"), OPERATIONS)

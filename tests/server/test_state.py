@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from random import Random
 
@@ -13,7 +13,7 @@ from msgspec import structs
 
 from running_cells.checking import check_cell
 from running_cells.yard import CRATES, find_settings, write_yard
-from server.running import RunningServer, serving
+from server.running import NOTHING, RunningServer, serving
 from skillc.cells.host import open_cell
 from skillc.cells.operation import OperationRequest
 from skillc.cells.settings import CellSettings
@@ -71,9 +71,8 @@ def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer)
     folder = server.folder / "served"
     first, second = submit_and_stop(server), submit_and_stop(server)
     key = {"Idempotency-Key": "once"}
-    keyed = server.client.post("/cells/yard/operations", json={"task": "carry_all", "approve": True}, headers=key)
-    server.client.post(f"/operations/{keyed.json()['id']}/stop", json={})
-    server.wait_for(keyed.json()["id"], "stopped")
+    first_keyed = submit_and_stop(server, key)
+    assert submit_and_stop(server, key) == first_keyed
     going = server.submit(task="carry_all", approve=True)["id"]
     none = state("prune", "--state", folder, "--older-than", "1")
     assert none.exit_code == 0 and "yard: 0 operations are forgotten" in none.output
@@ -82,10 +81,8 @@ def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer)
     assert [server.client.get(f"/operations/{each}").status_code for each in (first, second, going)] == [404, 404, 200]
     server.client.post("/cells/yard/stop", json={})
     server.wait_for(going, "stopped")
-    again = server.client.post("/cells/yard/operations", json={"task": "carry_all", "approve": True}, headers=key)
-    assert again.json()["id"] != keyed.json()["id"], "the key was forgotten with its operation"
-    server.client.post("/cells/yard/stop", json={})
-    server.wait_for(again.json()["id"], "stopped")
+    second_keyed = submit_and_stop(server, key)
+    assert second_keyed != first_keyed, "the key was forgotten with its operation"
     assert state("prune", "--state", folder, "--larger-than", "1kB").exit_code == 0
     assert server.client.get("/cells/yard/operations").json() == []
     again = submit_and_stop(server)
@@ -103,9 +100,10 @@ def carry(settings: CellSettings, operation: str) -> Iterator[None]:
         host.take_changed()
 
 
-def submit_and_stop(server: RunningServer) -> str:
+def submit_and_stop(server: RunningServer, headers: Mapping[str, str] = NOTHING) -> str:
     """Submit an operation that waits for its approval, and stop it; return its id."""
-    operation = str(server.submit(task="carry_all", approve=True)["id"])
+    request = {"task": "carry_all", "approve": True}
+    operation = str(server.client.post("/cells/yard/operations", json=request, headers=headers).json()["id"])
     server.client.post(f"/operations/{operation}/stop", json={})
     server.wait_for(operation, "stopped")
     return operation

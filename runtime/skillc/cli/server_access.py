@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 SERVER = "Server"
 _URL, _TOKEN_FILE, _CELL = "skillc.cli.server", "skillc.cli.token_file", "skillc.cli.cell"
 Function = TypeVar("Function", bound=Callable[..., Any])
+Item = TypeVar("Item")
 
 
 def server_options(function: Function) -> Function:
@@ -185,44 +186,37 @@ def describe_state(status: OperationStatus) -> str:
 
 def complete_operation(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the operations that go on, with how they are; none without a server."""
-    try:
-        with context.scope(cleanup=False), connect_server() as server:
-            found = [each.last_status for each in server.ongoing()]
-    except ServiceError:
-        return []
+    found = _ask_server(context, lambda server: [each.last_status for each in server.ongoing()])
     return [CompletionItem(each.id, help=describe_state(each)) for each in found if each.id.startswith(begun)]
 
 
 def complete_answer(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the choices of what the skills of operations ask; none without a server."""
-    try:
-        with context.scope(cleanup=False), connect_server() as server:
-            prompts = [prompt for each in server.ongoing() for prompt in each.last_status.prompts]
-    except ServiceError:
-        return []
-    found = {choice: prompt.text for prompt in prompts for choice in prompt.choices}
+    statuses = _ask_server(context, lambda server: [each.last_status for each in server.ongoing()])
+    found = {choice: prompt.text for each in statuses for prompt in each.prompts for choice in prompt.choices}
     return [CompletionItem(choice, help=text) for choice, text in found.items() if choice.startswith(begun)]
 
 
 def complete_order(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
-    """Return the orders of all cells, with what they start; none without a server."""
-    try:
-        with context.scope(cleanup=False), connect_server() as server:
-            found = [order for each in server.cells() for order in server.cell(each.name).orders()]
-    except ServiceError:
-        return []
+    """Return the orders of the cell of a command, with what they start; none without a server."""
+    found = _ask_server(context, lambda server: server.cell(context.params.get("cell")).orders())
     offered = {each.id: each.order.request for each in found if each.id.startswith(begun)}
     return [CompletionItem(name, help=made.task or made.goal or made.call or "") for name, made in offered.items()]
 
 
 def complete_cell(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the cells, with how they are; none without a server."""
+    found = _ask_server(context, lambda server: server.cells())
+    return [CompletionItem(each.name, help=each.state) for each in found if each.name.startswith(begun)]
+
+
+def _ask_server(context: click.Context, ask: Callable[[Server], Sequence[Item]]) -> Sequence[Item]:
+    """Return what the server of a command that is being completed answers; nothing without a server."""
     try:
         with context.scope(cleanup=False), connect_server() as server:
-            found = server.cells()
+            return ask(server)
     except ServiceError:
-        return []
-    return [CompletionItem(each.name, help=each.state) for each in found if each.name.startswith(begun)]
+        return ()
 
 
 def _keep(context: click.Context, name: str, value: str | Path | None) -> None:

@@ -7,6 +7,8 @@ import time
 from collections.abc import Set
 from hashlib import sha256
 
+from skillc.cells.database import transaction
+
 TABLE = """
 CREATE TABLE requests (
     who       TEXT NOT NULL,                   -- the name of a token
@@ -51,4 +53,5 @@ class RequestKeys:
         """Forget the keys of the requests that started operations."""
         rows = self._database.execute("SELECT who, key, operation FROM requests")
         found = [(who, key) for who, key, operation in rows if operation in operations]
-        self._database.executemany("DELETE FROM requests WHERE who = ? AND key = ?", found)
+        with transaction(self._database):
+            self._database.executemany("DELETE FROM requests WHERE who = ? AND key = ?", found)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sqlite3
+from collections.abc import Set
 from contextlib import closing
 from pathlib import Path
 
-from skillc.cells.database import DatabaseError, open_for_writing
+from skillc.cells.database import DatabaseError, describe_error, open_for_writing
 from skillc.cells.journal.pruning import prune_journal
 from skillc.cells.recordings import RECORDINGS, recording_file
 from skillc.cells.settings import JOURNAL
@@ -24,12 +26,19 @@ def prune(state: Path, before_ns: int | None, max_bytes: int | None) -> dict[str
         raise RequestError(f"{state} is not the state of a server: it has no {DATABASE}")
     cells = [each for each in sorted((state / CELLS).glob("*")) if (each / JOURNAL).exists()]
     forgotten = {each.name: _prune_cell(each, before_ns, max_bytes) for each in cells}
+    _forget_keys(state / DATABASE, {each for cell in forgotten.values() for each in cell})
+    return {cell: len(operations) for cell, operations in forgotten.items()}
+
+
+def _forget_keys(path: Path, operations: Set[str]) -> None:
+    """Forget the keys of the requests that started operations."""
     try:
-        with closing(open_for_writing(state / DATABASE, SCHEMA)) as database:
-            RequestKeys(database).forget({each for cell in forgotten.values() for each in cell})
+        with closing(open_for_writing(path, SCHEMA)) as database:
+            RequestKeys(database).forget(operations)
     except DatabaseError as error:
         raise ServiceError(str(error)) from error
-    return {cell: len(operations) for cell, operations in forgotten.items()}
+    except sqlite3.Error as error:
+        raise ServiceError(str(describe_error(path, error))) from error
 
 
 def _prune_cell(cell: Path, before_ns: int | None, max_bytes: int | None) -> list[str]:
