@@ -31,9 +31,9 @@ task confirm {
 """
 
 
-def write_asking_yard(folder: Path, default: str = "") -> CellSettings:
+def write_asking_yard(folder: Path, default: str = "", takes_ms: int = 10) -> CellSettings:
     """Write a yard with a task that asks `Is the cart free?`; return the settings of its cell."""
-    settings = write_yard(folder, takes_ms=10)
+    settings = write_yard(folder, takes_ms)
     given = f', default: "{default}"' if default else ""
     (folder / "confirm.skill").write_text(SKILLS.replace("DEFAULT", given), encoding="utf-8")
     return settings

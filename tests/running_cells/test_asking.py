@@ -28,9 +28,9 @@ ASKING = OperationRequest(task="confirm")
 
 
 @contextmanager
-def asking(folder: Path, default: str = "") -> Iterator[CellHost]:
+def asking(folder: Path, default: str = "", takes_ms: int = 10) -> Iterator[CellHost]:
     """Open a cell in which a skill of the operation `asking` asks."""
-    with open_cell(write_asking_yard(folder, default), SilentReporter()) as host:
+    with open_cell(write_asking_yard(folder, default, takes_ms), SilentReporter()) as host:
         host.submit("asking", ASKING)
         while not host.loop.runs[0].prompts:
             if not host.tick():
@@ -106,3 +106,21 @@ def test_choices_that_cannot_be_are_refused_before_anything_happens(tmp_path: Pa
         (ended,) = run_all(host)
         assert ended.state == "failed" and ended.failure is not None and said in ended.failure.message
         assert not any(isinstance(each, PromptsChanged) for each in events(host))
+
+
+def test_who_is_asked_keeps_nobody_from_working(tmp_path: Path) -> None:
+    """An operation that holds the whole cell begins, goes on and ends while another one waits for an answer."""
+    with asking(tmp_path, takes_ms=300) as host:
+        assert status(host).devices == ()
+        host.submit("working", OperationRequest(task="carry_two"))
+        host.submit("asked later", ASKING)
+        while not all(each.prompts for each in host.loop.runs if each.id != "working"):
+            assert host.tick() or not host.loop.wait(0.01)
+        states = {each.id: each.state for each in host.loop.runs}
+        assert states == {"asking": "running", "working": "running", "asked later": "running"}
+        assert host._operations["working"].describe("yard").devices is None
+        host.stop("asked later", "not needed")
+        host.request("asking", Answer("yes"))
+        ended = {each.id: each.state for each in run_all(host)}
+    assert ended == {"asking": "succeeded", "working": "succeeded", "asked later": "stopped"}
+    assert list(ended) == ["asked later", "asking", "working"]

@@ -164,6 +164,7 @@ def test_an_unset_optional_parameter_is_absent_and_guarded_by_given() -> None:
     ("declared", "problem"),
     [
         ('activity = "juggle"', "`activity` of `MODULE:Own` is none of press, follow-path, search"),
+        ('uses_devices = "none"', "`uses_devices` of `MODULE:Own` is not True or False"),
         ('highlights = (("later", "button", "pressed"),)', "`highlights` of `MODULE:Own` is not"),
         ('highlights = ("button", "pressed")', "`highlights` of `MODULE:Own` is not"),
     ],

@@ -8,8 +8,10 @@ from itertools import count
 
 from skillc_model import tree
 from skillc_model.conditions import Individual
+from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, HAS_A, ROBOT
 from skillc_runtime.world.state.world_state import WorldState
@@ -110,16 +112,40 @@ class ClaimedLocks(DeviceLocks):
         return super().acquire(wanted, holder, enclosing)
 
 
-def find_claim(body: tree.Node, state: WorldState) -> frozenset[str] | None:
-    """Return the devices of all robots that the calls of a body name; None, the whole cell, if a call names none."""
+def find_claim(body: tree.Node, library: SkillLibrary, state: WorldState) -> frozenset[str] | None:
+    """Return the devices of all robots that the calls of a body name; None, the whole cell, if a call may use others.
+
+    A call that names no device may use any, unless its skill only asks people: see `Primitive.uses_devices`.
+    """
     robots = set[str]()
     for call in find_calls(body):
         named = [value.iri for value in call.arguments.values() if isinstance(value, Individual)]
         devices = [each for each in named if _is_device(each, state)]
-        if not devices:
+        if not devices and not _only_asks(call.skill, library, frozenset()):
             return None
         robots |= {_find_robot(each, state) for each in devices}
     return frozenset(part for robot in robots for part in _find_parts(robot, state))
+
+
+def _only_asks(skill: str, library: SkillLibrary, callers: frozenset[str]) -> bool:
+    """Whether a skill, called by `callers`, neither uses devices nor changes the world, however it is implemented."""
+    return skill in callers or (
+        not library.skills[skill].uses
+        and all(_may_go_on_beside(each, library, callers | {skill}) for each in library.implementations_of(skill))
+    )
+
+
+def _may_go_on_beside(implementation: Implementation, library: SkillLibrary, callers: frozenset[str]) -> bool:
+    if any(post.effects and not post.sensed for post in implementation.post):
+        return False
+    match implementation.body:
+        case Compound(node=node):
+            return all(_only_asks(call.skill, library, callers) for call in find_calls(node))
+        case Primitive(python=python):
+            try:
+                return not import_primitive(python).uses_devices
+            except PrimitiveError:
+                return False
 
 
 def _is_device(individual: str, state: WorldState) -> bool:

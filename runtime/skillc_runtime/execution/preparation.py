@@ -125,7 +125,7 @@ class NextAttempt:
                 self.prepared, self._outdated = None, self._outdated + 1
                 return Outdated(problem, self._outdated)
             self.prepared = prepared = replace(prepared, assignment=replace(prepared.assignment, state=state))
-        busy = claims.wait_for(run, find_claim(prepared.body, state))
+        busy = claims.wait_for(run, find_claim(prepared.body, library, state))
         if busy is not None:
             return busy
         self.prepared = None

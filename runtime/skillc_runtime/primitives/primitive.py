@@ -70,6 +70,8 @@ class Primitive:
     parameter, the parameter of the place where its individual is then, or None where that is not known. A primitive
     that does not declare it may move anything.
 
+    `uses_devices` is False where a run needs nothing of the cell but its clock: it goes on beside others that use all.
+
     While `prompt` is not None, it is put to an operator; `answer` is called once with one of its choices.
     """
 
@@ -77,6 +79,7 @@ class Primitive:
     highlights: ClassVar[tuple[tuple[Phase, str, str], ...]] = ()
     text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
     moves: ClassVar[Mapping[str, str | None] | None] = None
+    uses_devices: ClassVar[bool] = True
 
     @classmethod
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:

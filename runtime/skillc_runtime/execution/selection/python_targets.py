@@ -59,6 +59,8 @@ def import_primitive(python: str) -> type[Primitive]:
         raise PrimitiveError(f"`activity` of `{python}` is none of {', '.join(filter(None, get_args(Activity)))}")
     if not _are_highlights(found.highlights):
         raise PrimitiveError(f"`highlights` of `{python}` is not ((begins or ends, parameter, word), ..)")
+    if not isinstance(found.uses_devices, bool):
+        raise PrimitiveError(f"`uses_devices` of `{python}` is not True or False")
     for name, values in METHOD_ARGUMENTS.items():
         problem = _check_call(getattr(found, name), None, *values)
         if problem is not None:
