@@ -23,7 +23,7 @@ from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
-from tree.stage import Library, act, par, seq, world
+from tree.library import Library, act, par, seq, world
 
 LIBRARY = Library("tree_tick:Leaf").build()
 

@@ -19,7 +19,8 @@ from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.node_outcome import NodeOutcome
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
-from tree.stage import FLAGS, Library, Stage, act, call, par, seq, world
+from tree.library import FLAGS, Library, act, call, par, seq, world
+from tree.stage import Stage
 
 LEAF = "tree_tick:Leaf"
 REPEATS, ROUNDS = 100, 100

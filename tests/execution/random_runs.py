@@ -68,7 +68,13 @@ class Drawn:
     requests: tuple[tuple[int, Command], ...]
 
 
-SETTINGS = st.builds(RunSettings, st.booleans(), st.sampled_from((None, None, 0.3, 2.0)), st.booleans())
+SETTINGS = st.builds(
+    RunSettings,
+    st.booleans(),
+    st.sampled_from((None, None, 0.3, 2.0)),
+    st.booleans(),
+    step_deadline_s=st.sampled_from((None, None, None, 0.1)),
+)
 TICKS = st.one_of(st.integers(0, 20), st.integers(0, 300))
 DRAWN = st.builds(
     Drawn,

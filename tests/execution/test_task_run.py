@@ -19,6 +19,8 @@ from execution.ways import (
     running,
     turned,
 )
+from skillc_model import tree
+from skillc_model.conditions import Individual, Literal, Not
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
@@ -26,7 +28,7 @@ from skillc_runtime.recording.events import Note, Requested, TaskEnded, WorldCha
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty, LabelledRelation
-from tree.library import FLAGS, ON, Library, act, call, with_
+from tree.library import FLAGS, ON, Library, act, call, here, is_on, seq, with_
 from tree.stage import Script
 
 
@@ -99,6 +101,35 @@ def test_the_deadline_ends_each_state_in_which_time_goes_on(state: str) -> None:
         assert watched.run.failure.message == "the task exceeded its deadline of 1 s"
         assert cell.now == pytest.approx(1.0, abs=0.03)
     check_nothing_left(cell, watched)
+
+
+@pytest.mark.parametrize(
+    ("body", "name"),
+    [
+        (act("a"), "Scripted"),
+        (tree.Wait(Literal(20.0), here()), "wait"),
+        (tree.WaitUntil(Not(is_on(Individual(FLAGS[0]))), "not flag", here()), "wait until not flag"),
+    ],
+)
+def test_a_step_ends_at_its_deadline_without_the_time_that_it_was_paused(body: tree.Node, name: str) -> None:
+    cell, watched = staged(body, RunSettings(step_deadline_s=1.0), a=LONG)
+    watched.until("running").request(commands.Pause())
+    watched.until("paused")
+    for _ in range(300):
+        watched.loop.tick()
+    watched.request(commands.Resume())
+    assert watched.until_end() == "failed" and watched.run.failure is not None
+    assert watched.run.failure.kind == "timeout"
+    assert watched.run.failure.message == f"{name} was not done after 1 s, the deadline of each step"
+    assert 4.0 < cell.now < 4.5
+    check_nothing_left(cell, watched)
+
+
+def test_each_step_has_the_time_of_a_deadline() -> None:
+    slow = Script(ticks=80)
+    body = seq(act("a"), tree.Wait(Literal(0.8), here()), act("b"))
+    cell, watched = staged(body, RunSettings(step_deadline_s=1.0), a=slow, b=slow)
+    assert watched.until_end() == "succeeded" and cell.now > 2.0
 
 
 def test_a_run_is_prepared_while_time_stands_still_and_begins_at_once() -> None:

@@ -61,6 +61,7 @@ def run(
     backend: BackendName = "mujoco",
     minimise: Minimise = "work",
     deadline_s: float | None = None,
+    step_deadline_s: float | None = None,
     looks: str = PRIMITIVE_LOOKS,
 ) -> Run:
     """Run a task, a goal or a skill call in simulation, and return how it ended; a failure is a result, not an error.
@@ -69,7 +70,8 @@ def run(
     `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and a film; `signals`
     adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats. `seed` determines how the
     simulation differs from the world model; the backend `kinematic` is faster, without physics. The task fails when
-    it takes longer than `deadline_s` s of the cell's time.
+    it takes longer than `deadline_s` s of the cell's time, a primitive or a wait when it takes longer than
+    `step_deadline_s` s.
 
     An interrupt from the keyboard stops the task safely, and is raised again. Errors as of `start`.
     """
@@ -87,6 +89,7 @@ def run(
         backend=backend,
         minimise=minimise,
         deadline_s=deadline_s,
+        step_deadline_s=step_deadline_s,
         looks=looks,
     )
     return operation.wait()  # wait ends: with the run, which has a deadline, or by an interrupt
@@ -107,6 +110,7 @@ def start(
     backend: BackendName = "mujoco",
     minimise: Minimise = "work",
     deadline_s: float | None = None,
+    step_deadline_s: float | None = None,
     looks: str = PRIMITIVE_LOOKS,
     pace: float | str = "fast",
     step: bool = False,
@@ -129,7 +133,16 @@ def start(
             raise RequestError("`signals` and `gif` are files, which require `out`")
         if signals is not None:
             require_choice(signals, SignalFormat, "`signals`")
-        options = replace(options, looks=looks, step=step, pause_at=tuple(pause_at), signals=signals, gif=gif)
+        step_limit_s = optional_seconds(step_deadline_s, "`step_deadline_s`")
+        options = replace(
+            options,
+            step_deadline_s=step_limit_s,
+            looks=looks,
+            step=step,
+            pause_at=tuple(pause_at),
+            signals=signals,
+            gif=gif,
+        )
 
         @contextmanager
         def load(notes: NoticeList) -> Iterator[LoadedTask]:

@@ -249,7 +249,9 @@ class CellHost:
         gate = Gate(parse_breakpoints(request.breakpoints, self.library))
         if request.step:
             gate.step("into", ())
-        settings = RunSettings(request.approve, request.deadline_s, request.ask_after_failure, request.priority)
+        settings = RunSettings(
+            request.approve, request.deadline_s, request.ask_after_failure, request.priority, request.step_deadline_s
+        )
         prepared, plan = continuation.prepared, self.loop.start_preparation
         start = plan if prepared is None else prepare_after(prepared, plan)
         self._journal.add_operation(operation, request)

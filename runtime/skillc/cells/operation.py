@@ -19,8 +19,8 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     Of those that wait for planners or devices, a higher `priority` comes first, then who was submitted first; nothing
     that runs gives way. `approve`: each plan waits for approval. `ask_after_failure`: a failed step waits for a
     decision instead of another plan. The operation fails if it has not ended `deadline_s` of the cell's time after its
-    submission. It pauses before its first call with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is
-    who requested it.
+    submission, and a primitive or a wait if it has not ended `step_deadline_s` after its start. It pauses before its
+    first call with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
 
     A request that `continues` an operation that was interrupted names nothing else to do; `decision` says how, and
     `why` a step counts as done that is skipped.
@@ -34,6 +34,7 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     approve: bool = False
     ask_after_failure: bool = False
     deadline_s: float | None = None
+    step_deadline_s: Annotated[float, msgspec.Meta(gt=0.0)] | None = None
     step: bool = False
     breakpoints: tuple[str, ...] = ()
     priority: Annotated[int, msgspec.Meta(ge=-100, le=100)] = 0

@@ -93,7 +93,7 @@ def pace_option(function: Function) -> Function:
 
 
 def operating_options(function: Function) -> Function:
-    """Add `--pace`, `--deadline`, `--step` and `--pause-at`."""
+    """Add `--pace`, `--deadline`, `--step-deadline`, `--step` and `--pause-at`."""
     options = (
         grouped_option(
             EXECUTION,
@@ -110,6 +110,13 @@ def operating_options(function: Function) -> Function:
             type=click.FloatRange(min=0.0, min_open=True),
             metavar="SECONDS",
             help="Let the task fail if it has not ended after these seconds of simulated time; also limits planning.",
+        ),
+        grouped_option(
+            EXECUTION,
+            "--step-deadline",
+            type=click.FloatRange(min=0.0, min_open=True),
+            metavar="SECONDS",
+            help="Let a primitive or a wait fail if it has not ended after these seconds of simulated time.",
         ),
         grouped_option(
             EXECUTION, "--step", is_flag=True, help="Pause before the first call; keys continue step by step."

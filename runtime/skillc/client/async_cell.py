@@ -54,6 +54,7 @@ class AsyncCell:
         ask_after_failure: bool = False,
         priority: int = 0,
         deadline_s: float | None = None,
+        step_deadline_s: float | None = None,
         step: bool = False,
         pause_at: Sequence[str] = (),
         key: str | None = None,
@@ -62,9 +63,9 @@ class AsyncCell:
 
         `arguments` are the values of the task's parameters by name. With `approve` each plan waits for approval; with
         `ask_after_failure` a failed step waits for a decision. Of operations that wait for devices a higher `priority`
-        comes first. The operation fails if it has not ended `deadline_s` s of the cell's time after this. It pauses
-        before its first call with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is
-        one operation.
+        comes first. The operation fails if it has not ended `deadline_s` s of the cell's time after this, and a
+        primitive or a wait if it has not ended `step_deadline_s` s after its start. It pauses before its first call
+        with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is one operation.
         """
         request = _describe(
             task,
@@ -75,6 +76,7 @@ class AsyncCell:
             ask_after_failure=ask_after_failure,
             priority=priority,
             deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
+            step_deadline_s=optional_seconds(step_deadline_s, "`step_deadline_s`"),
             step=step,
             breakpoints=tuple(pause_at),
         )
@@ -99,6 +101,7 @@ class AsyncCell:
         ask_after_failure: bool = False,
         priority: int = 0,
         deadline_s: float | None = None,
+        step_deadline_s: float | None = None,
         key: str | None = None,
     ) -> Order:
         """Let the server submit a task, a goal or a skill call `at` a time, with its offset from UTC.
@@ -116,6 +119,7 @@ class AsyncCell:
             ask_after_failure=ask_after_failure,
             priority=priority,
             deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
+            step_deadline_s=optional_seconds(step_deadline_s, "`step_deadline_s`"),
         )
         if at.tzinfo is None or (until is not None and until.tzinfo is None):
             raise RequestError("`at` and `until` need their offset from UTC, such as `datetime.now(UTC)` has")

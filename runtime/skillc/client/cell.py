@@ -48,6 +48,7 @@ class ServerCell:
         ask_after_failure: bool = False,
         priority: int = 0,
         deadline_s: float | None = None,
+        step_deadline_s: float | None = None,
         step: bool = False,
         pause_at: Sequence[str] = (),
         key: str | None = None,
@@ -62,6 +63,7 @@ class ServerCell:
             ask_after_failure=ask_after_failure,
             priority=priority,
             deadline_s=deadline_s,
+            step_deadline_s=step_deadline_s,
             step=step,
             pause_at=pause_at,
             key=key,
@@ -84,6 +86,7 @@ class ServerCell:
         ask_after_failure: bool = False,
         priority: int = 0,
         deadline_s: float | None = None,
+        step_deadline_s: float | None = None,
         key: str | None = None,
     ) -> Order:
         """Let the server submit something at a time, once or again; the parameters are those of `AsyncCell`."""
@@ -101,6 +104,7 @@ class ServerCell:
             ask_after_failure=ask_after_failure,
             priority=priority,
             deadline_s=deadline_s,
+            step_deadline_s=step_deadline_s,
             key=key,
         )
         return self._loop.run(ordering)

@@ -50,7 +50,8 @@ class RunOptions:
     process watches it). `run_id` is the id of the run, empty for a new one; `recorders` get its events as they are
     recorded. With `prints_json` the caller prints
     the result as JSON, and the watchdog does if the run is interrupted. The task fails if it has not ended
-    `deadline_s` of the cell's time after its start, or if a plan takes as long. It pauses before its first call with
+    `deadline_s` of the cell's time after its start, or if a plan takes as long, and a primitive or a wait if it has not
+    ended `step_deadline_s` after its start. The task pauses before its first call with
     `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop. The devices are
     as in `saved`, a checkpoint of the backend, if it is given.
 
@@ -65,6 +66,7 @@ class RunOptions:
     tick_timeout_s: float | None = TICK_TIMEOUT_S
     prints_json: bool = False
     deadline_s: float | None = None
+    step_deadline_s: float | None = None
     step: bool = False
     pause_at: tuple[str, ...] = ()
     backend: BackendName = "mujoco"
@@ -132,7 +134,10 @@ class _Run:
             recorded_signals(cell, options.signals, options.out, self.reporter) as hooks,
         ):
             loop, began = self._make_loop(planning, hooks), perf_counter()
-            settings, publisher = RunSettings(deadline_s=options.deadline_s), recorded.publisher
+            settings, publisher = (
+                RunSettings(deadline_s=options.deadline_s, step_deadline_s=options.step_deadline_s),
+                recorded.publisher,
+            )
             listeners = (choices, self.monitor, publisher)
             run = loop.submit(task.assignment, listeners, settings, self.gate, publisher.run)
             operate(loop, run, self.monitor, lambda: recorded.watchdog.count_tick(cell.clock.now))
@@ -148,7 +153,12 @@ class _Run:
         if options.out is None:
             return nullcontext(())
         origin = CellOrigin(task.scene, options.seed, options.backend)
-        settings = {"deadline_s": options.deadline_s, "step": options.step, "pause_at": options.pause_at}
+        settings = {
+            "deadline_s": options.deadline_s,
+            "step_deadline_s": options.step_deadline_s,
+            "step": options.step,
+            "pause_at": options.pause_at,
+        }
         name = task.assignment.name
         describe = partial(describe_contents, run_id, name, task.library, state, origin, settings)
         return recorded_in(options.out, describe, self.cell, self.reporter)

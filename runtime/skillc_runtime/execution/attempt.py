@@ -45,7 +45,7 @@ class RunContext:
     """What all attempts of a task run share.
 
     `listeners` get the events. `failures` collects the steps of plans that fail. `gate` holds calls back where the run
-    pauses; `locks` are those of the devices that it holds.
+    pauses; `locks` are those of the devices that it holds. A primitive or a wait may take `step_deadline_s`.
     """
 
     library: SkillLibrary
@@ -55,6 +55,7 @@ class RunContext:
     gate: Gate
     locks: DeviceLocks
     origin: CellOrigin
+    step_deadline_s: float | None
 
     def emit_notes(self, messages: Sequence[str]) -> None:
         """Emit messages for users."""
@@ -116,6 +117,7 @@ class Attempt:
             nodes_before,
             failures,
             context.gate,
+            context.step_deadline_s,
         )
         self.ticking, self.ended = True, False
         self._invalidated: str | None = None

@@ -95,6 +95,7 @@ class CellLoop:
         """
         name = run_id or f"{assignment.name}-{next(self._numbers)}"
         heard = (Listeners(listeners),) if listeners else ()
+        settings = settings or RunSettings()
         context = RunContext(
             self.library,
             self.backend,
@@ -103,8 +104,8 @@ class CellLoop:
             gate or Gate(),
             ClaimedLocks(self._claims, name),
             self.origin,
+            settings.step_deadline_s,
         )
-        settings = settings or RunSettings()
         self._claims.add(name, settings.priority)
         start = start_preparation or self.start_preparation
         run = TaskRun(name, assignment, context, self._claims, start, settings)

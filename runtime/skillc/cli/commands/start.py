@@ -51,6 +51,13 @@ skillc start clean_table --at 2027-01-04T07:00:00+01:00 --every 86400 --missed s
     metavar="SECONDS",
     help="Let the task fail if it has not ended after these seconds of the cell's time.",
 )
+@grouped_option(
+    EXECUTION,
+    "--step-deadline",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="SECONDS",
+    help="Let a primitive or a wait fail if it has not ended after these seconds of the cell's time.",
+)
 @grouped_option(EXECUTION, "--priority", default=0, help="Of operations that wait, the higher comes first.")
 @grouped_option(EXECUTION, "--key", metavar="TEXT", help="The same request with the same key is one operation.")
 @order_options
@@ -68,6 +75,7 @@ def command(
     step: bool,
     pause_at: tuple[str, ...],
     deadline: float | None,
+    step_deadline: float | None,
     priority: int,
     key: str | None,
     at: datetime | None,
@@ -90,6 +98,7 @@ def command(
             "ask_after_failure": ask,
             "priority": priority,
             "deadline_s": deadline,
+            "step_deadline_s": step_deadline,
             "key": key,
         }
         if at is not None:

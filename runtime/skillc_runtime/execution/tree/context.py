@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from skillc_model.skills import SkillLibrary
@@ -15,6 +16,9 @@ from skillc_runtime.recording.events import Listener, Note
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.world_state import WorldState
 
+EPSILON_S = 1e-9
+"""What is due so much later than now is due now: times are sums of ticks."""
+
 
 class TreeContext:
     """The mutable state that the nodes of a tree share.
@@ -22,7 +26,7 @@ class TreeContext:
     `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
     calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
-    that a pause concerns.
+    that a pause concerns. A primitive or a wait fails `step_deadline_s` after its start; None if it may take any time.
     """
 
     __slots__ = (
@@ -39,6 +43,7 @@ class TreeContext:
         "now",
         "run_cell",
         "state",
+        "step_deadline_s",
         "time",
     )
 
@@ -50,12 +55,14 @@ class TreeContext:
         locks: DeviceLocks,
         ids: int = 0,
         gate: Gate | None = None,
+        step_deadline_s: float | None = None,
     ) -> None:
         self.library = library
         self.cell = cell
         self.emit = emit
         self.locks = locks
         self.gate = gate
+        self.step_deadline_s = step_deadline_s
         self.run_cell = RunCell(cell)
         self.active = ActivePrimitives()
         self._stopped, self._own_offset = False, 0.0
@@ -69,6 +76,10 @@ class TreeContext:
         """Return a number that no other node of the run has."""
         self.last_id += 1
         return self.last_id
+
+    def find_step_end(self) -> float:
+        """Return by when what starts now must have ended, in the run's own time in s; infinite without a limit."""
+        return math.inf if self.step_deadline_s is None else self.now + self.step_deadline_s - EPSILON_S
 
     def begin_tick(self) -> None:
         """Read the clock and take the newest snapshot."""

@@ -6,14 +6,12 @@ from typing import ClassVar
 
 from skillc_model import tree
 from skillc_runtime.execution.tree.active_path import ActivePath
-from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.context import EPSILON_S, TreeContext
 from skillc_runtime.execution.tree.leaf_nodes import evaluate_seconds
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
-
-_EPSILON_S = 1e-9
 
 
 class TimeoutNode(Node):
@@ -31,7 +29,7 @@ class TimeoutNode(Node):
     def on_start(self) -> Status:
         seconds = evaluate_seconds(self.node.seconds, self.context, self.frame)
         self.name = f"timeout {seconds:g} s"
-        self._deadline = self.context.now + seconds - _EPSILON_S
+        self._deadline = self.context.now + seconds - EPSILON_S
         self._path = ActivePath(self.child)
         return self.on_child_ended(self._path.start())
 

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from skillc_model import tree
 from skillc_model.conditions import Expression
-from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.context import EPSILON_S, TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import RUNNING, Node
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes
@@ -18,8 +18,6 @@ from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
-
-_EPSILON_S = 1e-9
 
 
 def evaluate_seconds(expression: Expression, context: TreeContext, frame: Frame) -> float:
@@ -34,7 +32,7 @@ class WaitNode(Node):
     """Succeeds after a time."""
 
     kind: ClassVar[str] = "wait"
-    __slots__ = ("_until", "frame", "node")
+    __slots__ = ("_late", "_until", "frame", "node")
 
     def __init__(self, context: TreeContext, node: tree.Wait, scope: LexicalScope) -> None:
         super().__init__(context, node.source)
@@ -42,18 +40,22 @@ class WaitNode(Node):
         self.frame = scope.frame
 
     def on_start(self) -> Status:
-        self._until = self.context.now + evaluate_seconds(self.node.seconds, self.context, self.frame) - _EPSILON_S
+        self._late = self.context.find_step_end()
+        self._until = self.context.now + evaluate_seconds(self.node.seconds, self.context, self.frame) - EPSILON_S
         return self.tick()
 
     def tick(self) -> Status:
-        return RUNNING if self.context.now < self._until else self.succeed()
+        now = self.context.now
+        if now >= self._until:
+            return self.succeed()
+        return RUNNING if now < self._late else self.fail_late()
 
 
 class WaitUntilNode(Node):
     """Succeeds once the condition is true; it is evaluated only when the state of the world is new."""
 
     kind: ClassVar[str] = "wait until"
-    __slots__ = ("_seen", "frame", "node")
+    __slots__ = ("_late", "_seen", "frame", "node")
 
     def __init__(self, context: TreeContext, node: tree.WaitUntil, scope: LexicalScope) -> None:
         super().__init__(context, node.source, name=f"wait until {node.text}")
@@ -62,17 +64,18 @@ class WaitUntilNode(Node):
 
     def on_start(self) -> Status:
         self._seen: object = None
+        self._late = self.context.find_step_end()
         return self.tick()
 
     def tick(self) -> Status:
         state = self.context.state
-        if state is self._seen:
-            return RUNNING
-        self._seen = state
         try:
-            return self.succeed() if evaluate(self.node.condition, state, self.frame) else RUNNING
+            if state is not self._seen and evaluate(self.node.condition, state, self.frame):
+                return self.succeed()
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports and fails
             return self.fail_with_error(error)
+        self._seen = state
+        return RUNNING if self.context.now < self._late else self.fail_late()
 
     def remains_satisfied(self) -> bool:
         return evaluate(self.node.condition, self.context.state, self.frame)

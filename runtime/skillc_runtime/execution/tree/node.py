@@ -108,6 +108,12 @@ class Node:
         self.stop(message)
         return self.fail(Failure(kind="error", message=message, source=self.source))
 
+    def fail_late(self) -> Status:
+        """Halt the node and fail because it has reached the deadline of each step."""
+        message = f"{self.name} was not done after {self.context.step_deadline_s:g} s, the deadline of each step"
+        self.stop(message)
+        return self.fail(Failure(kind="timeout", message=message, source=self.source))
+
     def describe_call(self) -> FailedCallContext | None:
         """Return the details of a failed call, or None for other nodes; only called if there are listeners."""
         return None

@@ -30,7 +30,17 @@ class PrimitiveNode(Node):
     """
 
     kind: ClassVar[str] = "primitive"
-    __slots__ = ("_make", "_primitive", "_running", "_tick", "_undo", "outputs", "refused_to_start", "undo_posts")
+    __slots__ = (
+        "_late",
+        "_make",
+        "_primitive",
+        "_running",
+        "_tick",
+        "_undo",
+        "outputs",
+        "refused_to_start",
+        "undo_posts",
+    )
 
     def __init__(
         self, context: TreeContext, source: Position, name: str, make: Callable[[], Primitive], undo: UndoStack | None
@@ -47,7 +57,7 @@ class PrimitiveNode(Node):
     def on_start(self) -> Status:
         with foreign_code:
             self._primitive = primitive = self._make()
-        self._tick = primitive.tick
+        self._tick, self._late = primitive.tick, self.context.find_step_end()
         self._running = True
         if self._undo is not None:
             self._undo.push(self.release)
@@ -67,7 +77,7 @@ class PrimitiveNode(Node):
         try:
             status = self._tick()
             if status is RUNNING:
-                return RUNNING
+                return RUNNING if self.context.now < self._late else self.fail_late()
             return self._on_finished(status)
         except SkillFailure as failure:
             return self._halt_and_fail(str(failure), failure.values)

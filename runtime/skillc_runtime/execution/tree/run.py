@@ -51,17 +51,18 @@ class TreeRun:
         nodes_before: int = 0,
         failures: CallFailures | None = None,
         gate: Gate | None = None,
+        step_deadline_s: float | None = None,
     ) -> None:
         """Build the tree; nothing starts.
 
         Runs on the same devices share `locks`. The nodes are numbered from `nodes_before` + 1, so that the events of
         several runs can share a recording. Calls skip implementations that would fail again according to `failures`,
-        and add their own failures. `gate` holds calls back where the run pauses.
+        and add their own failures. `gate` holds calls back where the run pauses. A primitive or a wait that has not
+        ended `step_deadline_s` of the run's own time after its start fails.
         """
         self._listeners = Listeners(listeners)
-        self._context = TreeContext(
-            library, cell, self._listeners if listeners else None, locks or DeviceLocks(), nodes_before, gate
-        )
+        emit = self._listeners if listeners else None
+        self._context = TreeContext(library, cell, emit, locks or DeviceLocks(), nodes_before, gate, step_deadline_s)
         self._undo = UndoStack()
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
         self._root = build_node(body, self._context, LexicalScope(self._undo, failures=failures))
