@@ -20,7 +20,10 @@ from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import RequestError
 from skillc.services.replaying.check import check_run
 from skillc.services.reporting import SilentReporter
+from skillc_ontology import catalogue
+from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.safety import SafetyLimits
+from skillc_runtime.devices.backend import StopPersists
 from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -298,3 +301,26 @@ def test_a_push_moves_the_hand_and_after_an_emergency_stop_nothing_moves(tmp_pat
         where = cell.arms[arm].state().q.copy()
         cell.advance(0.5)
         assert np.allclose(cell.arms[arm].state().q, where, atol=0.01)
+
+
+def test_a_stop_that_one_arm_still_causes_is_acknowledged_for_none(tmp_path: Path) -> None:
+    scene = str(catalogue.scene_path("two_robots"))
+    with open_cell(make_settings(tmp_path, ("wiping", "", scene), "kinematic"), SilentReporter()) as host:
+        cell = reality(host)
+        (first, fast), (second, blind) = cell._drivers.items()
+        fast._safety.limits = SafetyLimits(tool_speed_m_s=0.01)
+        fast.motion.move_joints(fast.measured.q + 0.2, 1.0)
+        cell.advance(0.5)
+        stopped = cell.stops.report
+        assert stopped is not None and "beyond the 0.01 m/s" in stopped.reason
+        cell.arms[second]._dq[:] = np.nan
+        with pytest.raises(ControlError):
+            cell.advance(0.01)
+        with pytest.raises(StopPersists) as persists:
+            cell.stops.clear()
+        names = {each: host.library.vocabulary.short(each) for each in (first, second)}
+        assert names[second] in str(persists.value) and names[first] not in str(persists.value)
+        assert cell.stops.report == stopped and blind.broken is not None, "nothing has changed"
+        cell.arms[second]._dq[:] = 0.0
+        cell.stops.clear()
+        assert cell.stops.report is None

@@ -76,9 +76,12 @@ class CompliantArmDriver:
         fault, self.fault = self.fault, None
         return fault
 
-    def recover(self) -> None:
-        """Forget why the arm stopped by itself; ControlError if what it measures is still no number."""
+    def check_measurements(self) -> None:
+        """Hold the arm at its last known position and raise ControlError if what it measures is no number."""
         self._validator.check(self._arm.state())
+
+    def recover(self) -> None:
+        """Forget why the arm stopped by itself."""
         self.broken = self.violation = None
 
     def abort(self, reason: str) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.control.controller import ControlError
@@ -45,15 +45,13 @@ class SimulatedStops:
         if self._stopper.lost:
             lost = ", ".join(sorted(self._names[each] for each in self._stopper.lost))
             raise StopPersists(f"{lost} does not answer yet; connect it again")
-        broken = [individual for individual, arm in self._arms.items() if arm.broken is not None]
-        for individual, arm in self._arms.items():
-            try:
-                arm.recover()
-            except ControlError as error:
-                raise StopPersists(f"{self._names[individual]}: {error}") from error
-        if broken:
-            idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(broken)]
+        if problems := [f"{self._names[each]}: {why}" for each, why in self._find_unmeasured()]:
+            raise StopPersists("; ".join(problems))
+        if broken := sorted(individual for individual, arm in self._arms.items() if arm.broken is not None):
+            idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in broken]
             self._world.commit(idle, "the stop was acknowledged", "reported")
+        for arm in self._arms.values():
+            arm.recover()
 
     def press(self, pressed: bool) -> None:
         """Press or release the emergency stop; all devices stop when it is pressed."""
@@ -68,3 +66,11 @@ class SimulatedStops:
             self._stopper.lost.add(arm)
         elif not lost:
             self._stopper.lost.discard(arm)
+
+    def _find_unmeasured(self) -> Iterator[tuple[str, str]]:
+        """Yield the arms that report what is no number, each with a description."""
+        for individual, arm in self._arms.items():
+            try:
+                arm.check_measurements()
+            except ControlError as error:
+                yield individual, str(error)
