@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Literal, cast
 
@@ -14,6 +14,8 @@ from skillc.cli.server_access import asked_cell
 
 if TYPE_CHECKING:
     from skillc.workers.jobs import WorldFact, WorldWrite
+    from skillc_runtime.evaluation.trials.series import Series
+    from skillc_runtime.evaluation.trials.trial import Disturbance
 
 NS = 1e9
 
@@ -44,6 +46,28 @@ def plan(
     else:
         print_text(answer.text)
     return 0 if answer.status == "solved" else 3
+
+
+def run_trials(
+    task: str,
+    arguments: dict[str, str],
+    number: int,
+    seed: int,
+    disturb: Disturbance,
+    deadline_s: float,
+    show_done: Callable[[int], None],
+) -> Series:
+    """Let a server run trials of a cell's task, and return them; `show_done` is told how many are done."""
+    with asked_cell() as cell:
+        return cell.trials(
+            task,
+            number,
+            arguments=arguments,
+            seed=seed,
+            disturb=disturb,
+            deadline_s=deadline_s,
+            watch=lambda series: show_done(series.done),
+        ).series
 
 
 def show_world(sparql: str | None, individual: str | None, history: bool, as_json: bool) -> None:

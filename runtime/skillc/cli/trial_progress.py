@@ -39,6 +39,13 @@ class TrialProgress:
     ) -> None:
         self._bar.stop()
 
+    def show_done(self, done: int) -> None:
+        """Show how many trials are done, where no more is known of them."""
+        self._done = done
+        self._bar.update(self._row, completed=done)
+        if self._bar.disable and not self._is_quiet:
+            self._console.print(f"{done} of {self._count} trials done", soft_wrap=True)
+
     def __call__(self, trial: Trial) -> None:
         """Show a finished trial; on a terminal those that ended as expected only advance the bar."""
         self._done += 1

@@ -2,34 +2,51 @@
 
 from __future__ import annotations
 
-import asyncio
-from collections.abc import AsyncGenerator, Mapping, Sequence
+from collections.abc import AsyncGenerator, Callable, Mapping, Sequence
 from datetime import datetime
-from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Literal
 from uuid import uuid4
 
-from skillc.api.boundary import optional_seconds, optional_text, read_arguments, read_pace, require_choice, require_text
+from skillc.api.boundary import (
+    optional_seconds,
+    optional_text,
+    read_arguments,
+    read_pace,
+    require_choice,
+    require_count,
+    require_text,
+)
+from skillc.api.trials import Trials
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.samples import Sample
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
-from skillc.client.errors import RefusedError
+from skillc.client.experiments import rehearse, run_trials
 from skillc.client.feed import follow_samples
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, PlanRequest, StopAll, WorldEdit, WorldQuery
 from skillc.server.orders.order import Missed, Order, OrderRequest
 from skillc.server.rehearsals import Rehearsal
+from skillc.server.trials.store import TrialSeries
 from skillc.services.errors import RequestError
-from skillc.workers.jobs import PlanPreview, QueryRows, RehearsalRequest, WorldFact, WorldFacts, WorldWrite
+from skillc.workers.jobs import (
+    PlanPreview,
+    QueryRows,
+    RehearsalRequest,
+    TrialsRequest,
+    WorldFact,
+    WorldFacts,
+    WorldWrite,
+)
 from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.devices.disturbances import Disturbance
+from skillc_runtime.evaluation.trials.trial import Disturbance as TrialDisturbance
+from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S
 from skillc_runtime.execution.pace import FAST
 
-OPERATIONS, FACTS, WRITES = 100, 1000, 100
+OPERATIONS, FACTS, WRITES, TRIALS = 100, 1000, 100, 50
 PLANNING_S, REHEARSAL_S = 30.0, 600.0
-LOOK_S = 0.3
 
 
 class AsyncCell:
@@ -209,18 +226,34 @@ class AsyncCell:
             deadline_s=optional_seconds(deadline_s, "`deadline_s`") or REHEARSAL_S,
             film=film is not None,
         )
-        found = await self._connection.send("POST", self._path("rehearsals"), Rehearsal, request)
-        try:
-            while found.state != "ended":  # wait ends: the server limits how long a rehearsal takes
-                await asyncio.sleep(LOOK_S)
-                found = await self._connection.get(join("rehearsals", found.id), Rehearsal)
-            if found.result is None:
-                raise RefusedError(found.reason, HTTPStatus.CONFLICT)
-            if film is not None and found.film:
-                await self._connection.download(join("rehearsals", found.id, "film"), Path(film))
-        finally:
-            await self._connection.send("DELETE", join("rehearsals", found.id), type(None))
-        return found
+        return await rehearse(self._connection, self._path("rehearsals"), request, Path(film) if film else None)
+
+    async def trials(
+        self,
+        task: str,
+        number: int = TRIALS,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        seed: int = 0,
+        disturb: TrialDisturbance = "none",
+        deadline_s: float | None = None,
+        watch: Callable[[TrialSeries], None] | None = None,
+    ) -> Trials:
+        """Run a task with `number` successive seeds from the cell's scene, and judge the runs; as `skillc.trials`.
+
+        The cell itself does nothing, and its world now does not matter. One trial may take `deadline_s` s of wall time.
+        `watch` is called with each progress. The server keeps the series; it forgets it if this is cancelled.
+        RefusedError if the trials cannot be run.
+        """
+        request = TrialsRequest(
+            task=require_text(task, "the task"),
+            arguments=read_arguments(arguments),
+            number=require_count(number, "the number of trials", 1),
+            seed=require_count(seed, "the seed", 0),
+            disturb=require_choice(disturb, TrialDisturbance, "`disturb`"),
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or TRIAL_LIMIT_S,
+        )
+        return Trials(await run_trials(self._connection, self._path("trials"), request, watch))
 
     async def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
         """Return the facts about all individuals, about one, or about those of a class, with how each is known."""

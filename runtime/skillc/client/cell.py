@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal
 
+from skillc.api.trials import Trials
 from skillc.cells.operation import CellStatus
 from skillc.cells.samples import Sample
-from skillc.client.async_cell import OPERATIONS, PLANNING_S, WRITES, AsyncCell
+from skillc.client.async_cell import OPERATIONS, PLANNING_S, TRIALS, WRITES, AsyncCell
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus
 from skillc.server.orders.order import Missed, Order
 from skillc.server.rehearsals import Rehearsal
+from skillc.server.trials.store import TrialSeries
 from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldWrite
 from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.devices.disturbances import Disturbance
+from skillc_runtime.evaluation.trials.trial import Disturbance as TrialDisturbance
 
 
 class ServerCell:
@@ -178,6 +181,23 @@ class ServerCell:
             task, arguments=arguments, goal=goal, skill=skill, seed=seed, deadline_s=deadline_s, film=film
         )
         return self._loop.run(rehearsing)
+
+    def trials(
+        self,
+        task: str,
+        number: int = TRIALS,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        seed: int = 0,
+        disturb: TrialDisturbance = "none",
+        deadline_s: float | None = None,
+        watch: Callable[[TrialSeries], None] | None = None,
+    ) -> Trials:
+        """Run a task many times in simulation, from the cell's scene, and judge the runs; parameters of `AsyncCell`."""
+        running = self._cell.trials(
+            task, number, arguments=arguments, seed=seed, disturb=disturb, deadline_s=deadline_s, watch=watch
+        )
+        return self._loop.run(running)
 
     def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
         """Return the facts about all individuals, about one, or about those of a class, with how each is known."""

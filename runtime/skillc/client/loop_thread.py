@@ -11,6 +11,8 @@ from typing import Any, TypeVar
 
 LOOK_S = 0.1
 """How often a waiting thread looks again, so that it takes interrupts, in s of wall time."""
+TIDY_UP_S = 5.0
+"""How long a coroutine that is cancelled may take to tidy up, in s."""
 T = TypeVar("T")
 
 
@@ -23,14 +25,23 @@ class LoopThread:
         self._thread.start()
 
     def run(self, coroutine: Coroutine[Any, Any, T]) -> T:
-        """Return the value of a coroutine; an interrupt of the thread that waits cancels it."""
-        future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+        """Return the value of a coroutine; an interrupt of the thread that waits cancels it, and lets it tidy up."""
+        ended = threading.Event()
+
+        async def carry_out() -> T:
+            try:
+                return await coroutine
+            finally:
+                ended.set()
+
+        future = asyncio.run_coroutine_threadsafe(carry_out(), self._loop)
         try:
             while not future.done():
                 wait((future,), LOOK_S)
             return future.result(0.0)
         finally:
-            future.cancel()
+            if future.cancel():
+                ended.wait(TIDY_UP_S)
 
     def iterate(self, items: AsyncGenerator[T, None]) -> Iterator[T]:
         """Yield what an asynchronous generator yields, and close it at the end."""

@@ -22,6 +22,8 @@ from skillc.server.rehearsals import Rehearsals
 from skillc.server.served_library import ServedLibrary
 from skillc.server.state import REHEARSALS, ServerState
 from skillc.server.supervisor import CellSupervisor
+from skillc.server.trials.running import TrialRuns
+from skillc.server.trials.store import TrialStore
 from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
 
@@ -37,6 +39,7 @@ class ServerContext:
     leases: Leases = field(default_factory=Leases)
     workers: Workers = field(default_factory=Workers)
     rehearsals: Rehearsals = field(init=False)
+    trials: TrialRuns = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
     clock: Callable[[], datetime] = now_utc
     audit: AuditLog = field(init=False)
@@ -46,6 +49,7 @@ class ServerContext:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rehearsals", Rehearsals(self.state.folder / REHEARSALS))
+        object.__setattr__(self, "trials", TrialRuns(TrialStore(self.state.database)))
         object.__setattr__(self, "audit", AuditLog(self.state.database))
         object.__setattr__(self, "keys", RequestKeys(self.state.database))
         object.__setattr__(self, "orders", Orders(self.state.database))

@@ -16,6 +16,7 @@ from skillc.server.routes import (
     recordings,
     rehearsals,
     tokens,
+    trials,
     world,
 )
 
@@ -32,6 +33,7 @@ ENDPOINTS: tuple[ApiEndpoint, ...] = (
     *plans.ENDPOINTS,
     *rehearsals.ENDPOINTS,
     *tokens.ENDPOINTS,
+    *trials.ENDPOINTS,
     *audit.ENDPOINTS,
     *metrics.ENDPOINTS,
 )

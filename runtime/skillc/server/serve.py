@@ -80,6 +80,7 @@ async def _serve(
     finally:
         context.workers.close()
         context.rehearsals.close()
+        await context.trials.close()
         for task in going:
             task.cancel()
         for task in going:

@@ -15,6 +15,7 @@ from skillc.server.access.tokens import Tokens
 from skillc.server.audit import TABLE as AUDIT
 from skillc.server.idempotency import TABLE as REQUESTS
 from skillc.server.orders.store import TABLE as ORDERS
+from skillc.server.trials.store import SERIES, TRIALS
 from skillc.services.errors import ServiceError
 from skillc_runtime.store.store_lock import StoreLock
 
@@ -23,7 +24,12 @@ def _add_orders(database: sqlite3.Connection) -> None:
     database.execute(ORDERS)
 
 
-SCHEMA = Schema(2, ";\n".join((TOKENS, AUDIT, REQUESTS, ORDERS)), {1: _add_orders})
+def _add_trials(database: sqlite3.Connection) -> None:
+    database.execute(SERIES)
+    database.execute(TRIALS)
+
+
+SCHEMA = Schema(3, ";\n".join((TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS)), {1: _add_orders, 2: _add_trials})
 LOCK, DATABASE, ADMIN_TOKEN, CELLS, REHEARSALS = "lock", "server.sqlite", "admin.token", "cells", "rehearsals"
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""

@@ -35,6 +35,11 @@ def assign_task(
     return Assignment(task.name, state, ExecuteBody(task.body))
 
 
+def write_call(name: str, arguments: Mapping[str, str]) -> str:
+    """Return a call of a task with arguments as text."""
+    return f"{name}({', '.join(f'{each}: {value}' for each, value in arguments.items())})"
+
+
 def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: Mapping[str, str]) -> Task:
     """Return a task with values in place of its parameters; they are read like those of a skill of its name.
 
@@ -44,7 +49,7 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
         if arguments:
             raise RequestError(f"the task `{task.name}` takes no arguments")
         return task
-    written = f"{task.name}({', '.join(f'{name}: {value}' for name, value in arguments.items())})"
+    written = write_call(task.name, arguments)
     head = Skill(name=task.name, parameters=task.parameters, source=task.source)
     individuals = classes_by_individual(state, library.vocabulary)
     only = structs.replace(library, skills={task.name: head})

@@ -18,13 +18,14 @@ from skillc.services.reporting import Reporter
 from skillc.services.stores import load_world
 from skillc.services.task_loading import find_task_in_scene
 from skillc_model import codec
-from skillc_model.skills import SkillLibrary
+from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.evaluation.trials import identity, page
 from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
 from skillc_runtime.evaluation.trials.journal import Heading, JournalError, TrialJournal, find_missing_seeds
 from skillc_runtime.evaluation.trials.series import Series, judge_series
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S, PreparationError, run_in_processes
+from skillc_runtime.world.state.world_state import WorldState
 
 PAGE = "trials.html"
 StartMonitor: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[Trial], None]]]
@@ -55,11 +56,27 @@ def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -
     process can run trials.
     """
     library, task, scene = find_task_in_scene(request.reference)
-    task = bind_task(task, library, load_world(scene, library.vocabulary, reporter), request.arguments)
-    library = structs.replace(library, tasks={**library.tasks, task.name: task})
-    experiment = Experiment(codec.dumps(library), task.name, scene, request.disturbance)
+    state = load_world(scene, library.vocabulary, reporter)
+    experiment = make_experiment(task, library, scene, state, request.arguments, request.disturbance)
     trials = _run(request, experiment, _heading(experiment, library), watch, reporter)
-    return judge_series(task.name, request.disturbance, len(request.seeds), trials)
+    return judge_series(experiment.task, request.disturbance, len(request.seeds), trials)
+
+
+def make_experiment(
+    task: Task,
+    library: SkillLibrary,
+    scene: Path,
+    state: WorldState,
+    arguments: Mapping[str, str],
+    disturbance: Disturbance,
+) -> Experiment:
+    """Return what trials of a task with arguments run, in the file of a scene, whose world is `state`.
+
+    DiagnosticsError or RequestError if the arguments have errors.
+    """
+    task = bind_task(task, library, state, arguments)
+    library = structs.replace(library, tasks={**library.tasks, task.name: task})
+    return Experiment(codec.dumps(library), task.name, scene, disturbance)
 
 
 def write_page(result: Series, out: Path) -> None:

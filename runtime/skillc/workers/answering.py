@@ -19,6 +19,7 @@ from skillc.services.scenes import describe_state, query_document
 from skillc.workers.devices import Device, list_devices
 from skillc.workers.jobs import (
     CheckOperation,
+    CheckTrials,
     DescribeLibrary,
     Job,
     ListDevices,
@@ -29,6 +30,7 @@ from skillc.workers.jobs import (
     QueryRows,
     QueryWorld,
     Rehearse,
+    RunTrial,
     WorldFact,
     WorldFacts,
     WorldWrite,
@@ -36,7 +38,9 @@ from skillc.workers.jobs import (
 from skillc.workers.libraries import LibraryDescription, describe_library
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
+from skillc.workers.trying import check_trials, run_trial
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError
@@ -58,6 +62,7 @@ JobAnswer: TypeAlias = (
     | tuple[Device, ...]
     | PlanPreview
     | TaskResult
+    | Trial
     | None
 )
 
@@ -103,6 +108,11 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
         case CheckOperation():
             _check(job, known)
             return None
+        case CheckTrials():
+            check_trials(job, known)
+            return None
+        case RunTrial():
+            return run_trial(job, known)
         case _:
             assert_never(job)
 

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledFact
 
@@ -71,8 +72,32 @@ class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
     folder: str | None
 
 
+class CheckTrials(msgspec.Struct, frozen=True, tag="check trials"):
+    """Check that trials can be run from the file of a scene."""
+
+    request: TrialsRequest
+    scene: str
+
+
+class RunTrial(msgspec.Struct, frozen=True, tag="trial"):
+    """Run the trial of a seed from the file of a scene; None for the seed only loads and plans."""
+
+    request: TrialsRequest
+    scene: str
+    seed: int | None
+
+
 Job: TypeAlias = (
-    QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | CheckOperation | PreviewPlan | Rehearse
+    QueryWorld
+    | ListFacts
+    | ListWrites
+    | DescribeLibrary
+    | ListDevices
+    | CheckOperation
+    | PreviewPlan
+    | Rehearse
+    | CheckTrials
+    | RunTrial
 )
 
 
@@ -90,6 +115,20 @@ class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     seed: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
     deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)] = 600.0
     film: bool = False
+
+
+class TrialsRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
+    """A task of the cell's library with arguments, to run `number` times from the cell's scene, with seeds from `seed`.
+
+    `disturb` is what disturbs each trial; one may take `deadline_s` s of wall time.
+    """
+
+    task: str
+    arguments: dict[str, str] = {}
+    number: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 50
+    seed: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
+    disturb: Disturbance = "none"
+    deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)] = 3600.0
 
 
 Measure: TypeAlias = Literal["work", "proven work", "makespan"]

@@ -31,6 +31,10 @@ class JobFailed(Exception):
     """A job cannot be done; the message says why."""
 
 
+class JobCrashed(JobFailed):
+    """The process that did a job has died, or its code has raised what nobody expected."""
+
+
 class JobTimedOut(Exception):
     """A job took too long, and its process was killed."""
 
@@ -119,10 +123,12 @@ class Workers:
         match result:
             case Returned(bytes() as answer):
                 return answer
-            case Returned(JobRefused(why)) | Raised(why):
+            case Returned(JobRefused(why)):
                 raise JobFailed(why)
+            case Raised(why):
+                raise JobCrashed(why)
             case Died(why):
-                raise JobFailed(f"the process that should have answered has ended: {why}")
+                raise JobCrashed(f"the process that should have answered has ended: {why}")
             case _:
                 raise Cancelled(limit.reason or "")
 

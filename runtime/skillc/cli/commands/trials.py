@@ -15,12 +15,14 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_task
 from skillc.cli.options import FOLDER, json_option, task_arguments
+from skillc.cli.server_access import asks_cell, cell_options, refuse_options
 from skillc_runtime.evaluation.trials.trial import Disturbance
 
 EXAMPLES = """
 skillc trials clean_table -n 20
 skillc trials contact:insert_peg -n 100 --out trials
 skillc trials clean_table --disturb push --json
+skillc trials clean_table --cell iiwa_table -n 20
 """
 
 COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
@@ -58,6 +60,7 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
     metavar="SECONDS",
     help="The time limit of one trial, in wall time.",
 )
+@cell_options
 @json_option
 def command(
     task: str | None,
@@ -73,22 +76,34 @@ def command(
     """Run TASK, as `skillc run` does, in simulation with -n successive seeds, starting at --seed.
 
     Each seed draws how the simulation differs from the world model, within the ranges that the scene states.
+
+    With --cell or --server, a server runs a task of a cell's library, from the cell's scene, one trial at a time. It
+    keeps the result; the cell itself does nothing.
     """
+    from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, is_unicode, page_of, print_json, print_result, remark_default
     from skillc.cli.trial_progress import TrialProgress
     from skillc.cli.trials_output import format_series
+    from skillc.services.errors import RequestError
     from skillc.services.task_list import require_task
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
 
     def progress(name: str, done: int) -> TrialProgress:
         return TrialProgress(name, disturb, number, done, quiet=as_json)
 
-    chosen = require_task(task)
-    remark_default(task, chosen)
-    at_a_time = min(jobs or os.cpu_count() or 1, number)
-    seeds = range(seed, seed + number)
-    request = TrialRequest(chosen, disturb, seeds, at_a_time, out, deadline, arguments)
-    result = run_trials(request, progress, Terminal())
+    if asks_cell():
+        refuse_options(jobs=jobs, out=out)
+        if task is None:
+            raise RequestError("name a task of the cell's library")
+        with progress(task, 0) as shown:
+            result = cell_questions.run_trials(task, arguments, number, seed, disturb, deadline, shown.show_done)
+    else:
+        chosen = require_task(task)
+        remark_default(task, chosen)
+        at_a_time = min(jobs or os.cpu_count() or 1, number)
+        seeds = range(seed, seed + number)
+        request = TrialRequest(chosen, disturb, seeds, at_a_time, out, deadline, arguments)
+        result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)
     else:
