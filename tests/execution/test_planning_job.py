@@ -24,6 +24,7 @@ from skillc_runtime.planning.arrangement import InSeries
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
 from skillc_runtime.planning.plan import Plan, PlanResult
 from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation
@@ -89,7 +90,7 @@ class Odd:
     does: Callable[[], object]
     name: str = "odd"
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         self.does()
         raise AssertionError("it came back")
 

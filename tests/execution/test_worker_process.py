@@ -9,11 +9,12 @@ import subprocess
 import sys
 import threading
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
+from skillc_runtime.execution.worker_process import Died, Raised, ReportingFunction, Returned, WorkerProcess
 from skillc_runtime.platforms.processes import StartMethod
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.world_state import WorldState
@@ -87,6 +88,24 @@ def test_a_thread_reports_exceptions_too_and_one_that_is_killed_is_left_behind()
 def test_signals_of_the_terminal_are_left_to_the_parent(start: StartMethod) -> None:
     worker = WorkerProcess(interrupt, start)
     assert answer(worker, None) == Returned("still here")
+    worker.kill()
+
+
+def count_up(most: int, report: Callable[[object], None]) -> int:
+    for number in range(most):
+        report(number)
+    return most
+
+
+@pytest.mark.parametrize("start", ["fork", "spawn", "thread"])
+def test_a_function_reports_how_far_it_is_and_never_waits_for_who_does_not_read(start: StartMethod) -> None:
+    worker = WorkerProcess(ReportingFunction(count_up), start)
+    assert worker.report is None
+    assert answer(worker, 100_000) == Returned(100_000), "more than the connection holds"
+    assert worker.report is not None and 0 <= worker.report < 100_000
+    worker.ask(1)
+    assert worker.report is None, "that was another request"
+    assert worker.wait(60.0) == Returned(1) and worker.report == 0
     worker.kill()
 
 

@@ -30,6 +30,7 @@ from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Schedule, Scheduled
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.search.h_max import critical_path_s
@@ -52,7 +53,9 @@ class Says:
     answer: Schedule | GaveUp
     name: str = "somebody"
 
-    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
+    def schedule(
+        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
+    ) -> Schedule | GaveUp:
         """Return the answer."""
         return self.answer
 
@@ -63,7 +66,7 @@ class Alone:
 
     name: str = "a lazy one"
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Return its only plan."""
         back = step("Go", robot="carl", to="a", from_="c")
         steps = (*carry("carl", "crate", "a", "c"), *carry("carl", "box", "a", "c"))

@@ -20,6 +20,7 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Schedule
 from skillc_runtime.planning.search.astar import AStar
 
@@ -36,12 +37,14 @@ class Counting:
     name: str = "counting"
     asked: list[int] = field(default_factory=list)
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Return the answer."""
         self.asked.append(round(cancel.remaining_s))
         return self.answer
 
-    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
+    def schedule(
+        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
+    ) -> Schedule | GaveUp:
         """Return a schedule."""
         self.asked.append(round(cancel.remaining_s))
         return GOOD
@@ -82,7 +85,7 @@ def test_who_has_more_time_than_a_plan_that_was_cut_short_asks_again(tmp_path: P
 class Interrupted(Counting):
     """A planner that is cancelled while it plans."""
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Return what was found until then."""
         cancel.cancel("it was stopped")
         return super().plan(problem, cancel)

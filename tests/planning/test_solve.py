@@ -10,6 +10,7 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, validate
@@ -190,7 +191,7 @@ class Liar:
 
     name = "liar"
 
-    def plan(self, problem: object, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: object, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Return a wrong plan."""
         return Solved(Plan((), 0.0), "proven", self.name)
 

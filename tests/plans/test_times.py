@@ -14,6 +14,7 @@ from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.world.state.changes import AddIndividual
 from skillc_runtime.world.state.model import WorldModel
@@ -28,7 +29,7 @@ class Always:
     answer: Plan
     name: str = "somebody"
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Return the plan."""
         return Solved(self.answer, "best found", self.name)
 

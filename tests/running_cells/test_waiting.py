@@ -14,6 +14,7 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.execution.planning_job import PlanningJob
+from skillc_runtime.planning.progress import PlanningProgress
 
 LOAD = OperationRequest(call="Load(cart: lab:Cart-1, crate: lab:crate-1)")
 
@@ -32,6 +33,12 @@ def run_until_ended(host: CellHost, operation: str) -> OperationStatus:
     return found[-1]
 
 
+def reported(host: CellHost, operation: str) -> PlanningProgress | None:
+    """Return how far its planner is, as the cell reports it."""
+    told = [each for each in host.take_changed() if each.id == operation]
+    return told[-1].planning if told else None
+
+
 def test_a_planner_that_hangs_is_ended_and_holds_up_no_other_operation(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -42,11 +49,12 @@ def test_a_planner_that_hangs_is_ended_and_holds_up_no_other_operation(
         host.submit("hangs", OperationRequest(task="carry_all"))
         wait_until(lambda: host.tick() or pid.exists())
         wait_until(pid.exists)
+        wait_until(lambda: host.tick() or reported(host, "hangs") is not None)
         host.submit("goes", LOAD)
         assert run_until_ended(host, "goes").state == "succeeded"
         assert host.loop.runs[0].state == "planning"
         (ended,) = run_all(host)
-    assert ended.id == "hangs" and ended.state == "failed" and "time" in ended.reason
+    assert ended.id == "hangs" and ended.state == "failed" and "time" in ended.reason and ended.planning is None
     wait_until(lambda: not runs(int(pid.read_text())))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -89,6 +90,19 @@ def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer)
     assert server.client.get(f"/operations/{again}").json()["state"] == "stopped"
 
 
+def test_the_audit_log_is_exported_and_old_entries_are_removed(server: RunningServer) -> None:
+    folder = server.folder / "served"
+    submit_and_stop(server)
+    exported = [json.loads(line) for line in state("audit", "--state", folder).output.splitlines()]
+    assert len(exported) >= 2 and exported == server.client.get("/audit").json()
+    assert "0 entries" in state("prune", "--state", folder, "--audit-older-than", "1").output
+    assert exported == server.client.get("/audit").json()
+    pruned = state("prune", "--state", folder, "--audit-older-than", "0")
+    assert pruned.exit_code == 0 and f"{len(exported)} entries of the audit log are removed" in pruned.output
+    (left,) = server.client.get("/audit").json()
+    assert left["action"] == f"{len(exported)} older entries were removed" and left["number"] > exported[-1]["number"]
+
+
 def carry(settings: CellSettings, operation: str) -> Iterator[None]:
     """Carry all crates of a yard, and yield after each tick."""
     with open_cell(settings, SilentReporter()) as host:
@@ -115,7 +129,8 @@ def submit_and_stop(server: RunningServer, headers: Mapping[str, str] = NOTHING)
         (("backup", "copy"), ".skillc is not the state of a server"),
         (("backup", "here", "--state", "here"), "here exists; name a new folder"),
         (("restore", "nowhere"), "nowhere is not a backup of a server"),
-        (("prune",), "give --older-than DAYS or --larger-than SIZE"),
+        (("prune",), "give --older-than DAYS, --larger-than SIZE or --audit-older-than DAYS"),
+        (("audit",), ".skillc is not the state of a server"),
         (("prune", "--larger-than", "much"), "'much' is no size"),
         (("prune", "--older-than", "1", "--state", "nowhere"), "nowhere is not the state of a server"),
     ],

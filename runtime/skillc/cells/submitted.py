@@ -30,4 +30,5 @@ class SubmittedOperation:
             library_hash=self.library_hash,
             devices=None if (held := run.devices) is None else tuple(sorted(held)),
             prompts=run.prompts,
+            planning=run.planning,
         )

@@ -24,6 +24,8 @@ from skillc_runtime.recording.events import PromptsChanged, Requested, StateChan
 LOOK_S = 0.05
 CLOCK_HZ = 4.0
 """How often the clock of a display goes on between events."""
+PLANNING_S = 0.5
+"""How often it is asked how far a planner is, in s."""
 
 
 class EventQueue:
@@ -103,13 +105,16 @@ class _Watcher:
     def __init__(self, cell: ServerCell, operation: ServerOperation, progress: RunProgress, clock: CellTime) -> None:
         self._cell, self._operation, self._progress, self._clock = cell, operation, progress, clock
         self._view, self._now, self._pace = EventView(), 0.0, progress.pace.factor
+        self._asked_at = 0.0
 
     def show(self, events: list[Envelope]) -> None:
         for each in events:
             self._now = each.cell_time_s
             self._view.observe(each.event)
             self._progress(each.event, max(0.0, (time.time_ns() - each.wall_time_ns) * 1e-9))
-        if any(isinstance(each.event, StateChanged | PromptsChanged | Requested | TaskEnded) for each in events):
+        changed = any(isinstance(each.event, StateChanged | PromptsChanged | Requested | TaskEnded) for each in events)
+        plans = self._operation.last_status.state == "planning" and time.monotonic() - self._asked_at > PLANNING_S
+        if changed or plans:
             self._refresh()
         status = self._operation.last_status
         if status.state in ENDS:
@@ -121,6 +126,7 @@ class _Watcher:
         self._pass_pace_on()
 
     def _refresh(self) -> None:
+        self._asked_at = time.monotonic()
         try:
             self._operation.status  # noqa: B018 - reading it asks the server
         except ServiceError as error:

@@ -10,6 +10,7 @@ from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import Call
 from skillc_runtime.execution.tree.run import TreeRun
+from skillc_runtime.planning.progress import PlanningProgress, describe_progress
 from skillc_runtime.recording.events import (
     Event,
     ImplementationChosen,
@@ -54,7 +55,7 @@ def view_run(run: TaskRun) -> RunView:
     """Return what there is to show of a run of this process."""
     tree, allowed = run.tree, tuple(run.allowed)
     if tree is None:
-        return RunView(run.state, run.reason, allowed)
+        return RunView(run.state, _join_reason(run.reason, run.planning), allowed)
     stacks = tuple(CallStack(_stack(each), tree.holds_back(each)) for each in tree.active_calls)
     return RunView(run.state, run.reason, allowed, stacks, tree.paused, _describe_force(tree), run.prompts)
 
@@ -87,7 +88,8 @@ class EventView:
 
     def view(self, status: OperationStatus) -> RunView:
         """Return what there is to show, with the state of its operation."""
-        return RunView(status.state, status.reason, status.allowed, self.stacks, prompts=self._prompts)
+        reason = _join_reason(status.reason, status.planning)
+        return RunView(status.state, reason, status.allowed, self.stacks, prompts=self._prompts)
 
     @property
     def stacks(self) -> tuple[CallStack, ...]:
@@ -111,6 +113,10 @@ class EventView:
             found += [node] if node.kind == "call" else []
             node = self._nodes.get(node.parent)
         return found
+
+
+def _join_reason(reason: str, planning: PlanningProgress | None) -> str:
+    return ": ".join(filter(None, (reason, "" if planning is None else describe_progress(planning))))
 
 
 def _stack(call: Call) -> tuple[ShownCall, ...]:

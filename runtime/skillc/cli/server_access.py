@@ -177,11 +177,13 @@ def remark_going_on(operation: str) -> None:
 
 def describe_state(status: OperationStatus) -> str:
     """Return the state of an operation, and why it is in it."""
+    from skillc_runtime.planning.progress import describe_progress
     from skillc_runtime.recording.known_facts import format_status
 
     words = format_status(status.state, status.verified)
+    planning = "" if status.planning is None else describe_progress(status.planning)
     asked = [f"asks: {each.text} ({' | '.join(each.choices)})" for each in status.prompts]
-    return ": ".join(filter(None, (words, status.reason, *asked)))
+    return ": ".join(filter(None, (words, status.reason, planning, *asked)))
 
 
 def complete_operation(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:

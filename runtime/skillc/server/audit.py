@@ -1,9 +1,10 @@
-"""The audit log: who requested what, when, from where, and with which result. Rows are only added."""
+"""The audit log: who requested what, when, from where, and with which result. Entries are never changed."""
 
 from __future__ import annotations
 
 import sqlite3
 import time
+from collections.abc import Iterator
 
 import msgspec
 
@@ -18,6 +19,8 @@ CREATE TABLE audit (
     detail  TEXT NOT NULL                      -- why it was refused; empty otherwise
 )
 """
+EXPORTED = 1000
+"""How many entries are read at once."""
 MAX_TEXT = 500
 """The number of characters that are kept of a text."""
 
@@ -47,9 +50,24 @@ class AuditLog:
         query = "INSERT INTO audit (wall_ns, who, origin, action, status, detail) VALUES (?, ?, ?, ?, ?, ?)"
         self._database.execute(query, row)
 
+    def prune(self, before_ns: int) -> int:
+        """Remove the entries before a time in ns since 1970-01-01 UTC, and return how many; an entry says so."""
+        count = self._database.execute("DELETE FROM audit WHERE wall_ns < ?", (before_ns,)).rowcount
+        if count:
+            self.add("", "", f"{count} older entries were removed", 0, "")
+        return count
+
+    def export(self) -> Iterator[AuditEntry]:
+        """Yield all entries, in order."""
+        last = 0
+        while found := self.entries(last, EXPORTED):
+            yield from found
+            last = found[-1].number
+
     def entries(self, after: int, limit: int) -> tuple[AuditEntry, ...]:
         """Return entries after number `after`, in order."""
-        query = "SELECT number, wall_ns, who, origin, action, status, detail FROM audit WHERE number > ? LIMIT ?"
+        columns = "number, wall_ns, who, origin, action, status, detail"
+        query = f"SELECT {columns} FROM audit WHERE number > ? ORDER BY number LIMIT ?"
         return tuple(AuditEntry(*row) for row in self._database.execute(query, (after, limit)))
 
 

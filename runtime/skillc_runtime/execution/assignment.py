@@ -17,6 +17,7 @@ from skillc_runtime.planning.arrangement import arrange_plan, step_numbers
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.world.state.world_state import WorldState
@@ -81,6 +82,7 @@ def prepare_task(
     without: Sequence[Step] = (),
     planners: Planners | None = None,
     cancel: CancelToken | None = None,
+    report: ReportProgress = ignore_progress,
 ) -> PreparedTask | NotStarted:
     """Plan if there is a goal, and check everything that would keep the body from running, before anything moves.
 
@@ -89,7 +91,7 @@ def prepare_task(
     """
     match assignment.objective:
         case AchieveGoal() as objective:
-            search = _Search(planners or find_planners(), cancel or CancelToken(DEADLINE_S))
+            search = _Search(planners or find_planners(), cancel or CancelToken(DEADLINE_S), report)
             prepared = _prepare_plan(assignment, objective, library, without, search)
         case ExecuteBody(body):
             prepared = PreparedTask(assignment, body, None)
@@ -107,18 +109,19 @@ def replan_task(
     failures: FailedSteps,
     planners: Planners | None = None,
     cancel: CancelToken | None = None,
+    report: ReportProgress = ignore_progress,
 ) -> PreparedTask | NotStarted:
     """Plan without the steps that failed; if there is no such plan, without those that can only fail again.
 
     Without failures this is `prepare_task`.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
-    prepared = prepare_task(assignment, library, failures.steps, planners, cancel)
+    prepared = prepare_task(assignment, library, failures.steps, planners, cancel, report)
     if isinstance(prepared, PreparedTask) or not failures.steps:
         return prepared
     without: tuple[Step, ...] = ()
     while True:
-        prepared = prepare_task(assignment, library, without, planners, cancel)
+        prepared = prepare_task(assignment, library, without, planners, cancel, report)
         if isinstance(prepared, NotStarted) or prepared.planned is None:
             break
         repeated = failures.find_repeated_steps(prepared.planned.steps, assignment.state)
@@ -142,6 +145,7 @@ def arrange_prepared(assignment: Assignment, solved: Solved, library: SkillLibra
 class _Search:
     planners: Planners
     cancel: CancelToken
+    report: ReportProgress
 
 
 def _prepare_plan(
@@ -164,12 +168,12 @@ def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:
 def _plan(
     state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
 ) -> PlanResult:
-    planners, cancel = search.planners, search.cancel
+    planners, cancel, report = search.planners, search.cancel, search.report
     match objective.minimise:
         case "work":
-            return solve(library, state, objective.goal, planners.for_work, cancel, without)
+            return solve(library, state, objective.goal, planners.for_work, cancel, without, report=report)
         case "makespan":
-            result = minimise_makespan(library, state, objective.goal, planners, cancel, without)
+            result = minimise_makespan(library, state, objective.goal, planners, cancel, without, report)
             return result.as_solved() if isinstance(result, Scheduled) else result
         case _:
             assert_never(objective.minimise)

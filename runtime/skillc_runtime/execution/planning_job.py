@@ -19,9 +19,10 @@ from skillc_runtime.execution.assignment import (
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.selection.preflight import preflight
-from skillc_runtime.execution.worker_process import Returned, WorkerProcess, WorkerResult
+from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
 from skillc_runtime.planning.arrangement import arrange_plan
 from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod
@@ -64,8 +65,13 @@ class PlanningJob:
         task = _PlanningTask(
             assignment, library, failures or FailedSteps(library), planners, self._cancel.limited(deadline_s)
         )
-        self._worker = WorkerProcess(task, start)
+        self._worker = WorkerProcess(ReportingFunction(task), start)
         self._worker.ask(None)
+
+    @property
+    def progress(self) -> PlanningProgress | None:
+        """How far the planner is, as it has reported last; None before that and after its answer."""
+        return self._worker.report if self._answer is None else None
 
     def __enter__(self) -> PlanningJob:
         return self
@@ -144,6 +150,6 @@ class _PlanningTask:
     planners: Planners | None
     cancel: CancelToken
 
-    def __call__(self, _request: None) -> _Planned | NotStarted:
-        answer = replan_task(self.assignment, self.library, self.failures, self.planners, self.cancel)
+    def __call__(self, _request: None, report: ReportProgress) -> _Planned | NotStarted:
+        answer = replan_task(self.assignment, self.library, self.failures, self.planners, self.cancel, report)
         return answer if isinstance(answer, NotStarted) else _Planned(answer.body, answer.planned)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import Preparation, StartPreparation
+from skillc_runtime.planning.progress import PlanningProgress
 
 MAX_PLANNERS = 2
 """How many planners run at once; each may take a processor and up to its limit of memory."""
@@ -52,6 +53,11 @@ class QueuedPlanning:
     def waits_for(self) -> str:
         """For what it waits before it begins; empty once it goes on."""
         return self._queue.waits_for if self._job is None else ""
+
+    @property
+    def progress(self) -> PlanningProgress | None:
+        """How far its planner is; None if that is not known."""
+        return None if self._job is None else self._job.progress
 
     def poll(self) -> PreparedTask | NotStarted | None:
         """Return the answer, None if there is none yet; never waits."""

@@ -11,6 +11,7 @@ from skillc_runtime.execution.assignment import Assignment, NotStarted, Prepared
 from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy, find_claim
 from skillc_runtime.execution.planning_job import find_arrival_problem
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -20,6 +21,11 @@ class Preparation(Protocol):
     @property
     def waits_for(self) -> str:
         """For what it waits before it begins; empty once it goes on."""
+        ...
+
+    @property
+    def progress(self) -> PlanningProgress | None:
+        """How far its planner is; None if that is not known."""
         ...
 
     def poll(self) -> PreparedTask | NotStarted | None:
@@ -45,6 +51,7 @@ class Ready:
 
     answer: PreparedTask | NotStarted
     waits_for: str = ""
+    progress: PlanningProgress | None = None
 
     def poll(self) -> PreparedTask | NotStarted:
         """Return the answer."""
@@ -93,6 +100,11 @@ class NextAttempt:
     def waits_for(self) -> str:
         """For what the preparation waits before it begins; empty if for nothing."""
         return self.preparation.waits_for if self.preparation is not None else ""
+
+    @property
+    def progress(self) -> PlanningProgress | None:
+        """How far the planner of the preparation is; None if none goes on, or that is not known."""
+        return self.preparation.progress if self.preparation is not None else None
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for the answer of the preparation, if one goes on."""

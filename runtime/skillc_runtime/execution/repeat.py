@@ -18,6 +18,7 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.run_events import read_arrival
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import Gate, read_breakpoint
+from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.recording.events import Disturbed, Event, Listener, PlanArrived, Requested, TaskEnded, TaskStarted
 
@@ -172,6 +173,7 @@ class _RecordedPlan:
     arrival: PlanArrived | None
     ticks: Callable[[], int]
     waits_for: str = ""
+    progress: PlanningProgress | None = None
 
     def poll(self) -> PreparedTask | NotStarted | None:
         """Return the answer in its tick; PlanError if the plan does not work."""

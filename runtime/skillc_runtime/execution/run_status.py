@@ -9,6 +9,7 @@ from skillc_runtime.execution.device_claims import DeviceClaims
 from skillc_runtime.execution.preparation import NextAttempt
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER
 from skillc_runtime.execution.tree.run import TreeRun
+from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
@@ -55,6 +56,11 @@ class RunStatus:
     def waits_for(self) -> str:
         """For what its planning waits before it begins; empty if for nothing. It is no event: it depends on others."""
         return self._next.waits_for
+
+    @property
+    def planning(self) -> PlanningProgress | None:
+        """How far its planner is; None if none works. It is no event: it depends on the speed of the machine."""
+        return self._next.progress
 
     @property
     def devices(self) -> frozenset[str] | None:

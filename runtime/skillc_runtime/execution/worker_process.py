@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import select
 import selectors
 import socket
 import struct
@@ -57,19 +58,38 @@ class Died:
 WorkerResult: TypeAlias = Returned | Raised | Died
 
 
+@dataclass(frozen=True, slots=True)
+class Report:
+    """The function goes on; `value` says how far it is."""
+
+    value: Any
+
+
+@dataclass(frozen=True, slots=True)
+class ReportingFunction:
+    """A function of a request and of another function, which it may call with how far it is."""
+
+    function: Callable[[Any, Callable[[object], None]], object]
+
+
+WorkerFunction: TypeAlias = Callable[[Any], object] | ReportingFunction
+
+
 class WorkerProcess:
     """A process that calls a function, which must not use devices, stores or locks of this process.
 
     On Windows it is a thread of this process, and one that is killed goes on until its function returns.
 
-    `ask` sends a request, `poll` returns its result and never blocks; `kill` ends the process and the programs that it
-    started in sandboxes. A process that has died stays so.
+    `ask` sends a request, `poll` returns its result and never blocks; after `poll` found none, `report` is how far the
+    function is, as it has said last. `kill` ends the process and the programs that it started in sandboxes. A process
+    that has died stays so.
     """
 
-    def __init__(self, function: Callable[[Any], object], start: StartMethod = DEFAULT_START) -> None:
+    def __init__(self, function: WorkerFunction, start: StartMethod = DEFAULT_START) -> None:
         """Start it; with "spawn" the function is pickled. OSError if there can be no more processes."""
         self._socket, remote = socket.socketpair()
         self._received = bytearray()
+        self.report: Any = None
         self._result: WorkerResult | None = None
         self._dead: str | None = None
         try:
@@ -95,7 +115,7 @@ class WorkerProcess:
 
     def ask(self, request: object) -> None:
         """Send a request; the result of the former one is forgotten."""
-        self._result = None if self._dead is None else Died(self._dead)
+        self.report, self._result = None, None if self._dead is None else Died(self._dead)
         if self._dead is not None:
             return
         message = pickle.dumps(request)
@@ -135,8 +155,12 @@ class WorkerProcess:
         with suppress(BlockingIOError, ConnectionResetError):
             while part := self._socket.recv(_CHUNK):  # wait ends: at once, since the socket does not block
                 self._received += part
-        message = _take_message(self._received)
-        return None if message is None else cast(WorkerResult, pickle.loads(message))
+        while (message := _take_message(self._received)) is not None:
+            received = pickle.loads(message)
+            if not isinstance(received, Report):
+                return cast(WorkerResult, received)
+            self.report = received.value
+        return None
 
     def _end(self, why: str) -> None:
         self._dead, self._result = why, self._result or Died(why)
@@ -151,28 +175,39 @@ def wait_for_any(workers: Sequence[WorkerProcess], seconds: float) -> None:
         selector.select(min(seconds, MAX_WAIT_S))
 
 
-def _serve(function: Callable[[Any], object], remote: int) -> None:
+def _serve(function: WorkerFunction, remote: int) -> None:
     """Answer requests until the other end is closed."""
     with socket.socket(fileno=remote) as connection, suppress(BrokenPipeError, ConnectionResetError):
         received = bytearray()
         while part := connection.recv(_CHUNK):  # wait ends: with the parent, or when it closes the connection
             received += part
             while (message := _take_message(received)) is not None:
-                result = _call(function, message)
+                result = _call(function, message, connection)
                 sys.stdout.flush()
                 sys.stderr.flush()
                 connection.sendall(_HEADER.pack(len(result)) + result)
 
 
-def _call(function: Callable[[Any], object], request: bytes) -> bytes:
+def _call(function: WorkerFunction, request: bytes, connection: socket.socket) -> bytes:
     """Return the result of the function for a request; both are pickled."""
     try:
-        return pickle.dumps(Returned(function(pickle.loads(request))))
+        if isinstance(function, ReportingFunction):
+            value = function.function(pickle.loads(request), partial(_send_report, connection))
+        else:
+            value = function(pickle.loads(request))
+        return pickle.dumps(Returned(value))
     except ProcessTerminated:
         raise
     except BaseException as error:  # noqa: BLE001  the boundary of the process: every failure becomes a result
         place = traceback.extract_tb(error.__traceback__)[-1]
         return pickle.dumps(Raised(f"{type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"))
+
+
+def _send_report(connection: socket.socket, value: object) -> None:
+    """Send how far the function is, unless nobody has read the former reports."""
+    message = pickle.dumps(Report(value))
+    if select.select((), (connection,), (), 0.0)[1]:
+        connection.sendall(_HEADER.pack(len(message)) + message)
 
 
 def _take_message(received: bytearray) -> bytes | None:

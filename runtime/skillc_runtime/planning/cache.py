@@ -17,6 +17,7 @@ from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Schedule, Scheduler
 
 FORMAT = 3
@@ -67,16 +68,16 @@ class CachingPlanner:
         """The name that is shown to users."""
         return self._planner.name
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Return the cached plan, or solve the problem and store the plan."""
         if problem.goal == FALSE:
-            return self._planner.plan(problem, cancel)
+            return self._planner.plan(problem, cancel, report)
         key = _key(self._program, format_domain(problem.domain), format_problem(problem), *_cached_names(problem))
         deadline_s = round(cancel.remaining_s, 2)
         cached = _decode(self._cache.get(key), CachedPlan)
         if cached is not None and _is_reusable(cached, deadline_s):
             return cached.solved
-        answer = self._planner.plan(problem, cancel)
+        answer = self._planner.plan(problem, cancel, report)
         if isinstance(answer, Solved) and cancel.cancelled_because is None:
             entry = CachedPlan(answer, deadline_s, _ended_early(cancel, deadline_s))
             self._cache.put(key, msgspec.json.encode(entry))
@@ -94,10 +95,12 @@ class CachingScheduler:
         """The name that is shown to users."""
         return self._scheduler.name
 
-    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
+    def schedule(
+        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
+    ) -> Schedule | GaveUp:
         """Return the cached schedule, or solve the problem and store the schedule."""
         if problem.goal == FALSE:
-            return self._scheduler.schedule(problem, cancel)
+            return self._scheduler.schedule(problem, cancel, report)
         key = _key(
             self._program,
             format_temporal_domain(problem.domain),
@@ -108,7 +111,7 @@ class CachingScheduler:
         cached = _decode(self._cache.get(key), CachedSchedule)
         if cached is not None and _is_reusable(cached, deadline_s):
             return cached.schedule
-        answer = self._scheduler.schedule(problem, cancel)
+        answer = self._scheduler.schedule(problem, cancel, report)
         if isinstance(answer, Schedule) and cancel.cancelled_because is None:
             entry = CachedSchedule(answer, deadline_s, _ended_early(cancel, deadline_s))
             self._cache.put(key, msgspec.json.encode(entry))

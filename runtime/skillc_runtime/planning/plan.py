@@ -8,6 +8,7 @@ from typing import Literal, Protocol, TypeAlias, assert_never
 
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,8 +120,11 @@ class Planner(Protocol):
         """The name that is shown to users."""
         ...
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
-        """Solve a problem before `cancel` ends the search; all failures are answers, not exceptions."""
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
+        """Solve a problem before `cancel` ends the search, and `report` how far it is while that goes on.
+
+        All failures are answers, not exceptions.
+        """
         ...
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from skillc_dsl.rendering.printable import printable
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.progress import Metronome
 from skillc_runtime.platforms.memory import physical_bytes
 from skillc_runtime.platforms.sandbox import NOT_STARTED, end_sandboxed, start_sandboxed
 
@@ -144,9 +145,14 @@ def run_program(command: Sequence[str], folder: Path, seconds: float, stdin: Pat
         return running.outcome()
 
 
-def wait_for_end(programs: Sequence[RunningProcess], cancel: CancelToken) -> None:
-    """Wait until a program has ended, or until `cancel` ends the wait."""
+def wait_for_end(
+    programs: Sequence[RunningProcess], cancel: CancelToken, look: Callable[[], None] = lambda: None
+) -> None:
+    """Wait until a program has ended, or until `cancel` ends the wait; `look` is called at intervals."""
+    metronome = Metronome()
     while not any(each.has_ended for each in programs) and cancel.reason is None:
+        if metronome.is_due:
+            look()
         time.sleep(POLL_S)
 
 

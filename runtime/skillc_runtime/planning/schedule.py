@@ -8,6 +8,7 @@ from typing import Literal, Protocol
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Solved, Step
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +71,11 @@ class Scheduler(Protocol):
         """The name that is shown to users."""
         ...
 
-    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
-        """Return a schedule before `cancel` ends the search; all failures are answers, not exceptions."""
+    def schedule(
+        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
+    ) -> Schedule | GaveUp:
+        """Return a schedule before `cancel` ends the search, and `report` how far it is while that goes on.
+
+        All failures are answers, not exceptions.
+        """
         ...

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from msgspec import structs
+
 from skillc_model.conditions import Condition
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
@@ -23,6 +25,7 @@ from skillc_runtime.planning.plan import (
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
 from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds, pose_problem
+from skillc_runtime.planning.progress import PlanningProgress, ReportProgress, ignore_progress
 from skillc_runtime.planning.unsolvability import UnsolvabilityReason, explain_unsolvable
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state.world_state import WorldState
@@ -40,6 +43,7 @@ def solve(
     *,
     prove: bool = False,
     size: AbstractionSize | None = NARROW,
+    report: ReportProgress = ignore_progress,
 ) -> PlanResult:
     """Return a plan from a version of the world to the goal, validated in the world model.
 
@@ -47,7 +51,7 @@ def solve(
     first, as large as `size` says; with `prove` the part grows until the plan is proven to be the shortest. If a
     planner gives up, the next one gets the remaining time, until `cancel` ends the search, by default after DEADLINE_S.
     A goal that already holds has the empty plan, even if planners cannot express it; for one that does not hold and
-    cannot be expressed, nothing is searched.
+    cannot be expressed, nothing is searched. Planners `report` how far they are, for the part that they plan with.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
     chosen = tuple(list_planners() if planners is None else planners)
@@ -56,10 +60,13 @@ def solve(
         return pose_problem(library, state, goal, without, size)
 
     def answer(posed: PosedProblem, part: CancelToken) -> PlanResult:
-        return _plan_and_validate(chosen, posed, state, goal, part)
+        def report_part(progress: PlanningProgress) -> None:
+            report(structs.replace(progress, individuals=len(posed.problem.objects), narrowed=posed.narrowed))
+
+        return _plan_and_validate(chosen, posed, state, goal, part, report_part)
 
     def search(problem: Problem, part: CancelToken) -> PlanResult:
-        return chosen[0].plan(problem, part)
+        return chosen[0].plan(problem, part, ignore_progress)
 
     def explain(posed: PosedProblem) -> UnsolvabilityReason:
         return explain_unsolvable(posed, goal, state)
@@ -73,11 +80,17 @@ def solve(
 
 
 def _plan_and_validate(
-    planners: Sequence[Planner], posed: PosedProblem, state: WorldState, goal: Condition, cancel: CancelToken
+    planners: Sequence[Planner],
+    posed: PosedProblem,
+    state: WorldState,
+    goal: Condition,
+    cancel: CancelToken,
+    report: ReportProgress,
 ) -> PlanResult:
     failures: list[str] = []
     for planner in planners:
-        result = _validate(planner.plan(posed.problem, cancel), posed, state, goal)
+        report(PlanningProgress(planner=planner.name))
+        result = _validate(planner.plan(posed.problem, cancel, report), posed, state, goal)
         match result:
             case Solved() | Unsolvable():
                 return result

@@ -1,4 +1,4 @@
-"""Back up, restore or prune the state of a server."""
+"""Back up, restore or prune the state of a server, or print its audit log."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Size(click.ParamType[int]):
 
 @click.group(cls=Group)
 def command() -> None:
-    """Back up, restore or prune what `skillc serve` keeps in its state folder."""
+    """Back up, restore or prune what `skillc serve` keeps in its state folder, or print its audit log."""
 
 
 @command.command(cls=Command)
@@ -68,15 +68,42 @@ def restore(backup: Path, state: Path) -> None:
 @STATE
 @click.option("--older-than", "days", type=click.FloatRange(min=0.0), metavar="DAYS", help="Forget older operations.")
 @click.option("--larger-than", "size", type=Size(), help="Forget the oldest operations until a cell uses this size.")
-def prune(state: Path, days: float | None, size: int | None) -> None:
+@click.option(
+    "--audit-older-than",
+    "audit_days",
+    type=click.FloatRange(min=0.0),
+    metavar="DAYS",
+    help="Remove older entries of the audit log.",
+)
+def prune(state: Path, days: float | None, size: int | None, audit_days: float | None) -> None:
     """Forget operations that have ended, with their events, also while a server uses the state.
 
-    The worlds of the cells and the audit log stay.
+    The worlds of the cells stay, and without --audit-older-than the audit log, too.
     """
-    if days is None and size is None:
-        raise click.UsageError("give --older-than DAYS or --larger-than SIZE")
+    if days is None and size is None and audit_days is None:
+        raise click.UsageError("give --older-than DAYS, --larger-than SIZE or --audit-older-than DAYS")
     from skillc.server.pruning import prune as prune_state
+    from skillc.server.pruning import prune_audit
 
-    before_ns = None if days is None else time.time_ns() - int(days * DAY_NS)
-    for cell, count in prune_state(state, before_ns, size).items():
-        print_remark(f"{cell}: {count} operations are forgotten")
+    if days is not None or size is not None:
+        before_ns = None if days is None else _days_ago_ns(days)
+        for cell, count in prune_state(state, before_ns, size).items():
+            print_remark(f"{cell}: {count} operations are forgotten")
+    if audit_days is not None:
+        print_remark(f"{prune_audit(state, _days_ago_ns(audit_days))} entries of the audit log are removed")
+
+
+@command.command(cls=Command)
+@STATE
+def audit(state: Path) -> None:
+    """Print the audit log, one JSON object a line, also while a server uses the state."""
+    import msgspec
+
+    from skillc.server.pruning import export_audit
+
+    for each in export_audit(state):
+        click.echo(msgspec.json.encode(each))
+
+
+def _days_ago_ns(days: float) -> int:
+    return time.time_ns() - int(days * DAY_NS)

@@ -28,6 +28,7 @@ from skillc_runtime.planning.process import (
     quote_line,
     wait_for_end,
 )
+from skillc_runtime.planning.progress import PlanningProgress, ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Schedule, TimedStep
 
 PROGRAMS = {
@@ -70,24 +71,30 @@ class Aries:
         self._program = program
         self._limits = limits or machine_limits()
 
-    def schedule(self, problem: Problem, cancel: CancelToken) -> Schedule | GaveUp:
+    def schedule(
+        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
+    ) -> Schedule | GaveUp:
         """Return the best schedule before `cancel` ends the search; stop when one more instance does not shorten it."""
         try:
             flat = flatten_problem(_with_finer_units(problem))
             with make_workplace() as folder:
                 (Path(folder) / "problem.upp").write_bytes(encode_problem(flat))
-                return self._search_all_depths(flat, Path(folder), cancel)
+                return self._search_all_depths(flat, Path(folder), cancel, report)
         except NotTemporal as why:
             return GaveUp(f"aries does not support the problem: {why}; the planners for --minimise work do")
         except OSError as error:
             return GaveUp(f"aries cannot use its working folder: {error.filename}: {error.strerror}")
 
-    def _search_all_depths(self, flat: FlatProblem, folder: Path, cancel: CancelToken) -> Schedule | GaveUp:
+    def _search_all_depths(
+        self, flat: FlatProblem, folder: Path, cancel: CancelToken, report: ReportProgress
+    ) -> Schedule | GaveUp:
         answer: Schedule | _NoSchedule | GaveUp = _NoSchedule()
         depths = count(1)
+        report(PlanningProgress(planner=self.name))
         while isinstance(answer, _NoSchedule):
             answer = self._search_depth(next(depths), flat, folder, cancel)
         while isinstance(answer, Schedule):
+            report(PlanningProgress(planner=self.name, best_s=answer.makespan_s))
             deeper = self._search_depth(next(depths), flat, folder, cancel)
             if not isinstance(deeper, Schedule) or deeper.makespan_s >= answer.makespan_s:
                 return answer

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -17,6 +16,7 @@ from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.text import format_domain, format_problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.fast_downward.heuristics import Heuristic, choose_heuristics, read_task_features
+from skillc_runtime.planning.fast_downward.progress import COST, SearchWatch, read_lower_bound
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.plan_text import PlanTextError, cost_plan
 from skillc_runtime.planning.process import (
@@ -30,6 +30,7 @@ from skillc_runtime.planning.process import (
     make_workplace,
     wait_for_end,
 )
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.platforms.signals import FILE_TOO_LARGE
 
 HEAD_START_S = 0.2
@@ -38,8 +39,6 @@ HEAD_START_S = 0.2
 MAX_COST = 2**30
 """The largest cost that is trusted: the planner's costs are 32-bit integers, which may overflow."""
 
-_COST = re.compile(r"^; cost = (\d+)", re.MULTILINE)
-_PROVED = re.compile(r"\bf = (\d+)")
 _UNSOLVABLE = (10, 11)
 _ALL_EXPLORED = "Completely explored state space"
 _CODES = {
@@ -84,17 +83,19 @@ class FastDownward:
         self._programs = programs
         self._limits = limits or machine_limits()
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Solve a problem before `cancel` ends the search; "best found" if there was no time for a proof."""
         if problem.goal == FALSE:
             return Unsolvable("no skill can change what the goal asks for")
         try:
             with make_workplace() as folder:
-                return self._plan(remove_axioms(add_complements(problem)), Path(folder), cancel)
+                plain = remove_axioms(add_complements(problem))
+                return self._plan(plain, cancel, SearchWatch(self.name, plain, Path(folder), report))
         except OSError as error:
             return GaveUp(f"Fast Downward cannot use its working folder: {error.filename}: {error.strerror}")
 
-    def _plan(self, problem: Problem, folder: Path, cancel: CancelToken) -> PlanResult:
+    def _plan(self, problem: Problem, cancel: CancelToken, watch: SearchWatch) -> PlanResult:
+        folder = watch.folder
         (folder / "domain.pddl").write_text(format_domain(problem.domain), "utf-8")
         (folder / "problem.pddl").write_text(format_problem(problem), "utf-8")
         command = (*self._programs.translate, "--sas-file", "task.sas", "domain.pddl", "problem.pddl")
@@ -107,11 +108,14 @@ class FastDownward:
             chosen = choose_heuristics(read_task_features(folder / "task.sas"))
         except ValueError:
             return GaveUp("Fast Downward did not accept the problem: its translator wrote an invalid task")
-        return self._race(problem, folder, cancel, chosen)
+        return self._race(problem, cancel, chosen, watch)
 
-    def _race(self, problem: Problem, folder: Path, cancel: CancelToken, chosen: Sequence[Heuristic]) -> PlanResult:
+    def _race(
+        self, problem: Problem, cancel: CancelToken, chosen: Sequence[Heuristic], watch: SearchWatch
+    ) -> PlanResult:
         """Return what A* proves with one heuristic after the other, or else the best plan of LAMA."""
         searched: list[ProcessResult] = []
+        folder = watch.folder
         finding = ("--alias", "seq-sat-lama-2011", "--plan-file", "found", "task.sas")
         with ExitStack() as beside:
             finder: RunningProcess | None = None
@@ -130,13 +134,14 @@ class FastDownward:
                             finder = beside.enter_context(
                                 RunningProcess((*self._programs.driver, *finding), folder, "finding.txt", self._limits)
                             )
-                    wait_for_end((proof,), cancel.share(heuristic.share))
+                    wait_for_end((proof,), cancel.share(heuristic.share), watch.look)
                     searched.append(proof.outcome())
+                    watch.look()
                 if _has_proved(searched[-1]) or cancel.reason is not None:
                     break
             answer = _read_proof(problem, folder, searched[-1])
             if answer is None and finder is not None:
-                wait_for_end((finder,), cancel)
+                wait_for_end((finder,), cancel, watch.look)
         return answer or _read_best_plan(problem, folder, searched)
 
 
@@ -158,9 +163,9 @@ def _read_proof(problem: Problem, folder: Path, searched: ProcessResult) -> Plan
 
 def _read_best_plan(problem: Problem, folder: Path, searched: Sequence[ProcessResult]) -> PlanResult:
     """Return the last complete plan of LAMA, which is its best, with the lower bound that A* proved."""
-    at_least = max(map(_read_lower_bound, searched))
+    at_least = max(map(_read_bound, searched))
     plans = sorted(folder.glob("found*"), key=_plan_number)
-    whole = [path for path in plans if _COST.search(path.read_text("utf-8", "replace"))]
+    whole = [path for path in plans if COST.search(path.read_text("utf-8", "replace"))]
     if plans:
         return _read_plan(problem, (whole or plans)[-1], at_least)
     known = f"; any plan takes at least {float(at_least / problem.domain.scale):g} s" if at_least else ""
@@ -175,7 +180,7 @@ def _read_plan(problem: Problem, file: Path, at_least: int | None) -> PlanResult
         found = cost_plan(problem, actions)
     except (UnicodeDecodeError, PlanTextError) as error:
         return GaveUp(f"Fast Downward wrote an invalid plan: {error}")
-    stated = _COST.search(text)
+    stated = COST.search(text)
     if stated is None or int(stated.group(1)) != found.units:
         cost = f"costs {stated.group(1)}" if stated else "has no cost"
         return GaveUp(f"Fast Downward wrote an invalid plan: it {cost}, but its steps cost {found.units}")
@@ -193,10 +198,8 @@ def _plan_number(file: Path) -> int:
     return int(file.suffix[1:]) if file.suffix[1:].isdigit() else 0
 
 
-def _read_lower_bound(searched: ProcessResult) -> int:
-    """Return the lower bound on the cost of any plan that A* proved, in units."""
-    output = "" if isinstance(searched, ProcessNotStarted) else searched.output
-    return max(map(int, _PROVED.findall(output)), default=0)
+def _read_bound(searched: ProcessResult) -> int:
+    return 0 if isinstance(searched, ProcessNotStarted) else read_lower_bound(searched.output)
 
 
 def _describe_failure(outcome: ProcessResult) -> str:

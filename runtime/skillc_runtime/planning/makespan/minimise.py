@@ -17,6 +17,7 @@ from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
@@ -33,13 +34,14 @@ ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
 
 @dataclass(frozen=True, slots=True)
 class MakespanProblem:
-    """The goal, the world, the library, the steps that are excluded, and what ends the search."""
+    """The goal, the world, the library, the steps that are excluded, what ends the search, and where it is reported."""
 
     library: SkillLibrary
     state: WorldState
     goal: Condition
     without: tuple[Step, ...]
     cancel: CancelToken
+    report: ReportProgress
 
 
 def minimise_makespan(
@@ -49,6 +51,7 @@ def minimise_makespan(
     planners: Planners,
     cancel: CancelToken | None = None,
     without: Sequence[Step] = (),
+    report: ReportProgress = ignore_progress,
 ) -> ScheduleResult:
     """Return a plan with times from `state` to the goal, which was simulated in the world model.
 
@@ -56,9 +59,9 @@ def minimise_makespan(
     for a shorter one; without a scheduler, or if it fails, the note of the answer has the reason.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
-    problem = MakespanProblem(library, state, goal, tuple(without), cancel)
+    problem = MakespanProblem(library, state, goal, tuple(without), cancel, report)
     first_part = cancel.share(LEAST_WORK_SHARE)
-    least_work = solve(library, state, goal, planners.for_work, first_part, without)
+    least_work = solve(library, state, goal, planners.for_work, first_part, without, report=report)
     if isinstance(least_work, Unsolvable) or (isinstance(least_work, GaveUp) and not least_work.searched):
         return least_work
     if isinstance(least_work, Solved) and not least_work.plan.steps:
@@ -99,7 +102,7 @@ def _improve(
     """Return what the scheduler finds if its makespan is shorter, else the first schedule with a note."""
     if scheduler is None:
         return _add_note(first, "a temporal planner may find a shorter one: pip install 'skillc[temporal]'")
-    answer = scheduler.schedule(posed.problem, problem.cancel)
+    answer = scheduler.schedule(posed.problem, problem.cancel, problem.report)
     if isinstance(answer, GaveUp):
         return _add_note(first, answer.why)
     try:

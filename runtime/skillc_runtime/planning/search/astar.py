@@ -13,6 +13,7 @@ from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.plan_text import cost_plan
+from skillc_runtime.planning.progress import Metronome, PlanningProgress, ReportProgress, ignore_progress
 from skillc_runtime.planning.search.grounding import GroundAction, Grounding
 from skillc_runtime.planning.search.h_max import HMax
 
@@ -28,7 +29,7 @@ class AStar:
         """`advice` is appended to the reason when the planner gives up."""
         self._advice = f"; {advice}" if advice else ""
 
-    def plan(self, problem: Problem, cancel: CancelToken) -> PlanResult:
+    def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Solve a problem before `cancel` ends the search; the plan is proven to be the shortest."""
         grounding = Grounding(problem, cancel)
         try:
@@ -44,7 +45,12 @@ class AStar:
             goal=_compile_test(goal, numbers),
             heuristic=HMax(actions, goal, numbers),
         )
-        found = _search(task, cancel)
+        scale = float(problem.domain.scale)
+
+        def report_search(states: int, bound: float) -> None:
+            report(PlanningProgress(planner=self.name, states=states, at_least_s=bound / scale))
+
+        found = _search(task, cancel, report_search)
         if isinstance(found, _Exhausted):
             return Unsolvable("no sequence of skills reaches the goal")
         if isinstance(found, _Stopped):
@@ -99,15 +105,20 @@ class _Stopped:
     states: int
 
 
-def _search(task: _Task, cancel: CancelToken) -> tuple[int, ...] | _Exhausted | _Stopped:
-    """Return the operators of a cheapest plan. The heuristic is consistent, so no state is expanded twice."""
-    tie_breaker = count()
+def _search(
+    task: _Task, cancel: CancelToken, report: Callable[[int, float], None]
+) -> tuple[int, ...] | _Exhausted | _Stopped:
+    """Return the operators of a cheapest plan. The heuristic is consistent, so no state is expanded twice.
+
+    `report` is called with the number of expanded states and a lower bound on the cost of any plan.
+    """
+    tie_breaker, metronome = count(), Metronome()
     costs = {task.start: 0}
     parents: dict[int, tuple[int, int]] = {}
     closed: set[int] = set()
     queue = [(task.heuristic(task.start), next(tie_breaker), task.start)]
     while queue:
-        _, _, state = heappop(queue)
+        bound, _, state = heappop(queue)
         if state in closed:
             continue
         if task.goal(state):
@@ -115,6 +126,8 @@ def _search(task: _Task, cancel: CancelToken) -> tuple[int, ...] | _Exhausted | 
         if (why := cancel.reason) is not None:
             return _Stopped(why, len(closed))
         closed.add(state)
+        if metronome.is_due:
+            report(len(closed), bound)
         for index, operator in enumerate(task.operators):
             if not operator.applies(state):
                 continue
