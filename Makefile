@@ -12,9 +12,11 @@ SEED := 0
 MINUTES := 1
 KINDS :=
 
-# For `make soak`: the number of random cells, and how often a server or its cell is killed; SEED is that of the first.
+# For `make soak`: the number of random cells, and how often a server or its cell is killed, and how many
+# random requests of each kind it gets; SEED is that of the first.
 CELLS := 300
 KILLS := 200
+REQUESTS := 500
 
 .PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors docs pictures accept lock clean
 
@@ -48,9 +50,10 @@ wheel: .venv/.dev ## build the wheel and use it in a clean environment
 fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; failing inputs are saved in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
 
-soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m killed_servers --kills $(KILLS) --seed $(SEED)
+	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)
 	cmake -S tests/peers -B build/peers -D BTCPP=$(abspath $(BTCPP))

@@ -13,7 +13,8 @@ settings.load_profile("skillc")
 
 # Tests of, or with, what only Unix has.
 if sys.platform == "win32":
-    collect_ignore = ["world/test_room.py", "fuzz", "store", "operating", "running_cells", "server", "killed_servers"]
+    collect_ignore = ["world/test_room.py", "fuzz", "store", "operating", "running_cells", "server"]
+    collect_ignore += ["killed_servers", "random_requests"]
 
 
 def pytest_configure() -> None:

@@ -1,0 +1,1 @@
+"""Random requests for all paths of the OpenAPI document of a server, by Schemathesis."""
