@@ -58,6 +58,19 @@ def test_a_planner_that_hangs_is_ended_and_holds_up_no_other_operation(
     wait_until(lambda: not runs(int(pid.read_text())))
 
 
+@pytest.mark.parametrize("wait", ["planned", "paused"])
+def test_nobody_waits_for_ever_for_a_person(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, wait: str) -> None:
+    monkeypatch.setattr("skillc_runtime.execution.task_run.DECISION_LIMIT_S", 3.0)
+    request = OperationRequest(task="carry_all", approve=wait == "planned", step=wait == "paused")
+    with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
+        host.submit("waits", request)
+        wait_until(lambda: (not host.tick() and host.loop.wait(0.01) is None) or host.loop.runs[0].state == wait)
+        host.submit("goes", LOAD)
+        ended = {each.id: each for each in run_all(host)}
+    assert ended["waits"].state == "failed" and "nobody has decided for 3 s" in ended["waits"].reason
+    assert ended["goes"].state == "succeeded", "it has the cart then"
+
+
 def test_an_approval_that_never_comes_ends_with_the_deadline(tmp_path: Path) -> None:
     with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
         host.submit("waits", OperationRequest(task="carry_all", approve=True, deadline_s=5.0))

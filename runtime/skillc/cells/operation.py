@@ -34,7 +34,7 @@ class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     owner: str = ""
     approve: bool = False
     ask_after_failure: bool = False
-    deadline_s: float | None = None
+    deadline_s: Annotated[float, msgspec.Meta(gt=0.0)] | None = None
     step_deadline_s: Annotated[float, msgspec.Meta(gt=0.0)] | None = None
     step: bool = False
     breakpoints: tuple[str, ...] = ()

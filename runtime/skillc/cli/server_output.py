@@ -60,8 +60,14 @@ def _cell_row(cell: CellStatus) -> Row:
     return TableCell(cell.name, "name"), state, cell.library, cell.backend, f"pace {pace}", cell.reason
 
 
+MAX_OBJECTIVE = 60
+"""How many characters of a goal or a call are shown."""
+
+
 def _operation_row(operation: OperationStatus) -> Row:
-    what = operation.request.task or operation.request.goal or operation.request.call or ""
+    request = operation.request
+    what = " ".join((request.task or request.goal or request.call or "").split())
+    what = what if len(what) <= MAX_OBJECTIVE else f"{what[:MAX_OBJECTIVE]}\N{HORIZONTAL ELLIPSIS}"
     state = TableCell(describe_state(operation), STYLES.get(operation.state, ""))
     return TableCell(operation.id, "name"), operation.cell, what, operation.request.owner, state
 

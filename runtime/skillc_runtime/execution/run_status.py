@@ -45,7 +45,12 @@ class RunStatus:
     @property
     def needs_time(self) -> bool:
         """Whether the clock of the cell must go on for this run: not while it only plans, or waits for devices."""
-        return self._attempt is not None or self.state in ("planned", "paused")
+        return self._attempt is not None or self.waits_for_person
+
+    @property
+    def waits_for_person(self) -> bool:
+        """Whether it goes on when somebody says so: it waits for approval, or is paused."""
+        return self.state in ("planned", "paused")
 
     @property
     def waits_for_decision(self) -> bool:
@@ -90,8 +95,8 @@ class RunStatus:
 
     @property
     def stands(self) -> bool:
-        """Whether it is paused, or all that goes on is that operators are asked."""
-        return self.state == "paused" or (self._attempt is not None and self._attempt.tree.only_asks)
+        """Whether it is paused or waits for approval, or all that goes on is that operators are asked."""
+        return self.waits_for_person or (self._attempt is not None and self._attempt.tree.only_asks)
 
     @property
     def verified(self) -> bool | None:

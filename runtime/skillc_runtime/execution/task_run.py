@@ -34,6 +34,9 @@ from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.transactions import StoreError
 
+DECISION_LIMIT_S = 86_400.0
+"""How long a run waits for a person, in s of the cell: for approval, for a decision after a failure, while paused."""
+
 
 class TaskRun(RunStatus):
     """One execution of a task, from its submission to its end; `id` names it in its cell.
@@ -53,7 +56,7 @@ class TaskRun(RunStatus):
         """Submit a task; nothing starts before the first tick."""
         super().__init__(run_id, assignment, settings, claims, NextAttempt(start_preparation))
         self._context = context
-        self._submitted_at = context.backend.clock.now
+        self._submitted_at = self._state_since = context.backend.clock.now
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._emit(make_start_event(assignment, context.library, context.origin, self._now, settings, context.gate))
@@ -207,10 +210,13 @@ class TaskRun(RunStatus):
                 return self._finish(state, failure)
 
     def _check_limits(self) -> None:
-        """Fail if the deadline has passed, or if the cell is broken before an attempt has begun."""
+        """Fail if the deadline has passed, nobody has decided, or the cell is broken before an attempt has begun."""
         limit, broken = self.settings.deadline_s, self._context.backend.broken
         if limit is not None and self._now - self._submitted_at >= limit:
             self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
+        elif self.waits_for_person and self._now - self._state_since >= DECISION_LIMIT_S:
+            why = f"nobody has decided for {DECISION_LIMIT_S:g} s how it goes on"
+            self._stop("failed", Failure(kind="timeout", message=why))
         elif broken is not None and self._attempt is None:
             self.end_as("failed", broken)
 
@@ -243,6 +249,7 @@ class TaskRun(RunStatus):
 
     def _enter(self, state: State, reason: str = "") -> None:
         if (state, reason) != (self.state, self.reason):
+            self._state_since = self._now if state != self.state else self._state_since
             self.state, self.reason = state, reason
             self._emit(StateChanged(time=self._now, state=state, reason=reason))
 
