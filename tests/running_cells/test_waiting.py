@@ -19,13 +19,17 @@ from skillc_runtime.planning.progress import PlanningProgress
 LOAD = OperationRequest(call="Load(cart: lab:Cart-1, crate: lab:crate-1)")
 
 
+def tick(host: CellHost) -> None:
+    if not host.tick():
+        host.loop.wait(0.01)
+
+
 def run_until_ended(host: CellHost, operation: str) -> OperationStatus:
     """Tick until an operation has ended; return how. It has to end while others go on."""
     found = list[OperationStatus]()
 
     def has_ended() -> bool:
-        if not host.tick():
-            host.loop.wait(0.01)
+        tick(host)
         found.extend(each for each in host.take_changed() if each.id == operation)
         return operation not in host._operations
 
@@ -64,7 +68,7 @@ def test_nobody_waits_for_ever_for_a_person(tmp_path: Path, monkeypatch: pytest.
     request = OperationRequest(task="carry_all", approve=wait == "planned", step=wait == "paused")
     with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
         host.submit("waits", request)
-        wait_until(lambda: (not host.tick() and host.loop.wait(0.01) is None) or host.loop.runs[0].state == wait)
+        wait_until(lambda: tick(host) or host.loop.runs[0].state == wait)
         host.submit("goes", LOAD)
         ended = {each.id: each for each in run_all(host)}
     assert ended["waits"].state == "failed" and "nobody has decided for 3 s" in ended["waits"].reason
