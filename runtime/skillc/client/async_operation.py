@@ -12,9 +12,11 @@ from uuid import uuid4
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.client.connection import Connection, join
 from skillc.client.errors import UnavailableError
+from skillc.client.experiments import make_report
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
 from skillc.server.api_types import StopReason
+from skillc.server.reports import OperationReport
 from skillc.services.errors import RequestError
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_state import ENDS
@@ -96,6 +98,13 @@ class AsyncOperation:
         file = Path(path)
         await self._connection.download(join("operations", self.id, "recording"), file)
         return file
+
+    async def report(self, folder: str | Path) -> OperationReport:
+        """Write its report with figures and film to a folder, once it has ended; the server runs it again for that.
+
+        RefusedError if it has not ended, or cannot be repeated.
+        """
+        return await make_report(self._connection, self.id, Path(folder))
 
     async def approve(self) -> None:
         """Run the plan that waits for approval."""

@@ -10,6 +10,7 @@ from pathlib import Path
 from skillc.client.connection import Connection, join
 from skillc.client.errors import RefusedError
 from skillc.server.rehearsals import Rehearsal
+from skillc.server.reports import OperationReport
 from skillc.server.trials.store import TrialSeries
 from skillc.workers.jobs import RehearsalRequest, TrialsRequest
 from skillc_runtime.evaluation.trials.series import Series
@@ -30,6 +31,24 @@ async def rehearse(connection: Connection, path: str, request: RehearsalRequest,
             await connection.download(join("rehearsals", found.id, "film"), film)
     finally:
         await connection.send("DELETE", join("rehearsals", found.id), type(None))
+    return found
+
+
+async def make_report(connection: Connection, operation: str, folder: Path) -> OperationReport:
+    """Let the server make the report of an operation, and write its files to a folder."""
+    path = join("operations", operation, "report")
+    found = await connection.send("POST", path, OperationReport)
+    try:
+        while found.state != "ended":  # wait ends: the server limits how long a report takes
+            await asyncio.sleep(LOOK_S)
+            found = await connection.get(path, OperationReport)
+        if found.result is None:
+            raise RefusedError(found.reason, HTTPStatus.CONFLICT)
+        folder.mkdir(parents=True, exist_ok=True)
+        for each in found.files:
+            await connection.download(join("operations", operation, "report", each), folder / Path(each).name)
+    finally:
+        await connection.send("DELETE", path, type(None))
     return found
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from skillc.cells.operation import OperationStatus
 from skillc.client.async_operation import AsyncOperation, Depth
 from skillc.client.loop_thread import LoopThread
+from skillc.server.reports import OperationReport
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
@@ -71,6 +72,10 @@ class ServerOperation:
     def recording(self, path: str | Path) -> Path:
         """Write its recording to a file, an MCAP file, and return the file; `skillc.open_run` reads it."""
         return self._loop.run(self._operation.recording(path))
+
+    def report(self, folder: str | Path) -> OperationReport:
+        """Write its report with figures and film to a folder, once it has ended; the server runs it again for that."""
+        return self._loop.run(self._operation.report(folder))
 
     def approve(self) -> None:
         """Run the plan that waits for approval."""

@@ -19,8 +19,10 @@ from skillc.server.orders.store import Orders
 from skillc.server.orders.submitting import now_utc
 from skillc.server.problems import ApiRefusal
 from skillc.server.rehearsals import Rehearsals
+from skillc.server.reports import Reports
 from skillc.server.served_library import ServedLibrary
-from skillc.server.state import REHEARSALS, ServerState
+from skillc.server.simulation_jobs import SimulationJobs
+from skillc.server.state import SIMULATIONS, ServerState
 from skillc.server.supervisor import CellSupervisor
 from skillc.server.trials.running import TrialRuns
 from skillc.server.trials.store import TrialStore
@@ -38,7 +40,9 @@ class ServerContext:
     libraries: tuple[ServedLibrary, ...] = ()
     leases: Leases = field(default_factory=Leases)
     workers: Workers = field(default_factory=Workers)
+    jobs: SimulationJobs = field(init=False)
     rehearsals: Rehearsals = field(init=False)
+    reports: Reports = field(init=False)
     trials: TrialRuns = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
     clock: Callable[[], datetime] = now_utc
@@ -48,7 +52,9 @@ class ServerContext:
     metrics: Metrics = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "rehearsals", Rehearsals(self.state.folder / REHEARSALS))
+        object.__setattr__(self, "jobs", SimulationJobs(self.state.folder / SIMULATIONS))
+        object.__setattr__(self, "rehearsals", Rehearsals(self.jobs))
+        object.__setattr__(self, "reports", Reports(self.jobs))
         object.__setattr__(self, "trials", TrialRuns(TrialStore(self.state.database)))
         object.__setattr__(self, "audit", AuditLog(self.state.database))
         object.__setattr__(self, "keys", RequestKeys(self.state.database))

@@ -79,7 +79,7 @@ async def _serve(
         await server.serve(sockets=[listener])
     finally:
         context.workers.close()
-        context.rehearsals.close()
+        context.jobs.close()
         await context.trials.close()
         for task in going:
             task.cancel()

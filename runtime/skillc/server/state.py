@@ -30,7 +30,7 @@ def _add_trials(database: sqlite3.Connection) -> None:
 
 
 SCHEMA = Schema(3, ";\n".join((TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS)), {1: _add_orders, 2: _add_trials})
-LOCK, DATABASE, ADMIN_TOKEN, CELLS, REHEARSALS = "lock", "server.sqlite", "admin.token", "cells", "rehearsals"
+LOCK, DATABASE, ADMIN_TOKEN, CELLS, SIMULATIONS = "lock", "server.sqlite", "admin.token", "cells", "simulations"
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""
 

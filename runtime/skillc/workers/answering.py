@@ -25,6 +25,7 @@ from skillc.workers.jobs import (
     ListDevices,
     ListFacts,
     ListWrites,
+    MakeReport,
     PlanPreview,
     PreviewPlan,
     QueryRows,
@@ -38,6 +39,7 @@ from skillc.workers.jobs import (
 from skillc.workers.libraries import LibraryDescription, describe_library
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
+from skillc.workers.reporting import make_report
 from skillc.workers.trying import check_trials, run_trial
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.trial import Trial
@@ -99,6 +101,8 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return preview_plan(job, known)
         case Rehearse():
             return rehearse(job, known)
+        case MakeReport():
+            return make_report(job, known)
         case ListWrites():
             return _list_writes(job, known)
         case DescribeLibrary():

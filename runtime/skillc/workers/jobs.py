@@ -72,6 +72,13 @@ class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
     folder: str | None
 
 
+class MakeReport(msgspec.Struct, frozen=True, tag="report"):
+    """Write the report of the operation that is recorded in a file to a folder."""
+
+    recording: str
+    folder: str
+
+
 class CheckTrials(msgspec.Struct, frozen=True, tag="check trials"):
     """Check that trials can be run from the file of a scene."""
 
@@ -96,6 +103,7 @@ Job: TypeAlias = (
     | CheckOperation
     | PreviewPlan
     | Rehearse
+    | MakeReport
     | CheckTrials
     | RunTrial
 )

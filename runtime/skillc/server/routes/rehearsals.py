@@ -11,18 +11,19 @@ from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.problems import ApiRefusal
-from skillc.server.rehearsals import MAX_WAITING, Rehearsal
+from skillc.server.rehearsals import Rehearsal
+from skillc.server.simulation_jobs import MAX_WAITING
 from skillc.workers.jobs import RehearsalRequest
 
 VIDEO = "video/mp4"
 
 
 async def rehearse(call: ApiCall) -> Rehearsal:
-    cell, rehearsals = call.server.find_cell(call.path["cell"]), call.server.rehearsals
-    if rehearsals.full:
-        raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"{MAX_WAITING} rehearsals wait or go on; try again later")
+    cell = call.server.find_cell(call.path["cell"])
+    if call.server.jobs.full:
+        raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"{MAX_WAITING} simulations wait or go on; try again later")
     twin = raise_refused(await cell.request(TakeSnapshot(devices=True)))
-    return rehearsals.begin(cell.settings.name, call.body, twin)
+    return call.server.rehearsals.begin(cell.settings.name, call.body, twin)
 
 
 async def list_rehearsals(call: ApiCall) -> tuple[Rehearsal, ...]:

@@ -43,8 +43,10 @@ class RunInputs:
     wall_time_s: float
 
 
-def read_inputs(run: Path, library: Path | None, reporter: Reporter) -> RunInputs:
+def read_inputs(run: Path, library: Path | SkillLibrary | None, reporter: Reporter) -> RunInputs:
     """Read what a run was made of, given its folder or recording; `library` is used in place of the recorded one.
+
+    One that is compiled already is used only if it is the one of the run.
 
     RequestError if the library must be given; ServiceError if anything cannot be read, DiagnosticsError for a library
     with errors.
@@ -73,9 +75,11 @@ def _read_attachments(path: Path) -> Mapping[str, bytes]:
 
 
 def _find_library(
-    start: TaskStarted, attachments: Mapping[str, bytes], library: Path | None, path: Path
+    start: TaskStarted, attachments: Mapping[str, bytes], library: Path | SkillLibrary | None, path: Path
 ) -> SkillLibrary:
-    if library is not None:  # its name is that of its folder, which may be another one by now
+    if isinstance(library, SkillLibrary) and library.hash == start.hash:
+        return library
+    if isinstance(library, Path):  # its name is that of its folder, which may be another one by now
         return structs.replace(compile_valid(find_library(library)), name=start.library)
     if LIBRARY not in attachments:
         if not (SHIPPED / start.library).is_dir():

@@ -11,12 +11,15 @@ from skillc.services.replaying.check import build_cell
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
 from skillc.services.run_report import RunResult, make_samples, report_run
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.execution.execute import describe_execution
 from skillc_runtime.execution.repeat import NotRepeatable, repeat_run
 
 
-def report_recorded(run: Path, out: Path, library: Path | None, looks: str, gif: bool, reporter: Reporter) -> RunResult:
+def report_recorded(
+    run: Path, out: Path, library: Path | SkillLibrary | None, looks: str, gif: bool, reporter: Reporter
+) -> RunResult:
     """Write the report, the figures and the film of a recorded run to a folder, and return its result.
 
     ServiceError if it cannot be repeated, or has no end; what `read_inputs` raises.

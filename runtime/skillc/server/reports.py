@@ -1,0 +1,72 @@
+"""The reports of operations: each is made by running the operation again from its recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from skillc.server.simulation_jobs import SimulationJobs
+from skillc.workers.jobs import MakeReport
+from skillc_runtime.evaluation.report.result import TaskResult
+
+TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".json": "application/json",
+    ".mp4": "video/mp4",
+    ".png": "image/png",
+    ".svg": "image/svg+xml",
+}
+"""The media types of the files of a report."""
+
+
+class OperationReport(msgspec.Struct, frozen=True, kw_only=True):
+    """The report of an operation. `result` is null until it is made, and then if it cannot be: `reason` says why.
+
+    `files` are the names of what can be read of it: the report, a film, figures and pictures.
+    """
+
+    operation: str
+    state: Literal["going on", "ended"] = "going on"
+    reason: str = ""
+    result: TaskResult | None = None
+    files: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Reports:
+    """The reports among the jobs of a server."""
+
+    jobs: SimulationJobs
+
+    def begin(self, operation: str, recording: Path, snapshot: bytes) -> OperationReport:
+        """Make the report of an operation from its recording; `snapshot` has the library of its cell, encoded."""
+        self.jobs.begin(_name(operation), lambda folder: MakeReport(str(recording), str(folder)), snapshot)
+        return OperationReport(operation=operation)
+
+    def find(self, operation: str) -> OperationReport | None:
+        """Return the report of an operation; None if none was requested, or it is forgotten."""
+        outcome = self.jobs.find(_name(operation))
+        if outcome is None:
+            return None
+        return OperationReport(
+            operation=operation,
+            state="ended" if outcome.ended else "going on",
+            reason=outcome.reason,
+            result=outcome.result,
+            files=tuple(each for each in outcome.files if Path(each).suffix in TYPES),
+        )
+
+    def find_file(self, operation: str, file: str) -> Path | None:
+        """Return a file of a report; None if it has none of this name."""
+        return self.jobs.find_file(_name(operation), file) if Path(file).suffix in TYPES else None
+
+    def remove(self, operation: str) -> None:
+        """End and forget a report."""
+        self.jobs.remove(_name(operation))
+
+
+def _name(operation: str) -> str:
+    return f"report-{operation}"

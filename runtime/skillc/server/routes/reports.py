@@ -1,0 +1,80 @@
+"""Reports of operations, with figures and film."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from pathlib import Path
+
+from starlette.responses import Response
+
+from skillc.cells.messages import TakeSnapshot
+from skillc.cells.recordings import recording_file
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.files import send_file
+from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.problems import ApiRefusal
+from skillc.server.reports import TYPES, OperationReport
+from skillc.server.simulation_jobs import MAX_WAITING
+from skillc_runtime.execution.task_state import ENDS
+
+SANDBOX = "sandbox; default-src 'none'; img-src data:; style-src 'unsafe-inline'; media-src data:"
+"""What a browser lets a page of a report do: show itself."""
+
+
+async def make_report(call: ApiCall) -> OperationReport:
+    cell, operation = call.server.find_operation(call.path["operation"])
+    if operation.state not in ENDS:
+        raise ApiRefusal(
+            HTTPStatus.CONFLICT, f"{operation.id} is {operation.state}: a report is made of what has ended"
+        )
+    recording = recording_file(Path(cell.settings.folder), operation.id)
+    if not recording.exists():
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of {operation.id}")
+    if call.server.jobs.full:
+        raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"{MAX_WAITING} simulations wait or go on; try again later")
+    snapshot = raise_refused(await cell.request(TakeSnapshot()))
+    return call.server.reports.begin(operation.id, recording, snapshot)
+
+
+async def show_report(call: ApiCall) -> OperationReport:
+    name = call.path["operation"]
+    if (found := call.server.reports.find(name)) is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"no report of `{name}` was made; POST makes one")
+    return found
+
+
+async def read_report_file(call: ApiCall) -> Response:
+    operation, file = call.path["operation"], call.path["file"]
+    found = call.server.reports.find_file(operation, file)
+    if found is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"the report of `{operation}` has no file `{file}`")
+    response = send_file(found, TYPES[found.suffix])
+    response.headers["Content-Security-Policy"] = SANDBOX
+    return response
+
+
+async def remove_report(call: ApiCall) -> None:
+    call.server.reports.remove((await show_report(call)).operation)
+
+
+NOT_FOUND = (HTTPStatus.NOT_FOUND,)
+PATH = "/operations/{operation}/report"
+ENDPOINTS = (
+    ApiEndpoint(
+        "POST", PATH, "operate", "Make the report of an operation that has ended, by running it again in simulation",
+        make_report, OperationReport, status=HTTPStatus.ACCEPTED,
+        refusals=(*NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE),
+    ),
+    ApiEndpoint(
+        "GET", PATH, "view", "Show the report of an operation, with its result and the names of its files", show_report,
+        OperationReport, refusals=NOT_FOUND,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/{{file}}", "view", "Read a file of a report: the report itself, the film, a picture",
+        read_report_file, refusals=NOT_FOUND, media_type="application/octet-stream",
+    ),
+    ApiEndpoint(
+        "DELETE", PATH, "operate", "End and forget a report", remove_report, status=HTTPStatus.NO_CONTENT,
+        refusals=NOT_FOUND,
+    ),
+)  # fmt: skip

@@ -1,0 +1,54 @@
+"""The report of an operation is made by running it again from its recording, beside the cell."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import skillc
+from server.running import RunningServer, serving, wait_until
+
+CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-0", "to": "lab:Goal"}}
+
+
+def test_a_report_has_result_and_pages_that_a_browser_runs_no_script_of(tmp_path: Path) -> None:
+    with serving(tmp_path) as server:
+        operation = server.submit(**CARRY)["id"]
+        path = f"/operations/{operation}/report"
+        assert server.client.get(path).status_code == 404
+        server.wait_for(operation, "succeeded")
+        begun = server.client.post(path)
+        assert begun.status_code == 202 and begun.json()["operation"] == operation
+        made = wait_until(lambda: server.client.get(path).json(), lambda found: found["state"] == "ended")
+        assert made["reason"] == "" and made["result"]["status"] == "succeeded"
+        assert {"report.html", "result.json"} <= set(made["files"])
+        page = server.client.get(f"{path}/report.html")
+        assert page.status_code == 200 and page.headers["content-type"].startswith("text/html")
+        assert page.headers["content-security-policy"].startswith("sandbox; default-src 'none'")
+        for name in ("..%2f..%2fadmin.token", "nothing.html", "%2fetc%2fpasswd"):
+            assert server.client.get(f"{path}/{name}").status_code == 404
+        assert server.client.delete(path).status_code == 204
+        assert server.client.get(path).status_code == server.client.get(f"{path}/report.html").status_code == 404
+        assert not list((tmp_path / "served/simulations").glob("*"))
+
+
+def test_no_report_is_made_of_what_goes_on(server: RunningServer) -> None:
+    server.put_back()
+    operation = server.submit(task="carry_all", approve=True)["id"]
+    server.wait_for(operation, "planned")
+    refused = server.client.post(f"/operations/{operation}/report")
+    assert refused.status_code == 409 and "is planned: a report is made of what has ended" in refused.text
+    server.client.post(f"/operations/{operation}/stop", json={})
+
+
+@pytest.mark.sim
+def test_clients_write_it_to_a_folder(tmp_path: Path) -> None:
+    with serving(tmp_path) as server, skillc.connect(server.url.removesuffix("/api/v1"), server.token) as connected:
+        operation = connected.cell().start("carry", arguments=CARRY["arguments"])
+        operation.wait(timeout_s=60.0)
+        report = operation.report(tmp_path / "report")
+    assert report.result is not None and report.result.status == "succeeded"
+    assert json.loads((tmp_path / "report/result.json").read_text())["status"] == "succeeded"
+    assert (tmp_path / "report/report.html").exists()
