@@ -10,6 +10,7 @@ from http import HTTPStatus
 
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import OperationStatus
+from skillc.server.access.codes import LoginCodes
 from skillc.server.access.leases import Leases
 from skillc.server.audit import AuditLog
 from skillc.server.hub import EventHub
@@ -37,6 +38,7 @@ class ServerContext:
     hub: EventHub
     libraries: tuple[ServedLibrary, ...] = ()
     leases: Leases = field(default_factory=Leases)
+    codes: LoginCodes = field(default_factory=LoginCodes)
     workers: Workers = field(default_factory=Workers)
     rehearsals: Rehearsals = field(init=False)
     trials: TrialRuns = field(init=False)
