@@ -45,6 +45,10 @@ class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
     """List the devices of the cell."""
 
 
+class ListPoses(msgspec.Struct, frozen=True, tag="poses"):
+    """List where the individuals of the cell are in the world, but not those of data sheets."""
+
+
 class CheckOperation(msgspec.Struct, frozen=True, tag="check"):
     """Check that an operation could be submitted now; its values are those of an OperationRequest."""
 
@@ -93,6 +97,7 @@ Job: TypeAlias = (
     | ListWrites
     | DescribeLibrary
     | ListDevices
+    | ListPoses
     | CheckOperation
     | PreviewPlan
     | Rehearse
