@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from contextlib import closing
 from dataclasses import dataclass, field
 from datetime import datetime
+from functools import partial
 from http import HTTPStatus
 
 from skillc.cells.journal.reading import JournalReader
@@ -27,6 +28,7 @@ from skillc.server.trials.running import TrialRuns
 from skillc.server.trials.store import TrialStore
 from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
+from skillc.workers.run_reading import answer_run_job
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +42,7 @@ class ServerContext:
     leases: Leases = field(default_factory=Leases)
     codes: LoginCodes = field(default_factory=LoginCodes)
     workers: Workers = field(default_factory=Workers)
+    run_readers: Workers = field(default_factory=partial(Workers, answer_run_job))
     rehearsals: Rehearsals = field(init=False)
     trials: TrialRuns = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)

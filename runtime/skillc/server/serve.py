@@ -79,6 +79,7 @@ async def _serve(
         await server.serve(sockets=[listener])
     finally:
         context.workers.close()
+        context.run_readers.close()
         context.rehearsals.close()
         await context.trials.close()
         for task in going:
