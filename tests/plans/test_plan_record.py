@@ -10,10 +10,15 @@ import pytest
 from plans.depot import goal, library, world
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.plans.plan_body import build_plan_body
-from skillc_runtime.execution.plans.plan_record import record_plan, restore_plan
-from skillc_runtime.planning.arrangement import arrange_plan
+from skillc_runtime.execution.plans.plan_record import (
+    record_arrangement,
+    record_plan,
+    restore_arrangement,
+    restore_plan,
+)
+from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import LeftOut, Solved, describe_quality
-from skillc_runtime.recording.events import ArrivedPlan
+from skillc_runtime.recording.events import ArrivedPlan, StepGroup
 
 STATE = world({"ann": "a", "bob": "b"}, {"crate": "a", "box": "b"})
 TEXT = "lab:c contain lab:crate and lab:d contain lab:box"
@@ -26,7 +31,7 @@ def planned() -> tuple[PreparedTask, Solved]:
 
 
 def through_a_file(solved: Solved) -> Solved:
-    content = msgspec.json.encode(record_plan(solved, library()))
+    content = msgspec.json.encode(record_plan(solved, arrange_plan(solved.plan, library(), STATE), library()))
     return restore_plan(msgspec.json.decode(content, type=ArrivedPlan))
 
 
@@ -36,6 +41,21 @@ def test_the_same_body_is_built_of_a_plan_that_was_recorded() -> None:
     assert restored.plan == solved.plan and len(solved.plan.steps) > 2
     arrangement = arrange_plan(restored.plan, library(), STATE)
     assert build_plan_body(restored.plan, arrangement, library()) == prepared.body
+
+
+@pytest.mark.parametrize(
+    "arrangement",
+    [
+        InSeries(()),
+        0,
+        InSeries((0, 1)),
+        InParallel((0, InSeries((1, InParallel((2, 3)))))),
+        InSeries((0, InParallel((1, 2)))),
+    ],
+)
+def test_an_arrangement_survives_its_recording(arrangement: Arrangement) -> None:
+    content = msgspec.json.encode(record_arrangement(arrangement))
+    assert restore_arrangement(msgspec.json.decode(content, type=StepGroup)) == arrangement
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ import uvicorn
 
 from running_cells.yard import write_yard
 
-READY_S = 60.0
+READY_S = 120.0
 NOTHING: Mapping[str, str] = MappingProxyType({})
 
 

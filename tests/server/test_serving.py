@@ -54,7 +54,9 @@ DOCUMENT = make_openapi(ENDPOINTS, PREFIX)
 OPERATIONS = [(method.upper(), path) for path, methods in DOCUMENT["paths"].items() for method in methods]
 OPEN_PATHS = {f"{PREFIX}/health", f"{PREFIX}/openapi.json"}
 SOCKETS = {f"{PREFIX}/events", f"{PREFIX}/samples"}
-"""What the document cannot describe; test_attacks.py and test_samples.py have who may open them."""
+"""What the document cannot describe; test_attacks.py, test_samples.py and test_sessions.py have who may open them."""
+OUTSIDE = {("GET", "/metrics"), ("GET", "/"), ("GET", "/assets/{path:path}")}
+"""What is not below the prefix; test_network.py and test_studio_page.py have who may read it."""
 
 
 @pytest.mark.parametrize(("method", "path"), OPERATIONS)
@@ -82,7 +84,7 @@ def test_each_route_is_in_the_document_that_is_served(server: RunningServer) -> 
     app = Application(cast(ServerContext, None), frozenset())
     routes = {(method, each.path) for each in app.routes if isinstance(each, Route) for method in each.methods or ()}
     others = {each.path for each in app.routes if not isinstance(each, Route)}
-    unknown = {(method, path) for method, path in routes if method != "HEAD"} - {*OPERATIONS, ("GET", "/metrics")}
+    unknown = {(method, path) for method, path in routes if method != "HEAD"} - {*OPERATIONS, *OUTSIDE}
     assert not unknown and others == SOCKETS
 
 

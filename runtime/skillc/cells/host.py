@@ -15,6 +15,7 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.disturbing import resolve_names
 from skillc.cells.editing import edit_world
 from skillc.cells.evidence import EvidenceKeeper
+from skillc.cells.geometry_reader import GeometryReader
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
@@ -87,6 +88,7 @@ class CellHost:
         place_standing_bases(self._backend.cell)
         self._condition = CellCondition(settings.name, self.loop, journal, reader)
         self.sampler = Sampler(settings.name, self._backend)
+        self.geometry = GeometryReader(self._backend)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
 

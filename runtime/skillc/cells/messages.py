@@ -53,6 +53,14 @@ class TakeSample(_Message, tag="sample", frozen=True, kw_only=True):
     """Answer with what moves in the cell now; see `samples.py`."""
 
 
+class TakeGeometry(_Message, tag="geometry", frozen=True, kw_only=True):
+    """Answer with the shapes of what is in the simulated cell; see `geometry.py`."""
+
+
+class TakeCoverage(_Message, tag="coverage", frozen=True, kw_only=True):
+    """Answer with where tools have really worked on surfaces; see `geometry.py`."""
+
+
 class Edit(_Message, tag="edit", frozen=True, kw_only=True):
     """Change the world in one transaction; the edits are statements, `who` makes them, and `why`."""
 
@@ -81,7 +89,8 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
 
 
 Change: TypeAlias = Submit | Give | SetPace | Acknowledge | Edit | Disturb | TakeLibrary | End
-Message: TypeAlias = Change | TakeSnapshot | TakeSample
+Look: TypeAlias = TakeSnapshot | TakeSample | TakeGeometry | TakeCoverage
+Message: TypeAlias = Change | Look
 
 
 class CellRequest(msgspec.Struct, frozen=True):

@@ -19,10 +19,13 @@ from skillc.cells.messages import (
     End,
     Give,
     Happened,
+    Look,
     Refused,
     SetPace,
     StatusChanged,
     Submit,
+    TakeCoverage,
+    TakeGeometry,
     TakeLibrary,
     TakeSample,
     TakeSnapshot,
@@ -110,20 +113,24 @@ class CellService:
         try:
             if self._ending is not None:
                 raise RequestError(f"the cell ends: {self._ending}")
-            if isinstance(message, TakeSnapshot | TakeSample):
+            if isinstance(message, Look):
                 self._outbox.send(CellAnswer(number=number, result=self._look(message)))
             else:
                 self._pending.append(self._carry_out(message, number))
         except (ServiceError, TooManyRequests, NotDurable) as error:
             self._outbox.send(CellAnswer(number=number, refused=_refuse(error)))
 
-    def _look(self, message: TakeSnapshot | TakeSample) -> bytes:
+    def _look(self, message: Look) -> bytes:
         """Return what is asked for; nothing changes."""
         match message:
             case TakeSnapshot(devices=devices):
                 return self._host.take_twin() if devices else self._host.take_snapshot()
             case TakeSample():
                 return msgspec.msgpack.encode(self._host.sampler.take())
+            case TakeGeometry():
+                return self._host.geometry.take_model()
+            case TakeCoverage():
+                return self._host.geometry.take_coverage()
             case _:
                 assert_never(message)
 

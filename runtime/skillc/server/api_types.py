@@ -112,6 +112,19 @@ class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     takeover: bool = False
 
 
+class LoginCode(msgspec.Struct, frozen=True):
+    """A code that a request may have in the place of a token, once, within 60 s."""
+
+    code: str
+
+
+class SessionInfo(msgspec.Struct, frozen=True):
+    """Who makes a request: the name of its token, and what it may do."""
+
+    name: str
+    role: Role
+
+
 class NewToken(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A token to be made."""
 

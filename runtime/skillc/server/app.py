@@ -18,6 +18,7 @@ from starlette.types import ASGIApp
 from skillc.cells.database import DatabaseError
 from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
+from skillc.server.authentication import find_client, find_cookie, read_session
 from skillc.server.context import ServerContext
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.endpoints import ENDPOINTS, PREFIX
@@ -29,8 +30,9 @@ from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import MEDIA_TYPE, ApiRefusal
 from skillc.server.proxy import ProxiedRequests
 from skillc.server.rates import TokenBuckets
-from skillc.server.requests import decode_body, find_client, read_body, read_key, read_query, wait_until_gone
+from skillc.server.requests import decode_body, read_body, read_key, read_query, wait_until_gone
 from skillc.server.sample_stream import stream_samples
+from skillc.server.studio_page import STUDIO_FILES, StudioPage
 
 REQUESTS_PER_S, BURST = 200.0, 400.0
 """How many requests a client may make; stops are not counted."""
@@ -53,6 +55,7 @@ class Application:
         by_path: dict[str, dict[str, ApiEndpoint]] = {}
         for each in ENDPOINTS:
             by_path.setdefault(each.path, {})[each.method] = each
+        studio = StudioPage(STUDIO_FILES)
         routes = [
             Route(PREFIX + path, partial(self._answer, methods), methods=list(methods))
             for path, methods in by_path.items()
@@ -62,6 +65,8 @@ class Application:
             Route("/metrics", partial(self._answer, by_path["/metrics"])),
             Route(f"{PREFIX}/health", _constant(b'{"status":"ok"}')),
             Route(f"{PREFIX}/openapi.json", _constant(document)),
+            Route("/", studio.show_page),
+            Route("/assets/{path:path}", studio.show_asset),
             WebSocketRoute(f"{PREFIX}/events", partial(stream_events, server)),
             WebSocketRoute(f"{PREFIX}/samples", partial(stream_samples, server, {})),
         )
@@ -96,7 +101,7 @@ class Application:
     def _authenticate(self, request: Request) -> Client:
         """Return who makes a request; ApiRefusal (401, 429) without a valid token."""
         address = request.client.host if request.client else ""
-        client = find_client(request, self._server.state.tokens)
+        client = find_client(self._server, request)
         if client is not None:
             return client
         if not self._failures.take(address):
@@ -114,7 +119,8 @@ class Application:
         body = None if endpoint.body is None else decode_body(content, endpoint.body)
         key = read_key(request) if endpoint.takes_key else None
         leave = partial(wait_until_gone, request)
-        call = ApiCall(self._server, client, request.path_params, query, body, content, key, leave)
+        session = find_cookie(request), read_session(request)
+        call = ApiCall(self._server, client, request.path_params, query, body, content, key, leave, *session)
         answer = await endpoint.handle(call)
         if isinstance(answer, Response):
             return answer

@@ -1,4 +1,4 @@
-"""Lets workers answer questions about a cell, for what it knows at that moment."""
+"""Lets workers answer questions about a cell, for what it knows at that moment, and about its runs."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from skillc.server.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.workers.jobs import Job
 from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
+from skillc.workers.run_jobs import RunJob
 
 T = TypeVar("T")
 
@@ -23,8 +24,20 @@ async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float) -> T
     The worker is killed if the client goes.
     """
     snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(TakeSnapshot()))
+    return await _wait(call, call.server.workers.answer(job, snapshot, kind, seconds))
+
+
+async def ask_about_run(call: ApiCall, job: RunJob, kind: type[T], seconds: float) -> T:
+    """Let a worker do a job about runs, of which the cell notices nothing; ApiRefusal if there is no answer.
+
+    The worker is killed if the client goes.
+    """
+    return await _wait(call, call.server.run_readers.answer(job, b"", kind, seconds))
+
+
+async def _wait(call: ApiCall, answer: Coroutine[None, None, T]) -> T:
     try:
-        return await _unless_gone(call, call.server.workers.answer(job, snapshot, kind, seconds))
+        return await _unless_gone(call, answer)
     except JobFailed as error:
         raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
     except (JobTimedOut, TooManyJobs) as error:

@@ -6,10 +6,12 @@ from collections.abc import Callable, Iterable
 from contextlib import closing
 from dataclasses import dataclass, field
 from datetime import datetime
+from functools import partial
 from http import HTTPStatus
 
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.operation import OperationStatus
+from skillc.server.access.codes import LoginCodes
 from skillc.server.access.leases import Leases
 from skillc.server.audit import AuditLog
 from skillc.server.hub import EventHub
@@ -28,6 +30,7 @@ from skillc.server.trials.running import TrialRuns
 from skillc.server.trials.store import TrialStore
 from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
+from skillc.workers.run_reading import answer_run_job
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +42,10 @@ class ServerContext:
     hub: EventHub
     libraries: tuple[ServedLibrary, ...] = ()
     leases: Leases = field(default_factory=Leases)
+    codes: LoginCodes = field(default_factory=LoginCodes)
     workers: Workers = field(default_factory=Workers)
     jobs: SimulationJobs = field(init=False)
+    run_readers: Workers = field(default_factory=partial(Workers, answer_run_job))
     rehearsals: Rehearsals = field(init=False)
     reports: Reports = field(init=False)
     trials: TrialRuns = field(init=False)

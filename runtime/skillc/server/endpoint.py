@@ -13,6 +13,7 @@ from skillc.server.access.roles import Role
 from skillc.server.access.tokens import Client
 
 if TYPE_CHECKING:
+    from skillc.server.authentication import SessionCookie
     from skillc.server.context import ServerContext
 
 JSON = "application/json"
@@ -28,6 +29,7 @@ class ApiCall:
     """A request whose sender may make it; `body` and `query` are of the types of its endpoint.
 
     `key` is the Idempotency-Key, `content` the body as it was sent; `leave` returns when the sender has gone.
+    `cookie` is that of sessions, `session` the secret that it holds.
     """
 
     server: ServerContext
@@ -38,6 +40,8 @@ class ApiCall:
     content: bytes
     key: str | None
     leave: Callable[[], Awaitable[None]]
+    cookie: SessionCookie
+    session: str | None
 
 
 @dataclass(frozen=True, slots=True)

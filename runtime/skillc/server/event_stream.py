@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from http import HTTPStatus
@@ -15,6 +15,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from skillc.cells.database import DatabaseError
 from skillc.cells.messages import Happened, StatusChanged
 from skillc.server.access.tokens import Client
+from skillc.server.authentication import make_credential
 from skillc.server.context import ServerContext, open_journal
 from skillc.server.hub import Listener, News
 from skillc.server.problems import ApiRefusal
@@ -35,10 +36,10 @@ BATCH = 200
 class Hello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The first message of a client, as JSON: its token, and the operation whose events it wants, after a number.
 
-    Without an operation it gets how cells and operations are.
+    Without an operation it gets how cells and operations are. A page has the cookie of a session instead of a token.
     """
 
-    token: Annotated[str, msgspec.Meta(max_length=200)]
+    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None
     operation: Annotated[str, msgspec.Meta(max_length=200)] | None = None
     after: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
 
@@ -49,8 +50,8 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
     try:
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=Hello)
-            stream = TokenSocket(server, socket, hello.token)
-            name = stream.check_token().name
+            stream = ClientSocket(server, socket, make_credential(server, socket, hello.token))
+            name = stream.check_client().name
         with server.watchers.watching(name), server.hub.listening() as listener:
             if hello.operation is None:
                 await stream.send_states(listener)
@@ -67,16 +68,16 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class TokenSocket:
-    """A WebSocket of a client with a token, to which nothing more is sent once the token is revoked."""
+class ClientSocket:
+    """A WebSocket of a client, to which nothing more is sent once `find_client` does not find it any more."""
 
     server: ServerContext
     socket: WebSocket
-    token: str
+    find_client: Callable[[], Client | None]
 
-    def check_token(self) -> Client:
-        """Return whose token it is; ApiRefusal (401) if it is not valid, or no longer."""
-        client = self.server.state.tokens.find(self.token)
+    def check_client(self) -> Client:
+        """Return whose WebSocket it is; ApiRefusal (401) if its token or session is not valid, or no longer."""
+        client = self.find_client()
         if client is None:
             raise ApiRefusal(HTTPStatus.UNAUTHORIZED, "the token is not valid")
         return client
@@ -105,7 +106,7 @@ class TokenSocket:
     async def _send(self, items: Sequence[News | Envelope]) -> None:
         """Send items as one JSON array; nothing for none."""
         if items:
-            self.check_token()
+            self.check_client()
             await self.socket.send_text(msgspec.json.encode(items).decode())
 
     async def _wait(self, listener: Listener) -> list[News]:
@@ -115,7 +116,7 @@ class TokenSocket:
             await asyncio.wait((taking, leaving), timeout=SILENCE_S, return_when=asyncio.FIRST_COMPLETED)
             if leaving.done():
                 raise WebSocketDisconnect
-            self.check_token()
+            self.check_client()
             return taking.result() if taking.done() else []
         finally:
             taking.cancel()

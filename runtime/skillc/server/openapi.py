@@ -95,8 +95,11 @@ def _path_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
 
 def _query_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
     _, components = msgspec.json.schema_components([endpoint.query], ref_template=REF)
-    properties = components[endpoint.query.__name__].get("properties", {})
-    return [{"name": name, "in": "query", "required": False, "schema": each} for name, each in properties.items()]
+    schema = components[endpoint.query.__name__]
+    properties, required = schema.get("properties", {}), schema.get("required", ())
+    return [
+        {"name": name, "in": "query", "required": name in required, "schema": each} for name, each in properties.items()
+    ]
 
 
 def _header_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:

@@ -25,4 +25,5 @@ class ProxiedRequests:
             await send_refusal(refused, scope, receive, send)
         else:
             forwarded = ",".join(Headers(scope=scope).getlist("x-forwarded-for")).rpartition(",")[2].strip()
-            await self._app({**scope, "client": (forwarded or self._proxy, 0)}, receive, send)
+            encrypted = {"http": "https", "websocket": "wss"}[scope["type"]]  # the proxy does that
+            await self._app({**scope, "client": (forwarded or self._proxy, 0), "scheme": encrypted}, receive, send)

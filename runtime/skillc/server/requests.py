@@ -1,4 +1,4 @@
-"""Reads requests: who makes them, their parameters and their bodies, within limits of size, depth and time."""
+"""Reads requests: their parameters and their bodies, within limits of size, depth and time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Any
 import msgspec
 from starlette.requests import ClientDisconnect, Request
 
-from skillc.server.access.tokens import Client, Tokens
 from skillc.server.problems import ApiRefusal
 
 MAX_BODY_BYTES = 2**20
@@ -17,12 +16,6 @@ BODY_S = 10.0
 """How long a body may take to arrive, in s."""
 MAX_KEY = 200
 BAD_REQUEST, INVALID = HTTPStatus.BAD_REQUEST, HTTPStatus.UNPROCESSABLE_ENTITY
-
-
-def find_client(request: Request, tokens: Tokens) -> Client | None:
-    """Return who makes a request, by its `Authorization: Bearer` header; None without a valid one."""
-    scheme, _, token = request.headers.get("authorization", "").partition(" ")
-    return tokens.find(token.strip()) if scheme.lower() == "bearer" and token.isascii() else None
 
 
 def read_query(request: Request, kind: type[msgspec.Struct]) -> msgspec.Struct:

@@ -13,8 +13,9 @@ import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from skillc.cells.messages import Refused, TakeSample
+from skillc.server.authentication import make_credential
 from skillc.server.context import ServerContext
-from skillc.server.event_stream import CLOSE_CODES, HELLO_S, REFUSED, TokenSocket
+from skillc.server.event_stream import CLOSE_CODES, HELLO_S, REFUSED, ClientSocket
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 
@@ -25,10 +26,13 @@ OFF_S = 1.0
 
 
 class SampleHello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The first message of a client, as JSON: its token, the cell, and how many samples a second it wants."""
+    """The first message of a client, as JSON: its token, the cell, and how many samples a second it wants.
 
-    token: Annotated[str, msgspec.Meta(max_length=200)]
+    A page has the cookie of a session instead of a token.
+    """
+
     cell: Annotated[str, msgspec.Meta(max_length=200)]
+    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None
     rate_hz: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_HZ)] = 10.0
 
 
@@ -55,14 +59,14 @@ async def stream_samples(server: ServerContext, sources: dict[str, SampleSource]
     async with _closing(socket):
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=SampleHello)
-            stream = TokenSocket(server, socket, hello.token)
-            name = stream.check_token().name
+            stream = ClientSocket(server, socket, make_credential(server, socket, hello.token))
+            name = stream.check_client().name
         cell = server.find_cell(hello.cell)
         source = sources.setdefault(hello.cell, SampleSource())
         with server.watchers.watching(name):
             while True:
                 sample = await source.take(cell)
-                stream.check_token()
+                stream.check_client()
                 if sample:
                     await socket.send_bytes(sample)
                 await _wait(socket, 1.0 / hello.rate_hz if sample else OFF_S)

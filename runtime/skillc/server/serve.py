@@ -80,6 +80,7 @@ async def _serve(
     finally:
         context.workers.close()
         context.jobs.close()
+        context.run_readers.close()
         await context.trials.close()
         for task in going:
             task.cancel()

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.cells.database import Schema, open_for_writing
+from skillc.server.access.sessions import TABLE as SESSIONS
+from skillc.server.access.sessions import Sessions
 from skillc.server.access.tokens import TABLE as TOKENS
 from skillc.server.access.tokens import Tokens
 from skillc.server.audit import TABLE as AUDIT
@@ -29,7 +31,12 @@ def _add_trials(database: sqlite3.Connection) -> None:
     database.execute(TRIALS)
 
 
-SCHEMA = Schema(3, ";\n".join((TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS)), {1: _add_orders, 2: _add_trials})
+def _add_sessions(database: sqlite3.Connection) -> None:
+    database.execute(SESSIONS)
+
+
+TABLES = (TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS, SESSIONS)
+SCHEMA = Schema(4, ";\n".join(TABLES), {1: _add_orders, 2: _add_trials, 3: _add_sessions})
 LOCK, DATABASE, ADMIN_TOKEN, CELLS, SIMULATIONS = "lock", "server.sqlite", "admin.token", "cells", "simulations"
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""
@@ -50,6 +57,11 @@ class ServerState:
     def tokens(self) -> Tokens:
         """The tokens of clients."""
         return Tokens(self.database)
+
+    @property
+    def sessions(self) -> Sessions:
+        """The sessions of browsers."""
+        return Sessions(self.database)
 
 
 @contextmanager

@@ -23,6 +23,12 @@ PLANNED = "bound by the planner"
 
 
 def format_overview(story: RunHistory, run: str) -> str:
+    """Return the steps of a run, why there was more than one plan, and why the task failed; and what to ask next."""
+    hint = f"Ask about a step, a skill or a parameter: `skillc why {run} {_example(story)}`"
+    return "\n".join((*overview_lines(story), "", hint))
+
+
+def overview_lines(story: RunHistory) -> list[str]:
     """Return the steps of a run, why there was more than one plan, and why the task failed."""
     lines = [f"{story.task}: {_ending(story)}"]
     for attempt in story.attempts:
@@ -31,15 +37,14 @@ def format_overview(story: RunHistory, run: str) -> str:
     if story.failure is not None:
         lines += ["", f"why: {describe_failure(story.failure)}", *_indented(list_details(story.failure))]
         lines += _indented(_chain(story.chain, story.failure.message))
-    lines += ["", f"Ask about a step, a skill or a parameter: `skillc why {run} {_example(story)}`"]
-    return "\n".join(lines)
+    return lines
 
 
 def format_answer(answer: CallSelection) -> str:
     """Return the explanation of the calls that a question is about."""
     if answer.parameter:
         return "\n".join(together.from_iterable(_parameter(call, answer.parameter) for call in answer.calls))
-    return "\n\n".join("\n".join(_explained(call)) for call in answer.calls)
+    return "\n\n".join("\n".join(explain_call(call)) for call in answer.calls)
 
 
 def _ending(story: RunHistory) -> str:
@@ -98,7 +103,8 @@ def _times(call: RecordedCall) -> str:
     return f"{call.started:.1f} - {call.ended:.1f} s" if call.ended is not None else f"{call.started:.1f} s -"
 
 
-def _explained(call: RecordedCall) -> Iterator[str]:
+def explain_call(call: RecordedCall) -> Iterator[str]:
+    """Yield why a call chose what it did, how it ended, and why."""
     yield _line(call).strip()
     yield from _never(call)
     yield from _indented(_choice(call))

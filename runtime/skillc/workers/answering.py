@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TypeAlias, assert_never
 
@@ -12,6 +12,7 @@ import msgspec
 from skillc.cells.assigning import assign_request
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.samples import PoseNumbers, list_numbers
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import DiagnosticsError, ServiceError
@@ -24,6 +25,7 @@ from skillc.workers.jobs import (
     Job,
     ListDevices,
     ListFacts,
+    ListPoses,
     ListWrites,
     MakeReport,
     PlanPreview,
@@ -32,6 +34,7 @@ from skillc.workers.jobs import (
     QueryWorld,
     Rehearse,
     RunTrial,
+    SimulationJob,
     WorldFact,
     WorldFacts,
     WorldWrite,
@@ -46,6 +49,8 @@ from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.elements import elements_of, find_elements
 from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.labelled import label_change, label_fact
@@ -62,6 +67,7 @@ JobAnswer: TypeAlias = (
     | tuple[WorldWrite, ...]
     | LibraryDescription
     | tuple[Device, ...]
+    | dict[str, PoseNumbers]
     | PlanPreview
     | TaskResult
     | Trial
@@ -92,6 +98,8 @@ def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
 
 
 def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
+    if isinstance(job, SimulationJob):
+        return _simulate(job, known)
     match job:
         case QueryWorld(sparql):
             return _query(sparql, known)
@@ -99,19 +107,27 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return _list_facts(job, known)
         case PreviewPlan():
             return preview_plan(job, known)
-        case Rehearse():
-            return rehearse(job, known)
-        case MakeReport():
-            return make_report(job, known)
         case ListWrites():
             return _list_writes(job, known)
         case DescribeLibrary():
             return describe_library(known.library)
         case ListDevices():
             return list_devices(known.state)
+        case ListPoses():
+            return _list_poses(known)
         case CheckOperation():
             _check(job, known)
             return None
+        case _:
+            assert_never(job)
+
+
+def _simulate(job: SimulationJob, known: CellSnapshot) -> TaskResult | Trial | None:
+    match job:
+        case Rehearse():
+            return rehearse(job, known)
+        case MakeReport():
+            return make_report(job, known)
         case CheckTrials():
             check_trials(job, known)
             return None
@@ -167,6 +183,15 @@ def _find_facts(job: ListFacts, known: CellSnapshot) -> Iterator[Fact]:
             yield from (ClassFact(each.iri, cls) for cls in each.types)
             yield from (RelationFact(each.iri, relation, other) for relation, other in each.relations)
             yield from (PropertyFact(each.iri, value.property) for value in each.properties)
+
+
+def _list_poses(known: CellSnapshot) -> dict[str, PoseNumbers]:
+    """Return the poses that the facts give, by IRI."""
+    found = dict[str, PoseNumbers]()
+    for each in sorted(known.state.individuals - _find_shipped(known)):
+        with suppress(FrameError):
+            found[each] = list_numbers(pose(known.state, each))
+    return found
 
 
 def _find_shipped(known: CellSnapshot) -> frozenset[str]:

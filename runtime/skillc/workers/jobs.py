@@ -45,6 +45,10 @@ class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
     """List the devices of the cell."""
 
 
+class ListPoses(msgspec.Struct, frozen=True, tag="poses"):
+    """List where the individuals of the cell are in the world, but not those of data sheets."""
+
+
 class CheckOperation(msgspec.Struct, frozen=True, tag="check"):
     """Check that an operation could be submitted now; its values are those of an OperationRequest."""
 
@@ -94,19 +98,11 @@ class RunTrial(msgspec.Struct, frozen=True, tag="trial"):
     seed: int | None
 
 
-Job: TypeAlias = (
-    QueryWorld
-    | ListFacts
-    | ListWrites
-    | DescribeLibrary
-    | ListDevices
-    | CheckOperation
-    | PreviewPlan
-    | Rehearse
-    | MakeReport
-    | CheckTrials
-    | RunTrial
+Question: TypeAlias = (
+    QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | ListPoses | CheckOperation | PreviewPlan
 )
+SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial
+Job: TypeAlias = Question | SimulationJob
 
 
 class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 
 from skillc.workers.answering import JobRefused, answer_job
 from skillc.workers.jobs import Job
+from skillc.workers.run_jobs import RunJob
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
 
@@ -25,6 +26,9 @@ LOOK_S = 0.1
 """How often it is looked whether somebody still waits for an answer, in s."""
 
 T = TypeVar("T")
+Request: TypeAlias = tuple[Job | RunJob, bytes]
+Program: TypeAlias = Callable[[Any], bytes | JobRefused]
+"""Answers a job for an encoded snapshot, as JSON; for None it answers that it is ready."""
 
 
 class JobFailed(Exception):
@@ -47,9 +51,10 @@ class TooManyJobs(Exception):
 class Workers:
     """The processes of a server for jobs, `count` at most. They are started when they are first needed.
 
-    A job waits for a process for up to `turn_s`.
+    They do jobs by `program`. A job waits for a process for up to `turn_s`.
     """
 
+    program: Program = answer_job
     count: int = MAX_WORKERS
     turn_s: float = TURN_S
     _idle: list[WorkerProcess] = field(default_factory=list)
@@ -60,7 +65,7 @@ class Workers:
     def __post_init__(self) -> None:
         self._free = asyncio.Semaphore(self.count)
 
-    async def answer(self, job: Job, snapshot: bytes, kind: type[T], seconds: float) -> T:
+    async def answer(self, job: Job | RunJob, snapshot: bytes, kind: type[T], seconds: float) -> T:
         """Return the answer to a job for an encoded snapshot; JobFailed, JobTimedOut or TooManyJobs otherwise.
 
         If this is cancelled, the process is killed.
@@ -103,13 +108,13 @@ class Workers:
         finally:
             self._free.release()
 
-    def _ask(self, job: Job, snapshot: bytes, cancel: CancelToken, seconds: float) -> bytes:
+    def _ask(self, job: Job | RunJob, snapshot: bytes, cancel: CancelToken, seconds: float) -> bytes:
         """Let a process do a job; it is kept for the next one if it has answered. Cancelled if it is not to go on.
 
         The time in which a process starts does not count.
         """
         new = not self._idle
-        worker = WorkerProcess(answer_job, "spawn") if new else self._idle.pop()
+        worker = WorkerProcess(self.program, "spawn") if new else self._idle.pop()
         result: WorkerResult | None = None
         try:
             ready = not new or isinstance(_wait(worker, None, cancel.limited(START_S)), Returned)
@@ -133,7 +138,7 @@ class Workers:
                 raise Cancelled(limit.reason or "")
 
 
-def _wait(worker: WorkerProcess, request: tuple[Job, bytes] | None, cancel: CancelToken) -> WorkerResult | None:
+def _wait(worker: WorkerProcess, request: Request | None, cancel: CancelToken) -> WorkerResult | None:
     """Return what a process answers to a request; None if it is not waited for any longer."""
     result: WorkerResult | None = None
     worker.ask(request)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol, TypeAlias
 
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.disturbances import Disturber
@@ -20,6 +20,20 @@ class Posture:
     joints: Array
     base_positions: Array
     base_quaternions: Array
+
+
+IndividualKind: TypeAlias = Literal["arm", "gripper", "base", "tool", "surface", "fixture", "body"]
+"""What an individual is in a simulation; a robot is its `base`, and a `body` any other thing."""
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnIndividual:
+    """An individual with its short name, and the name in the model of its first body; `movable` if it lies free."""
+
+    label: str
+    kind: IndividualKind
+    body: str
+    movable: bool = False
 
 
 class Drawing(Protocol):
@@ -38,6 +52,11 @@ class Drawing(Protocol):
     @property
     def surfaces(self) -> Mapping[str, str]:
         """The name in the model of the geom of each surface that is really there, by IRI."""
+        ...
+
+    @property
+    def individuals(self) -> Mapping[str, DrawnIndividual]:
+        """What has bodies in the model, by IRI."""
         ...
 
     def posture(self) -> Posture:

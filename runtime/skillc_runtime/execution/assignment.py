@@ -13,7 +13,7 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.selection.preflight import preflight
-from skillc_runtime.planning.arrangement import arrange_plan, step_numbers
+from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
@@ -49,9 +49,10 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class PlannedSteps:
-    """The planner's answer, and the steps of the plan in the order of the body."""
+    """The planner's answer, how its steps are arranged, and the steps in the order of the body."""
 
     solved: Solved
+    arrangement: Arrangement
     steps: tuple[Step, ...]
 
 
@@ -138,7 +139,8 @@ def arrange_prepared(assignment: Assignment, solved: Solved, library: SkillLibra
     """Return an assignment with the body of a plan for it; PlanError if the plan does not work."""
     arrangement = arrange_plan(solved.plan, library, assignment.state)
     steps = tuple(solved.plan.steps[number] for number in step_numbers(arrangement))
-    return PreparedTask(assignment, build_plan_body(solved.plan, arrangement, library), PlannedSteps(solved, steps))
+    body = build_plan_body(solved.plan, arrangement, library)
+    return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps))
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from skillc_runtime.execution.assignment import (
     arrange_prepared,
 )
 from skillc_runtime.execution.attempt import CellOrigin
-from skillc_runtime.execution.plans.plan_record import record_plan, record_steps, restore_plan
+from skillc_runtime.execution.plans.plan_record import record_arrangement, record_plan, record_steps, restore_plan
 from skillc_runtime.execution.tree.gate import Gate, format_breakpoint
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import FORMAT, PlanArrived, PlanMade, TaskStarted
@@ -59,6 +59,7 @@ def make_plan_event(prepared: PreparedTask, library: SkillLibrary, now: float) -
         cost=solved.plan.duration_s,
         steps=record_steps(solved.plan, library),
         quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
+        arrangement=record_arrangement(prepared.planned.arrangement),
     )
 
 
@@ -66,7 +67,8 @@ def make_arrival_event(answer: PreparedTask | NotStarted, library: SkillLibrary,
     """Return the event that a task has been prepared, or that it cannot be, in a tick of the loop."""
     if isinstance(answer, NotStarted):
         return PlanArrived(time=now, tick=tick, refused=answer.reason, detail=answer.detail, proved=answer.proved)
-    plan = None if answer.planned is None else record_plan(answer.planned.solved, library)
+    planned = answer.planned
+    plan = None if planned is None else record_plan(planned.solved, planned.arrangement, library)
     return PlanArrived(time=now, tick=tick, plan=plan)
 
 

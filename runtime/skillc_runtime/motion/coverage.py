@@ -24,13 +24,13 @@ NEAR_PLANE_M = 0.03
 class CoverageMap:
     """The contact time of every cell of one surface: `dose` (rows along y, columns along x) in s; 0 is unwiped.
 
-    `surface` is the true frame at the centre of the surface in the world; `layout` gives the cells that count. A tool
-    works if it is pressed on the surface with at least `least_n` N.
+    `surface` is the true frame at the centre of the surface in the world; `layout` gives the cells that count, and the
+    size (2,) in m of all of them. A tool works if it is pressed on the surface with at least `least_n` N.
     """
 
     def __init__(self, surface: Pose, layout: Layout, least_n: float) -> None:
         self.least_n, self.normal = least_n, surface.rotation[:, 2]
-        self._in_surface = surface.inverse()
+        self._in_surface, self.size = surface.inverse(), layout.size
         self.x, self.y = _centres(float(layout.size[0])), _centres(float(layout.size[1]))
         self.mask = layout.work_mask(self.x, self.y)
         self.dose: NDArray[np.float64] = np.zeros((self.y.size, self.x.size))

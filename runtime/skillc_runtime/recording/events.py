@@ -21,7 +21,7 @@ from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 7
+FORMAT = 8
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
@@ -94,8 +94,19 @@ class PartLeftOut(msgspec.Struct, frozen=True):
     harmless: bool
 
 
+class StepGroup(msgspec.Struct, frozen=True, omit_defaults=True):
+    """Parts of a plan that run in series, or in `parallel`: indices of steps, and other groups."""
+
+    parts: tuple[int | StepGroup, ...]
+    parallel: bool = False
+
+
 class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):
-    """A plan as the planner found it, with its steps in order; the fields are those of `Solved` in `planning.plan`."""
+    """A plan as the planner found it, with its steps in order.
+
+    `arrangement` has each step, by its index in `steps`, where it runs in the body; the other fields are those of
+    `Solved` in `planning.plan`.
+    """
 
     planner: str
     optimal: str
@@ -104,6 +115,7 @@ class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):
     left_out: tuple[PartLeftOut, ...] = ()
     at_least_s: float | None = None
     assumptions: tuple[str, ...] = ()
+    arrangement: StepGroup = StepGroup(())
 
 
 class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
@@ -123,7 +135,8 @@ class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     """A planner found a plan; `cost` is its expected duration in s.
 
-    `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds.
+    `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement` is
+    as in `ArrivedPlan`.
     """
 
     planner: str
@@ -131,6 +144,7 @@ class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     cost: float
     steps: tuple[PlanStep, ...]
     quality: str = ""
+    arrangement: StepGroup = StepGroup(())
 
 
 class PromptsChanged(_Event, tag="prompts-changed", frozen=True, kw_only=True):

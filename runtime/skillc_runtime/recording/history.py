@@ -49,7 +49,8 @@ class EarlierStart(_Part, frozen=True, kw_only=True):
 class RecordedCall(_Part, frozen=True, kw_only=True):
     """A call of a skill at its last start, or a step of a plan that was never called.
 
-    `number` is the number of the step; for a call inside it, followed by its index there, for example `2.1`. `status`
+    `number` is the number of the step; for a call inside it, followed by its index there, for example `2.1`. `node` is
+    its number in the events, 0 if it was never called. `status`
     is success, failure, halted, running, skipped (its postconditions already held) or not started. `source` is the
     place of the call, or of the skill for a planned step; `implementation_source` that of the implementation chosen
     last. `beside` are the steps that ran at the same time. `planned` if a planner bound its arguments, `fixed` if the
@@ -61,6 +62,7 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     skill: str
     status: str
     source: Position | None
+    node: int = 0
     implementation: str = ""
     implementation_source: Position | None = None
     started: float | None = None

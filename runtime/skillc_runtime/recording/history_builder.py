@@ -203,6 +203,7 @@ def _make_call(call: NodeRecord, number: str) -> RecordedCall:
         skill=_skill_of(call),
         status=call.status,
         source=call.start.source,
+        node=call.start.node,
         implementation=choice.implementation if choice is not None else "",
         implementation_source=choice.source if choice is not None else None,
         started=call.start.time,

@@ -28,10 +28,11 @@ CREATE TABLE tokens (
 
 
 class Client(msgspec.Struct, frozen=True):
-    """Who makes a request: the name of its token, and what it may do."""
+    """Who makes a request: the name of its token, what it may do, and the hash of the token."""
 
     name: str
     role: Role
+    token: bytes
 
 
 class TokenInfo(msgspec.Struct, frozen=True):
@@ -76,9 +77,12 @@ class Tokens:
 
         The hash of the token is looked up, so the time that it takes tells nothing about other tokens.
         """
-        hashed = _hash(token)
+        return self.find_hash(_hash(token))
+
+    def find_hash(self, hashed: bytes) -> Client | None:
+        """Return whose token it is that has a hash; None if there is none such."""
         row = self.database.execute("SELECT name, role, hash FROM tokens WHERE hash = ?", (hashed,)).fetchone()
-        return Client(row[0], row[1]) if row is not None and hmac.compare_digest(row[2], hashed) else None
+        return Client(*row) if row is not None and hmac.compare_digest(row[2], hashed) else None
 
 
 def _hash(token: str) -> bytes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from skillc_runtime.backends.simulation.drawn_individuals import find_drawn
 from skillc_runtime.backends.simulation.model_builder import describe_model
 from skillc_runtime.backends.simulation.names import box_geom_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
@@ -22,6 +23,9 @@ class ModelDrawing:
         self.prefixes = {device: part_name(scene.names[device], "") for device in (*arms, *grippers)}
         present = (each.individual for each in scene.surfaces if variation.of(each.individual).present)
         self.surfaces = {each: box_geom_name(scene.names[each]) for each in present}
+
+        there = {model.body(each).name for each in range(model.nbody)}
+        self.individuals = {iri: each for iri, each in find_drawn(scene) if each.body in there}
 
     def posture(self) -> Posture:
         """Return a copy of the present posture."""

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import cast
 
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import LeftOut, Optimal, Plan, Solved, Step
-from skillc_runtime.recording.events import ArrivedPlan, PartLeftOut, PlanStep
+from skillc_runtime.recording.events import ArrivedPlan, PartLeftOut, PlanStep, StepGroup
 from skillc_runtime.world.state.labelled import LabelledIri, label
 
 
@@ -31,7 +32,23 @@ def restore_steps(recorded: Sequence[PlanStep]) -> tuple[Step, ...]:
     )
 
 
-def record_plan(solved: Solved, library: SkillLibrary) -> ArrivedPlan:
+def record_arrangement(arrangement: Arrangement) -> StepGroup:
+    """Return an arrangement for a recording; a single step is a group, too."""
+    if isinstance(arrangement, int):
+        return StepGroup((arrangement,))
+    parts = tuple(each if isinstance(each, int) else record_arrangement(each) for each in arrangement.parts)
+    return StepGroup(parts, isinstance(arrangement, InParallel))
+
+
+def restore_arrangement(recorded: StepGroup) -> Arrangement:
+    """Return an arrangement from a recording."""
+    parts = tuple(each if isinstance(each, int) else restore_arrangement(each) for each in recorded.parts)
+    if len(parts) == 1:
+        return parts[0]
+    return InParallel(parts) if recorded.parallel else InSeries(parts)
+
+
+def record_plan(solved: Solved, arrangement: Arrangement, library: SkillLibrary) -> ArrivedPlan:
     """Return a plan for a recording; of what was left out only the kinds and reasons, because it may be a million."""
     return ArrivedPlan(
         planner=solved.planner,
@@ -41,6 +58,7 @@ def record_plan(solved: Solved, library: SkillLibrary) -> ArrivedPlan:
         left_out=tuple(PartLeftOut(each.kind, each.why, each.harmless) for each in solved.left_out),
         at_least_s=solved.at_least_s,
         assumptions=solved.assumptions,
+        arrangement=record_arrangement(arrangement),
     )
 
 

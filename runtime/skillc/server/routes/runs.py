@@ -1,0 +1,103 @@
+"""What operations have done, and why: their trees, explanations, signals and differences."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from skillc.cells.recordings import recording_file
+from skillc.server.asking import ask_about_run
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.services.operation_tree import OperationTree
+from skillc.services.run_diff.difference import RunDiff
+from skillc.workers.run_jobs import (
+    CompareRuns,
+    ExplainRun,
+    ReadSignals,
+    RunExplanation,
+    RunFiles,
+    ShowTree,
+    SignalRows,
+)
+
+READ_S = 20.0
+"""How long reading a run may take, in s."""
+Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e9)]
+
+
+class Question(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What to explain besides: a step, a skill, an implementation or a parameter, as of `skillc why`."""
+
+    question: Annotated[str, msgspec.Meta(max_length=200)] = ""
+
+
+class SignalPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Which signals: those whose columns contain one of the words in `match`, separated by commas; all without.
+
+    Those after `after_s` until `until_s` of the cell's time, `every_s` apart at least.
+    """
+
+    match: Annotated[str, msgspec.Meta(max_length=500)] = ""
+    after_s: Annotated[float, msgspec.Meta(ge=-1.0, le=1e9)] = -1.0
+    until_s: Seconds = 1e9
+    every_s: Seconds = 0.0
+
+
+class OtherRun(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The operation to compare with."""
+
+    other: Annotated[str, msgspec.Meta(max_length=200)]
+
+
+async def show_tree(call: ApiCall) -> OperationTree:
+    return await ask_about_run(call, ShowTree(_find_files(call, call.path["operation"])), OperationTree, READ_S)
+
+
+async def explain_run(call: ApiCall) -> RunExplanation:
+    job = ExplainRun(_find_files(call, call.path["operation"]), call.query.question)
+    return await ask_about_run(call, job, RunExplanation, READ_S)
+
+
+async def read_signals(call: ApiCall) -> SignalRows:
+    page: SignalPage = call.query
+    match = tuple(filter(None, page.match.split(",")))
+    files = _find_files(call, call.path["operation"])
+    job = ReadSignals(files, match, page.after_s, page.until_s, page.every_s)
+    return await ask_about_run(call, job, SignalRows, READ_S)
+
+
+async def compare_runs(call: ApiCall) -> RunDiff:
+    job = CompareRuns(_find_files(call, call.path["operation"]), _find_files(call, call.query.other))
+    return await ask_about_run(call, job, RunDiff, READ_S)
+
+
+def _find_files(call: ApiCall, name: str) -> RunFiles:
+    """Return where an operation is recorded; ApiRefusal (404) if there is none of this id."""
+    cell, operation = call.server.find_operation(name)
+    recording = recording_file(Path(cell.settings.folder), operation.id)
+    return RunFiles(operation.id, str(cell.settings.journal), str(recording))
+
+
+REFUSALS = (HTTPStatus.NOT_FOUND, HTTPStatus.REQUEST_TIMEOUT, HTTPStatus.UNPROCESSABLE_ENTITY)
+PATH = "/operations/{operation}"
+ENDPOINTS = (
+    ApiEndpoint(
+        "GET", f"{PATH}/tree", "view", "Show the tree of an operation, with the numbers that events have",
+        show_tree, OperationTree, refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/why", "view", "Explain what an operation has chosen, how it ended, and why",
+        explain_run, RunExplanation, query=Question, refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/signals", "view", "Read recorded signals of an operation, at most 5000 rows at once",
+        read_signals, SignalRows, query=SignalPage, refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/diff", "view", "Compare an operation with another one", compare_runs, RunDiff, query=OtherRun,
+        refusals=REFUSALS,
+    ),
+)  # fmt: skip

@@ -1,0 +1,48 @@
+"""Sessions of browsers: how one begins, with a one-time code or a token, and ends."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+
+from starlette.responses import Response
+
+from skillc.server.api_types import LoginCode, SessionInfo
+from skillc.server.endpoint import ApiCall, ApiEndpoint
+
+
+async def make_login_code(call: ApiCall) -> LoginCode:
+    return LoginCode(call.server.codes.make(call.client.token))
+
+
+async def show_session(call: ApiCall) -> SessionInfo:
+    return SessionInfo(call.client.name, call.client.role)
+
+
+async def log_in(call: ApiCall) -> Response:
+    response = Response(status_code=HTTPStatus.NO_CONTENT)
+    call.cookie.set(response, call.server.state.sessions.begin(call.client.token))
+    return response
+
+
+async def log_out(call: ApiCall) -> Response:
+    if call.session is not None:
+        call.server.state.sessions.end(call.session)
+    response = Response(status_code=HTTPStatus.NO_CONTENT)
+    call.cookie.remove(response)
+    return response
+
+
+ENDPOINTS = (
+    ApiEndpoint(
+        "POST", "/login-codes", "view", "Make a code that stands for the client's token, once, for 60 s",
+        make_login_code, LoginCode, status=HTTPStatus.CREATED,
+    ),
+    ApiEndpoint("GET", "/session", "view", "Show who makes the request, and its role", show_session, SessionInfo),
+    ApiEndpoint(
+        "POST", "/session", "view", "Begin a session: the cookie of the answer stands for the token or code for 12 h",
+        log_in, status=HTTPStatus.NO_CONTENT,
+    ),
+    ApiEndpoint(
+        "DELETE", "/session", "view", "End the session of the cookie", log_out, status=HTTPStatus.NO_CONTENT
+    ),
+)  # fmt: skip

@@ -1,0 +1,162 @@
+"""What the workers for recorded runs do: they read events, trees, reasons and signals, and compare runs."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from pathlib import Path
+from typing import TypeAlias, assert_never
+
+import msgspec
+import numpy as np
+from msgspec import structs
+
+from skillc.cells.database import DatabaseError
+from skillc.cells.journal.reading import JournalReader
+from skillc.services.errors import ServiceError
+from skillc.services.operation_tree import OperationTree, build_tree
+from skillc.services.recordings import answer_question, read_signals
+from skillc.services.reporting import SilentReporter
+from skillc.services.run_diff.compare import compare_runs
+from skillc.services.run_diff.difference import RunDiff
+from skillc.services.story_text import explain_call, format_answer, overview_lines
+from skillc.workers.answering import JobRefused
+from skillc.workers.run_jobs import (
+    ChainedFailure,
+    CompareRuns,
+    ExplainedCall,
+    ExplainRun,
+    ReadSignals,
+    RunExplanation,
+    RunFiles,
+    RunJob,
+    ShowTree,
+    SignalRows,
+)
+from skillc_model.codec import LibraryError, loads
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.platforms.memory import limit_memory
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.history import RecordedCall
+from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.mcap.contents import LIBRARY
+from skillc_runtime.recording.mcap.reader import RecordedFile, read_recording
+from skillc_runtime.recording.reader import TraceError
+
+MEMORY_BYTES = 4 * 2**30
+"""The largest address space of a worker."""
+MAX_ROWS = 5000
+"""How many rows of signals are returned."""
+MAX_VALUES = 200_000
+"""How many values of signals are returned."""
+
+RunAnswer: TypeAlias = OperationTree | RunExplanation | SignalRows | RunDiff
+
+
+def answer_run_job(request: tuple[RunJob, bytes] | None) -> bytes | JobRefused:
+    """Return the answer to a job as JSON, or why there is none; None asks if it is ready. A snapshot is not needed."""
+    limit_memory(MEMORY_BYTES)
+    if request is None:
+        return b""
+    try:
+        return msgspec.json.encode(_answer(request[0]))
+    except (ServiceError, DatabaseError) as error:
+        return JobRefused(str(error))
+    except MemoryError:
+        return JobRefused("it needs too much memory; ask for less")
+
+
+def _answer(job: RunJob) -> RunAnswer:
+    match job:
+        case ShowTree(run):
+            return build_tree(_read_events(run), _read_library(run))
+        case ExplainRun(run, question):
+            return _explain(run, question)
+        case ReadSignals():
+            return _read_signals(job)
+        case CompareRuns(first, second):
+            return _compare(first, second)
+        case _:
+            assert_never(job)
+
+
+def _read_events(run: RunFiles) -> tuple[Envelope, ...]:
+    """Return all events of a run up to now."""
+    found = list[Envelope]()
+    with closing(JournalReader(Path(run.journal))) as reader:
+        while page := reader.envelopes(run.operation, found[-1].sequence if found else 0):
+            found += page
+    return tuple(found)
+
+
+def _read_library(run: RunFiles) -> SkillLibrary:
+    """Return the library that a run uses; ServiceError if its recording does not have it."""
+    attachments = _open_recording(run).attachments
+    if LIBRARY not in attachments:
+        raise ServiceError(f"the recording of {run.operation} has no library yet; try again")
+    try:
+        return loads(attachments[LIBRARY], f"the library of {run.operation}")
+    except LibraryError as error:
+        raise ServiceError(str(error)) from error
+
+
+def _open_recording(run: RunFiles) -> RecordedFile:
+    try:
+        return read_recording(Path(run.recording))
+    except (OSError, TraceError) as error:
+        raise ServiceError(f"the recording of {run.operation} cannot be read: {error}") from error
+
+
+def _explain(run: RunFiles, question: str) -> RunExplanation:
+    envelopes = _read_events(run)
+    story = read_history(each.event for each in envelopes)
+    if story is None:
+        return RunExplanation(len(envelopes), (), (), (), ())
+    answer = format_answer(answer_question(story, question)).splitlines() if question else []
+    return RunExplanation(
+        sequence=envelopes[-1].sequence,
+        lines=tuple(overview_lines(story)),
+        chain=tuple(ChainedFailure(each.name, each.message, each.source) for each in story.chain),
+        calls=tuple(_explain_call(each) for each in story.calls),
+        answer=tuple(answer),
+    )
+
+
+def _explain_call(call: RecordedCall) -> ExplainedCall:
+    return ExplainedCall(
+        number=call.number,
+        skill=call.skill,
+        status=call.status,
+        lines=tuple(explain_call(call)),
+        node=call.node,
+        source=call.source,
+        implementation_source=call.implementation_source,
+    )
+
+
+def _read_signals(job: ReadSignals) -> SignalRows:
+    if not Path(job.run.recording).exists():
+        raise ServiceError(f"there is no recording of {job.run.operation}")
+    table = read_signals(Path(job.run.recording))
+    wanted = [
+        number
+        for number, each in enumerate(table.signals)
+        if not job.match or any(part in each.column for part in job.match)
+    ]
+    rows = np.flatnonzero((table.time_s > job.after_s) & (table.time_s <= job.until_s))
+    period_s = float(np.median(np.diff(table.time_s))) if len(table.time_s) > 1 else 0.0
+    step = max(1, round(job.every_s / period_s)) if period_s > 0.0 else 1
+    chosen = rows[::step]
+    limit = max(1, min(MAX_ROWS, MAX_VALUES // max(1, len(wanted))))
+    values = table.rows[chosen[:limit]][:, wanted]
+    return SignalRows(
+        time_s=tuple(table.time_s[chosen[:limit]].tolist()),
+        signals=tuple(table.signals[each] for each in wanted),
+        columns=tuple(tuple(None if each != each else each for each in column) for column in values.T.tolist()),
+        every_s=step * period_s,
+        more=len(chosen) > limit,
+    )
+
+
+def _compare(first: RunFiles, second: RunFiles) -> RunDiff:
+    diff = compare_runs(Path(first.recording), Path(second.recording), SilentReporter())
+    return structs.replace(diff, runs=(first.operation, second.operation))

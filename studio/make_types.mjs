@@ -1,0 +1,11 @@
+// Writes src/api/schema.ts: the types of the OpenAPI document on standard input, without its paths.
+import { writeFileSync } from "node:fs";
+import { text } from "node:stream/consumers";
+import openapiTS, { astToString } from "openapi-typescript";
+
+const document = JSON.parse(await text(process.stdin));
+const types = astToString(
+  await openapiTS({ ...document, paths: {} }, { silent: true, defaultNonNullable: false }),
+);
+const comment = "// Made from the OpenAPI document of the server by `npm run types`; do not edit.\n\n";
+writeFileSync(new URL("src/api/schema.ts", import.meta.url), comment + types);

@@ -1,0 +1,154 @@
+// Requests to the server. What it refuses is an error with its own words.
+import type {
+  CellStatus,
+  Envelope,
+  LibraryDescription,
+  OperationRequest,
+  OperationStatus,
+  PlanPreview,
+  ProblemDetails,
+  Rehearsal,
+  Session,
+  WorldFacts,
+  WorldWrite,
+} from "./types";
+
+const PREFIX = "/api/v1";
+const PATIENCE_MS = 90_000;
+
+/** A request that was refused, or did not arrive (`status` 0). */
+export class ApiError extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+type Query = Record<string, string | number | boolean | null | undefined>;
+
+function address(path: string, query: Query = {}): string {
+  const parts = Object.entries(query).filter(
+    ([, value]) => value !== null && value !== undefined && value !== "",
+  );
+  const search = new URLSearchParams(parts.map(([name, value]) => [name, String(value)])).toString();
+  return `${PREFIX}${path}${search && `?${search}`}`;
+}
+
+async function send(path: string, init: RequestInit): Promise<Response> {
+  try {
+    return await fetch(path, {
+      credentials: "same-origin",
+      signal: AbortSignal.timeout(PATIENCE_MS),
+      ...init,
+    });
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "TimeoutError")
+      throw new ApiError(0, "the server did not answer in time");
+    throw new ApiError(0, "the server cannot be reached");
+  }
+}
+
+type Headers = Record<string, string>;
+
+async function request(
+  method: string,
+  path: string,
+  body?: unknown,
+  headers: Headers = {},
+): Promise<Response> {
+  const json: Headers = body === undefined ? {} : { "Content-Type": "application/json" };
+  const content = body === undefined ? null : JSON.stringify(body);
+  const response = await send(path, { method, headers: { ...json, ...headers }, body: content });
+  if (!response.ok) throw await refusal(response);
+  return response;
+}
+
+async function refusal(response: Response): Promise<ApiError> {
+  try {
+    const problem = (await response.json()) as ProblemDetails;
+    return new ApiError(response.status, problem.detail);
+  } catch {
+    return new ApiError(response.status, response.statusText);
+  }
+}
+
+async function read<T>(path: string, query: Query = {}): Promise<T> {
+  return (await (await request("GET", address(path, query))).json()) as T;
+}
+
+async function write<T>(method: string, path: string, body?: unknown, headers: Headers = {}): Promise<T> {
+  const response = await request(method, address(path), body, headers);
+  return (response.status === 204 ? undefined : await response.json()) as T;
+}
+
+const part = encodeURIComponent;
+
+export interface PlanWish {
+  task?: string;
+  goal?: string;
+  arguments?: Record<string, string>;
+  minimise?: "work" | "makespan";
+  prove?: boolean;
+  deadline_s?: number;
+}
+
+/** A command such as `{type: "pause"}`. */
+export type CommandBody = { type: string } & Record<string, unknown>;
+
+/** A text file of a library, with the hash that a write of it has to name. */
+export interface SourceFile {
+  text: string;
+  etag: string;
+}
+
+const filePath = (library: string, path: string): string =>
+  `/libraries/${part(library)}/files/${path.split("/").map(part).join("/")}`;
+
+export const api = {
+  session: () => read<Session>("/session"),
+  /** Log in with a token, or with a code that is good for one time; the browser keeps the cookie. */
+  logIn: (secret: string) =>
+    write<undefined>("POST", "/session", undefined, { Authorization: `Bearer ${secret}` }),
+  logOut: () => write<undefined>("DELETE", "/session"),
+  version: () => read<{ skillc: string; api: string }>("/version"),
+  library: (cell: string) => read<LibraryDescription>(`/cells/${part(cell)}/library`),
+  world: (cell: string, query: Query = {}) => read<WorldFacts>(`/cells/${part(cell)}/world`, query),
+  writes: (cell: string, query: Query = {}) =>
+    read<WorldWrite[]>(`/cells/${part(cell)}/world/history`, query),
+  edit: (cell: string, edits: string[], why: string) =>
+    write<undefined>("POST", `/cells/${part(cell)}/world/edits`, { edits, why }),
+  plan: (cell: string, wish: PlanWish) => write<PlanPreview>("POST", `/cells/${part(cell)}/plans`, wish),
+  rehearse: (cell: string, wish: PlanWish & { film?: boolean }) =>
+    write<Rehearsal>("POST", `/cells/${part(cell)}/rehearsals`, wish),
+  rehearsal: (id: string) => read<Rehearsal>(`/rehearsals/${part(id)}`),
+  submit: (cell: string, wanted: OperationRequest, key: string) =>
+    write<OperationStatus>("POST", `/cells/${part(cell)}/operations`, wanted, { "Idempotency-Key": key }),
+  operations: (cell: string, query: Query = {}) =>
+    read<OperationStatus[]>(`/cells/${part(cell)}/operations`, query),
+  operation: (id: string) => read<OperationStatus>(`/operations/${part(id)}`),
+  events: (id: string, after: number) =>
+    read<Envelope[]>(`/operations/${part(id)}/events`, { after, limit: 1000 }),
+  command: (id: string, command: CommandBody) =>
+    write<OperationStatus>("POST", `/operations/${part(id)}/commands`, command),
+  stop: (id: string, reason: string) =>
+    write<OperationStatus>("POST", `/operations/${part(id)}/stop`, { reason }),
+  stopCell: (cell: string, reason: string) =>
+    write<CellStatus>("POST", `/cells/${part(cell)}/stop`, { reason }),
+  setPace: (cell: string, factor: number | null) =>
+    write<CellStatus>("PUT", `/cells/${part(cell)}/pace`, { factor }),
+  acknowledge: (cell: string) => write<CellStatus>("POST", `/cells/${part(cell)}/acknowledge`),
+  files: (library: string) => read<string[]>(`/libraries/${part(library)}/files`),
+  readFile: async (library: string, path: string): Promise<SourceFile> => {
+    const response = await request("GET", address(filePath(library, path)));
+    return { text: await response.text(), etag: response.headers.get("ETag") ?? "" };
+  },
+  /** Write a file if it is still the one with this hash; return the new hash. */
+  writeFile: async (library: string, path: string, text: string, etag: string): Promise<string> => {
+    const response = await request("PUT", address(filePath(library, path)), { text }, { "If-Match": etag });
+    return response.headers.get("ETag") ?? "";
+  },
+  recording: async (id: string) =>
+    (await request("GET", address(`/operations/${part(id)}/recording`))).arrayBuffer(),
+};

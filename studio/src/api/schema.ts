@@ -1,0 +1,2259 @@
+// Made from the OpenAPI document of the server by `npm run types`; do not edit.
+
+export type paths = Record<string, never>;
+export type webhooks = Record<string, never>;
+export interface components {
+    schemas: {
+        /**
+         * CellStatus
+         * @description A cell as it is now; `reason` is why it is in its state.
+         *
+         *         `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
+         *         disk. `pace` is None for as fast as it computes.
+         */
+        CellStatus: {
+            name: string;
+            scene: string;
+            library: string;
+            library_hash: string;
+            /** @default  */
+            library_problem?: string;
+            backend: string;
+            /**
+             * @default operational
+             * @enum {unknown}
+             */
+            state?: "emergency-stop" | "fault" | "off" | "operational" | "protective-stop";
+            /** @default  */
+            reason?: string;
+            /** @default null */
+            pace?: number | null;
+        };
+        /**
+         * PaceSetting
+         * @description How fast the cell's time may pass: `factor` times real time; null for as fast as it computes.
+         */
+        PaceSetting: {
+            factor: number | null;
+        };
+        /**
+         * StopAll
+         * @description Why everything is stopped.
+         */
+        StopAll: {
+            /**
+             * @description Why, for the history.
+             * @default stopped
+             */
+            reason?: string;
+        };
+        /**
+         * Push
+         * @description Somebody pushes the hand of an arm with a force (x, y, z) in N in the world, from now on for `duration_s` s.
+         */
+        Push: {
+            /** @enum {unknown} */
+            type: "push";
+            arm: string;
+            force_n: [
+                number,
+                number,
+                number
+            ];
+            /** @default 0.5 */
+            duration_s?: number;
+        };
+        /**
+         * Move
+         * @description Somebody moves a thing by (x, y, z) in m in the world, and turns it about the vertical, in rad.
+         */
+        Move: {
+            /** @enum {unknown} */
+            type: "move";
+            thing: string;
+            by_m: [
+                number,
+                number,
+                number
+            ];
+            /** @default 0 */
+            turn_rad?: number;
+        };
+        /**
+         * PressEmergencyStop
+         * @description Somebody presses an emergency stop, or releases it.
+         */
+        PressEmergencyStop: {
+            /** @enum {unknown} */
+            type: "emergency-stop";
+            /** @default true */
+            pressed?: boolean;
+        };
+        /**
+         * LoseArm
+         * @description An arm does not answer any more, or answers again; it stands still meanwhile.
+         */
+        LoseArm: {
+            /** @enum {unknown} */
+            type: "lost-arm";
+            arm: string;
+            /** @default true */
+            lost?: boolean;
+        };
+        /**
+         * Lease
+         * @description The lease of a cell: who has it, and for how long yet, in s of wall time; nobody if `owner` is None.
+         */
+        Lease: {
+            cell: string;
+            owner: string | null;
+            remaining_s: number;
+        };
+        /**
+         * LeaseRequest
+         * @description For how long a client wants to command a cell alone, in s; `takeover` ends the lease of another client.
+         */
+        LeaseRequest: {
+            /** @default 60 */
+            duration_s?: number;
+            /** @default false */
+            takeover?: boolean;
+        };
+        /**
+         * OperationStatus
+         * @description An operation as it is now: `reason` says why it is in its state, or for what it waits.
+         *
+         *         `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
+         *         whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
+         *         it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
+         *         operators. `decisions` are how it can be
+         *         continued if it was interrupted, `continued_by` is the operation that does.
+         */
+        OperationStatus: {
+            id: string;
+            cell: string;
+            request: components["schemas"]["OperationRequest"];
+            state: ("paused" | "pausing" | "planned" | "planning" | "queued" | "running" | "stopping") | ("failed" | "interrupted" | "stopped" | "succeeded");
+            /** @default  */
+            reason?: string;
+            /** @default [] */
+            allowed?: string[];
+            /** @default 0 */
+            events?: number;
+            /** @default null */
+            verified?: boolean | null;
+            /** @default null */
+            failure?: components["schemas"]["Failure"] | null;
+            /** @default  */
+            library_hash?: string;
+            /** @default [] */
+            devices?: string[] | null;
+            /** @default [] */
+            prompts?: components["schemas"]["Prompt"][];
+            /** @default [] */
+            decisions?: ("replan" | "retry" | "skip")[];
+            /** @default  */
+            continued_by?: string;
+        };
+        /**
+         * OperationRequest
+         * @description What is to be done: a `task` of the cell's library, a `goal` as a condition or as PDDL, or a `call` of a skill.
+         *
+         *         `arguments` are the values of the task's parameters, as they are written in a call, such as `lab:Tray-1` or `8 N`.
+         *
+         *         Of those that wait for planners or devices, a higher `priority` comes first, then who was submitted first; nothing
+         *         that runs gives way. `approve`: each plan waits for approval. `ask_after_failure`: a failed step waits for a
+         *         decision instead of another plan. The operation fails if it has not ended `deadline_s` of the cell's time after its
+         *         submission, and a primitive or a wait if it has not ended `step_deadline_s` after its start. It pauses before its
+         *         first call with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
+         *
+         *         A request that `continues` an operation that was interrupted names nothing else to do; `decision` says how, and
+         *         `why` a step counts as done that is skipped.
+         */
+        OperationRequest: {
+            /** @default null */
+            task?: string | null;
+            /** @default null */
+            goal?: string | null;
+            /** @default null */
+            call?: string | null;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+            /** @default  */
+            owner?: string;
+            /** @default false */
+            approve?: boolean;
+            /** @default false */
+            ask_after_failure?: boolean;
+            /** @default null */
+            deadline_s?: number | null;
+            /** @default null */
+            step_deadline_s?: number | null;
+            /** @default false */
+            step?: boolean;
+            /** @default [] */
+            breakpoints?: string[];
+            /** @default 0 */
+            priority?: number;
+            /** @default  */
+            continues?: string;
+            /**
+             * @default replan
+             * @enum {unknown}
+             */
+            decision?: "replan" | "retry" | "skip";
+            /** @default  */
+            why?: string;
+        };
+        /**
+         * Failure
+         * @description Why a node failed; `source` is the responsible line, `skill` the innermost skill.
+         *
+         *         `message` is the cause in one sentence, `detail` what there is to say besides. `values` are the values in a
+         *         primitive's message, by name. `causes` are the failures that this one combines, those of all alternatives that were
+         *         tried: first the one whose message it has. `alternative` names one of several, for example `Pick[across]`.
+         */
+        Failure: {
+            /** @enum {unknown} */
+            kind: "body" | "contradiction" | "error" | "halted" | "hold" | "inference" | "interrupted" | "lock" | "plan" | "post" | "pre" | "timeout" | "verify";
+            message: string;
+            /** @default  */
+            detail?: string;
+            /** @default null */
+            source?: components["schemas"]["Position"] | null;
+            /** @default  */
+            skill?: string;
+            /** @default  */
+            alternative?: string;
+            /** @default {} */
+            values?: {
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+            };
+            /** @default [] */
+            causes?: components["schemas"]["Failure"][];
+        };
+        /**
+         * Position
+         * @description A position in a file: path relative to the library (or `std/..`), line and column from 1.
+         */
+        Position: {
+            path: string;
+            line: number;
+            column: number;
+        };
+        /**
+         * LabelledIri
+         * @description An individual, class, relation or property; `label` is its short name, such as `lab:Arm-1` or `contain`.
+         */
+        LabelledIri: {
+            /** @enum {unknown} */
+            type: "iri";
+            iri: string;
+            label: string;
+        };
+        /**
+         * Quantity
+         * @description A number with its SI unit as the language writes it; the unit is empty for a pure number.
+         *
+         *         In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
+         */
+        Quantity: {
+            /** @enum {unknown} */
+            type: "quantity";
+            value: number;
+            /** @default  */
+            unit?: string;
+        };
+        /**
+         * NotFinite
+         * @description A number that JSON cannot represent, as text: `inf N`.
+         */
+        NotFinite: {
+            /** @enum {unknown} */
+            type: "not-finite";
+            text: string;
+        };
+        /**
+         * LabelledVector
+         * @description Three numbers with one unit, in the world frame.
+         */
+        LabelledVector: {
+            /** @enum {unknown} */
+            type: "vector";
+            components: [
+                number,
+                number,
+                number
+            ];
+            /** @default  */
+            unit?: string;
+        };
+        /**
+         * LabelledPose
+         * @description A position in m and an orientation as unit quaternion (w, x, y, z), in a frame.
+         */
+        LabelledPose: {
+            /** @enum {unknown} */
+            type: "pose";
+            position_m: [
+                number,
+                number,
+                number
+            ];
+            quaternion_wxyz: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /** @default world */
+            frame?: string;
+        };
+        /**
+         * ValueList
+         * @description Several values.
+         */
+        ValueList: {
+            /** @enum {unknown} */
+            type: "list";
+            values: (boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]))[];
+        };
+        /**
+         * Prompt
+         * @description A question of a skill with its choices, and until when, in s of the cell's clock, an operator may answer it.
+         *
+         *         The `default` counts then; if it is empty, the skill fails. `id` is the number of the node that asks.
+         */
+        Prompt: {
+            text: string;
+            choices: string[];
+            ends_s: number;
+            /** @default  */
+            default?: string;
+            /** @default 0 */
+            id?: number;
+        };
+        /**
+         * Approve
+         * @description Run the plan that waits for approval.
+         */
+        Approve: {
+            /** @enum {unknown} */
+            type: "approve";
+        };
+        /**
+         * Pause
+         * @description Pause at the next point where all active skills may be paused.
+         */
+        Pause: {
+            /** @enum {unknown} */
+            type: "pause";
+            /** @default requested */
+            reason?: string;
+        };
+        /**
+         * Resume
+         * @description Continue after a pause.
+         */
+        Resume: {
+            /** @enum {unknown} */
+            type: "resume";
+        };
+        /**
+         * StepInto
+         * @description Continue until the next call starts.
+         */
+        StepInto: {
+            /** @enum {unknown} */
+            type: "step-into";
+        };
+        /**
+         * StepOver
+         * @description Continue until a call starts that is not part of the current one.
+         */
+        StepOver: {
+            /** @enum {unknown} */
+            type: "step-over";
+        };
+        /**
+         * StepOut
+         * @description Continue until a call starts that is not part of the call around the current one.
+         */
+        StepOut: {
+            /** @enum {unknown} */
+            type: "step-out";
+        };
+        /**
+         * Retry
+         * @description After a failure: run the failed step again.
+         */
+        "skillc_runtime.recording.commands.Retry": {
+            /** @enum {unknown} */
+            type: "retry";
+        };
+        /**
+         * Skip
+         * @description After a failure: count the failed step as done, because somebody did it; its effects are assumed.
+         */
+        Skip: {
+            /** @enum {unknown} */
+            type: "skip";
+            who: string;
+            why: string;
+        };
+        /**
+         * Replan
+         * @description Halt what runs and plan again.
+         */
+        Replan: {
+            /** @enum {unknown} */
+            type: "replan";
+        };
+        /**
+         * Answer
+         * @description Answer what a skill asks with one of its choices; `prompt` is its number, 0 for the only one.
+         */
+        Answer: {
+            /** @enum {unknown} */
+            type: "answer";
+            choice: string;
+            /** @default  */
+            who?: string;
+            /** @default 0 */
+            prompt?: number;
+        };
+        /**
+         * StopReason
+         * @description Why an operation is stopped.
+         */
+        StopReason: {
+            /** @default stopped */
+            reason?: string;
+        };
+        /**
+         * Envelope
+         * @description An event of the run with the id `run`; `sequence` numbers the events of a run from 1 without gaps.
+         *
+         *         `wall_time_ns` is in ns since 1970-01-01 UTC.
+         */
+        Envelope: {
+            run: string;
+            sequence: number;
+            wall_time_ns: number;
+            event: components["schemas"]["TaskStarted"] | components["schemas"]["StateChanged"] | components["schemas"]["Requested"] | components["schemas"]["Disturbed"] | components["schemas"]["PlanArrived"] | components["schemas"]["PlanMade"] | components["schemas"]["PromptsChanged"] | components["schemas"]["Replanned"] | components["schemas"]["NodeStarted"] | components["schemas"]["NodeEnded"] | components["schemas"]["ImplementationChosen"] | components["schemas"]["WorldChanged"] | components["schemas"]["Note"] | components["schemas"]["Paused"] | components["schemas"]["Resumed"] | components["schemas"]["TaskEnded"];
+        };
+        /**
+         * TaskStarted
+         * @description A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
+         *
+         *         The objective is a `goal`, with what the plan minimises, or a `body` to run as it is. `scene`, `seed` and `backend`
+         *         are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
+         *         at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
+         */
+        TaskStarted: {
+            /** @enum {unknown} */
+            type: "task-started";
+            time: number;
+            format: number;
+            task: string;
+            /** @default  */
+            library?: string;
+            /** @default  */
+            hash?: string;
+            /** @default  */
+            scene?: string;
+            /** @default 0 */
+            seed?: number;
+            /** @default  */
+            backend?: string;
+            /** @default null */
+            goal?: (components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"]) | null;
+            /**
+             * @default
+             * @enum {unknown}
+             */
+            minimise?: "" | "makespan" | "work";
+            /** @default null */
+            body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            /** @default {} */
+            settings?: components["schemas"]["RunSettings"];
+            /** @default [] */
+            breakpoints?: string[];
+            /** @default false */
+            stepped?: boolean;
+            /** @default null */
+            source?: components["schemas"]["Position"] | null;
+        };
+        /**
+         * Holds
+         * @description `subject relation object`
+         */
+        Holds: {
+            /** @enum {unknown} */
+            type: "holds";
+            subject: components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["Anything"];
+            relation: string;
+            object: components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["Anything"];
+        };
+        /**
+         * Variable
+         * @description A parameter, let, loop variable, output or quantified variable in scope.
+         */
+        Variable: {
+            /** @enum {unknown} */
+            type: "variable";
+            name: string;
+        };
+        /**
+         * Individual
+         * @description A named individual of the world.
+         */
+        Individual: {
+            /** @enum {unknown} */
+            type: "individual";
+            iri: string;
+        };
+        /**
+         * Anything
+         * @description `_`: any individual.
+         */
+        Anything: {
+            /** @enum {unknown} */
+            type: "anything";
+        };
+        /**
+         * Compare
+         * @description `left operator right` on data values; false when a property read on either side is missing.
+         */
+        Compare: {
+            /** @enum {unknown} */
+            type: "compare";
+            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            /** @enum {unknown} */
+            operator: "!=" | "<" | "<=" | "==" | ">" | ">=";
+            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+        };
+        /**
+         * Literal
+         * @description A constant; numbers in SI units, enumeration values as text.
+         */
+        Literal: {
+            /** @enum {unknown} */
+            type: "literal";
+            value: boolean | number | string;
+        };
+        /**
+         * PropertyOf
+         * @description The value of a data property (stored or computed) of an individual.
+         */
+        PropertyOf: {
+            /** @enum {unknown} */
+            type: "property";
+            of: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            property: string;
+        };
+        /**
+         * Arithmetic
+         * @description `left operator right` on numbers, or vectors where the types allow it.
+         */
+        Arithmetic: {
+            /** @enum {unknown} */
+            type: "arithmetic";
+            /** @enum {unknown} */
+            operator: "*" | "+" | "-" | "/";
+            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+        };
+        /**
+         * Invoke
+         * @description A vocabulary function applied to values.
+         */
+        Invoke: {
+            /** @enum {unknown} */
+            type: "invoke";
+            function: string;
+            arguments: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"])[];
+        };
+        /**
+         * Same
+         * @description Both terms are the same individual.
+         */
+        Same: {
+            /** @enum {unknown} */
+            type: "same";
+            left: components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["Anything"];
+            right: components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["Anything"];
+        };
+        /**
+         * HasProperty
+         * @description The individual has a value for the property.
+         */
+        HasProperty: {
+            /** @enum {unknown} */
+            type: "has";
+            subject: components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["Anything"];
+            property: string;
+        };
+        /**
+         * IsA
+         * @description The individual is of the class or of a subclass.
+         */
+        IsA: {
+            /** @enum {unknown} */
+            type: "is";
+            subject: components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["Anything"];
+            cls: string;
+        };
+        /**
+         * Given
+         * @description The optional parameter was passed.
+         */
+        Given: {
+            /** @enum {unknown} */
+            type: "given";
+            parameter: string;
+        };
+        /**
+         * Not
+         * @description The body does not hold.
+         */
+        Not: {
+            /** @enum {unknown} */
+            type: "not";
+            body: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+        };
+        /**
+         * And
+         * @description All parts hold; true when empty.
+         */
+        And: {
+            /** @enum {unknown} */
+            type: "and";
+            parts: (components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"])[];
+        };
+        /**
+         * Or
+         * @description Some part holds; false when empty. `a implies b` is `not a or b`.
+         */
+        Or: {
+            /** @enum {unknown} */
+            type: "or";
+            parts: (components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"])[];
+        };
+        /**
+         * Exists
+         * @description The body holds for some individual of the class.
+         */
+        Exists: {
+            /** @enum {unknown} */
+            type: "exists";
+            variable: string;
+            cls: string;
+            body: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+        };
+        /**
+         * Forall
+         * @description The body holds for every individual of the class.
+         */
+        Forall: {
+            /** @enum {unknown} */
+            type: "forall";
+            variable: string;
+            cls: string;
+            body: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+        };
+        /**
+         * Sequence
+         * @description Runs its children in order until one fails; with memory unless reactive.
+         */
+        Sequence: {
+            /** @enum {unknown} */
+            type: "seq";
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            reactive: boolean;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Selector
+         * @description Runs its children in order until one succeeds; with memory unless reactive.
+         */
+        Selector: {
+            /** @enum {unknown} */
+            type: "sel";
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            reactive: boolean;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Parallel
+         * @description Runs its children together until `all` succeed, `any` succeeds, one ends (`race`) or the first ends (`lead`).
+         */
+        Parallel: {
+            /** @enum {unknown} */
+            type: "par";
+            /** @enum {unknown} */
+            policy: "all" | "any" | "lead" | "race";
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Retry
+         * @description Runs the child up to `count` times until it succeeds.
+         */
+        "skillc_model.tree.Retry": {
+            /** @enum {unknown} */
+            type: "retry";
+            count: number;
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Repeat
+         * @description Runs the child `count` times, as long as it succeeds.
+         */
+        Repeat: {
+            /** @enum {unknown} */
+            type: "repeat";
+            count: number;
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Timeout
+         * @description Runs the child; halts it and fails after `seconds`.
+         */
+        Timeout: {
+            /** @enum {unknown} */
+            type: "timeout";
+            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Try
+         * @description Runs the child and succeeds even if it fails, unless an enclosing hold condition breaks or the node is halted.
+         */
+        Try: {
+            /** @enum {unknown} */
+            type: "try";
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Invert
+         * @description Runs the child and exchanges success and failure.
+         */
+        Invert: {
+            /** @enum {unknown} */
+            type: "invert";
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Once
+         * @description Runs the child at most once per run of the enclosing skill; returns its result afterwards.
+         */
+        Once: {
+            /** @enum {unknown} */
+            type: "once";
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Wait
+         * @description Waits for `seconds`, then succeeds.
+         */
+        Wait: {
+            /** @enum {unknown} */
+            type: "wait";
+            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * WaitUntil
+         * @description Waits until the condition holds, then succeeds.
+         */
+        WaitUntil: {
+            /** @enum {unknown} */
+            type: "wait-until";
+            condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+            text: string;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * If
+         * @description Runs one of two branches, chosen at the start; without `orelse` a false condition succeeds.
+         */
+        If: {
+            /** @enum {unknown} */
+            type: "if";
+            condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+            text: string;
+            then: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            orelse: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * While
+         * @description Repeats the child while the condition holds; fails if it still holds after `limit` rounds.
+         */
+        While: {
+            /** @enum {unknown} */
+            type: "while";
+            condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+            text: string;
+            limit: number;
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * ForEach
+         * @description Runs the child once for each item, in order.
+         */
+        ForEach: {
+            /** @enum {unknown} */
+            type: "for";
+            variable: string;
+            items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Check
+         * @description Succeeds if the condition holds, fails otherwise.
+         */
+        Check: {
+            /** @enum {unknown} */
+            type: "check";
+            condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+            text: string;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Apply
+         * @description Applies the labelled postconditions of the enclosing skill to the world model.
+         */
+        Apply: {
+            /** @enum {unknown} */
+            type: "apply";
+            labels: string[];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * Call
+         * @description Runs another skill; arguments are by parameter name, `out` is the local name of its output.
+         */
+        Call: {
+            /** @enum {unknown} */
+            type: "call";
+            skill: string;
+            implementation: string | null;
+            arguments: {
+                [key: string]: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            };
+            out: string | null;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * With
+         * @description Runs a scoped skill, then the child; the skill's setup is undone however the child ends.
+         */
+        With: {
+            /** @enum {unknown} */
+            type: "with";
+            call: components["schemas"]["Call"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * RunSettings
+         * @description How a task is run.
+         *
+         *         `approve`: each plan waits for approval. `deadline_s`: the task fails if it has not ended so long after its
+         *         submission, in s of the cell. `step_deadline_s`: a primitive or a wait fails if it has not ended so long after its
+         *         start, without the time that it was paused. `ask_after_failure`: a failed step waits for a decision instead of
+         *         another plan. A higher `priority` comes first of the tasks that wait for devices or planners.
+         */
+        RunSettings: {
+            /** @default false */
+            approve?: boolean;
+            /** @default null */
+            deadline_s?: number | null;
+            /** @default false */
+            ask_after_failure?: boolean;
+            /** @default 0 */
+            priority?: number;
+            /** @default null */
+            step_deadline_s?: number | null;
+        };
+        /**
+         * StateChanged
+         * @description The task run is in another state, and why; its end is a `TaskEnded`.
+         */
+        StateChanged: {
+            /** @enum {unknown} */
+            type: "state-changed";
+            time: number;
+            state: ("paused" | "pausing" | "planned" | "planning" | "queued" | "running" | "stopping") | ("failed" | "interrupted" | "stopped" | "succeeded");
+            /** @default  */
+            reason?: string;
+        };
+        /**
+         * Requested
+         * @description A command was requested and took effect in a tick of the cell's loop; `refused` is why it changed nothing.
+         */
+        Requested: {
+            /** @enum {unknown} */
+            type: "requested";
+            time: number;
+            command: components["schemas"]["Approve"] | components["schemas"]["Pause"] | components["schemas"]["Resume"] | components["schemas"]["StepInto"] | components["schemas"]["StepOver"] | components["schemas"]["StepOut"] | components["schemas"]["Stop"] | components["schemas"]["Abort"] | components["schemas"]["skillc_runtime.recording.commands.Retry"] | components["schemas"]["Skip"] | components["schemas"]["Replan"] | components["schemas"]["Answer"] | components["schemas"]["EditWorld"];
+            tick: number;
+            /** @default  */
+            refused?: string;
+        };
+        /**
+         * Stop
+         * @description Halt everything, and end when everything is at rest; `at_once` because the program ends.
+         */
+        Stop: {
+            /** @enum {unknown} */
+            type: "stop";
+            /** @default stopped */
+            reason?: string;
+            /** @default false */
+            at_once?: boolean;
+        };
+        /**
+         * Abort
+         * @description Halt everything and fail, because devices have stopped by themselves; it is given by the cell, in any state.
+         */
+        Abort: {
+            /** @enum {unknown} */
+            type: "abort";
+            reason: string;
+        };
+        /**
+         * EditWorld
+         * @description Change the world model in one transaction.
+         */
+        EditWorld: {
+            /** @enum {unknown} */
+            type: "edit-world";
+            changes: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["IndividualAdded"] | components["schemas"]["IndividualRemoved"])[];
+            who: string;
+            why: string;
+        };
+        /**
+         * LabelledRelation
+         * @description A relation holds between two individuals, or does not; None stands for any individual.
+         */
+        LabelledRelation: {
+            /** @enum {unknown} */
+            type: "relation";
+            subject: components["schemas"]["LabelledIri"] | null;
+            relation: components["schemas"]["LabelledIri"];
+            object: components["schemas"]["LabelledIri"] | null;
+            /** @default true */
+            holds?: boolean;
+        };
+        /**
+         * LabelledProperty
+         * @description A property of an individual with its value; None for no value.
+         */
+        LabelledProperty: {
+            /** @enum {unknown} */
+            type: "property";
+            individual: components["schemas"]["LabelledIri"];
+            property: components["schemas"]["LabelledIri"];
+            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
+        };
+        /**
+         * IndividualAdded
+         * @description An individual was added.
+         */
+        IndividualAdded: {
+            /** @enum {unknown} */
+            type: "added";
+            individual: components["schemas"]["LabelledIri"];
+            classes: components["schemas"]["LabelledIri"][];
+        };
+        /**
+         * IndividualRemoved
+         * @description An individual and all facts about it were removed.
+         */
+        IndividualRemoved: {
+            /** @enum {unknown} */
+            type: "removed";
+            individual: components["schemas"]["LabelledIri"];
+        };
+        /**
+         * Disturbed
+         * @description Something happened to the simulated cell before a tick of its loop that no skill did; `who` wanted it.
+         */
+        Disturbed: {
+            /** @enum {unknown} */
+            type: "disturbed";
+            time: number;
+            disturbance: components["schemas"]["Push"] | components["schemas"]["Move"] | components["schemas"]["PressEmergencyStop"] | components["schemas"]["LoseArm"];
+            tick: number;
+            /** @default  */
+            who?: string;
+        };
+        /**
+         * PlanArrived
+         * @description The answer of a planner took effect in a tick of the cell's loop: a plan, or why there is none.
+         *
+         *         Neither if there was nothing to plan and the body that was given passed its checks. `detail` is what there is to say
+         *         besides; `proved` if there is no plan, rather than that none was found.
+         */
+        PlanArrived: {
+            /** @enum {unknown} */
+            type: "plan-arrived";
+            time: number;
+            tick: number;
+            /** @default null */
+            plan?: components["schemas"]["ArrivedPlan"] | null;
+            /** @default  */
+            refused?: string;
+            /** @default  */
+            detail?: string;
+            /** @default false */
+            proved?: boolean;
+        };
+        /**
+         * ArrivedPlan
+         * @description A plan as the planner found it, with its steps in order; the fields are those of `Solved` in `planning.plan`.
+         */
+        ArrivedPlan: {
+            planner: string;
+            optimal: string;
+            duration_s: number;
+            steps: components["schemas"]["PlanStep"][];
+            /** @default [] */
+            left_out?: components["schemas"]["PartLeftOut"][];
+            /** @default null */
+            at_least_s?: number | null;
+            /** @default [] */
+            assumptions?: string[];
+        };
+        /**
+         * PlanStep
+         * @description A step of a plan: the skill and its arguments by parameter name.
+         */
+        PlanStep: {
+            skill: string;
+            arguments: {
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+            };
+            /** @default null */
+            source?: components["schemas"]["Position"] | null;
+        };
+        /**
+         * PartLeftOut
+         * @description A part of a planning problem that was left out; see `LeftOut` in `planning.plan`.
+         */
+        PartLeftOut: {
+            /** @enum {unknown} */
+            kind: "individuals" | "skills" | "steps";
+            why: string;
+            harmless: boolean;
+        };
+        /**
+         * PlanMade
+         * @description A planner found a plan; `cost` is its expected duration in s.
+         *
+         *         `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds.
+         */
+        PlanMade: {
+            /** @enum {unknown} */
+            type: "plan-made";
+            time: number;
+            planner: string;
+            optimal: string;
+            cost: number;
+            steps: components["schemas"]["PlanStep"][];
+            /** @default  */
+            quality?: string;
+        };
+        /**
+         * PromptsChanged
+         * @description Skills ask operators something else: these are all open prompts now.
+         */
+        PromptsChanged: {
+            /** @enum {unknown} */
+            type: "prompts-changed";
+            time: number;
+            prompts: components["schemas"]["Prompt"][];
+        };
+        /**
+         * Replanned
+         * @description The plan failed or no longer leads to the goal; the next plan replaces it.
+         */
+        Replanned: {
+            /** @enum {unknown} */
+            type: "replanned";
+            time: number;
+            reason: string;
+        };
+        /**
+         * NodeStarted
+         * @description A node of the tree starts; `parent` is the id of its parent, 0 for the root.
+         */
+        NodeStarted: {
+            /** @enum {unknown} */
+            type: "node-started";
+            time: number;
+            node: number;
+            parent: number;
+            kind: string;
+            name: string;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * NodeEnded
+         * @description A node succeeded, failed or was halted; `failure` is the reason, `failed_call` the context of a failed call.
+         */
+        NodeEnded: {
+            /** @enum {unknown} */
+            type: "node-ended";
+            time: number;
+            node: number;
+            name: string;
+            status: string;
+            /** @default null */
+            failure?: components["schemas"]["Failure"] | null;
+            /** @default null */
+            failed_call?: components["schemas"]["FailedCallContext"] | null;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * FailedCallContext
+         * @description The context of a failed call: its arguments, the rejected implementations, and the facts.
+         *
+         *         `unset` are the parameters that could not be inferred. `facts` are those that its conditions read, at the time of
+         *         the failure.
+         */
+        FailedCallContext: {
+            /** @default {} */
+            arguments?: {
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+            };
+            /** @default [] */
+            unset?: string[];
+            /** @default [] */
+            rejected?: components["schemas"]["Rejection"][];
+            /** @default [] */
+            facts?: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["LabelledClass"] | components["schemas"]["LabelledIdentity"])[];
+        };
+        /**
+         * Rejection
+         * @description An implementation that was rejected, at which stage, and why.
+         *
+         *         `failure` is its failure if the implementation had started, now or in an earlier attempt.
+         */
+        Rejection: {
+            implementation: string;
+            /** @enum {unknown} */
+            stage: "argument" | "hold" | "inference" | "lock" | "pre" | "run" | "start";
+            reason: string;
+            source: components["schemas"]["Position"];
+            /** @default null */
+            failure?: components["schemas"]["Failure"] | null;
+        };
+        /**
+         * LabelledClass
+         * @description An individual is of a class, or is not.
+         */
+        LabelledClass: {
+            /** @enum {unknown} */
+            type: "class";
+            individual: components["schemas"]["LabelledIri"];
+            cls: components["schemas"]["LabelledIri"];
+            /** @default true */
+            holds?: boolean;
+        };
+        /**
+         * LabelledIdentity
+         * @description Two names denote the same individual, or do not.
+         */
+        LabelledIdentity: {
+            /** @enum {unknown} */
+            type: "same";
+            one: components["schemas"]["LabelledIri"];
+            other: components["schemas"]["LabelledIri"];
+            /** @default true */
+            holds?: boolean;
+        };
+        /**
+         * ImplementationChosen
+         * @description A call starts with this implementation; `bindings` are its parameters.
+         *
+         *         `determined` are the reasons for the values that were not simply passed; `untried` are the implementations that
+         *         rank after this one. `fixed` if the call names the implementation. `activity` is what a primitive declares to do,
+         *         for example `press`; `highlights` are the moments of it to show.
+         */
+        ImplementationChosen: {
+            /** @enum {unknown} */
+            type: "implementation-chosen";
+            time: number;
+            node: number;
+            skill: string;
+            implementation: string;
+            bindings: {
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+            };
+            /** @default [] */
+            rejected?: components["schemas"]["Rejection"][];
+            /** @default [] */
+            determined?: components["schemas"]["ParameterReason"][];
+            /** @default [] */
+            untried?: components["schemas"]["UntriedImplementation"][];
+            /** @default false */
+            fixed?: boolean;
+            /** @default  */
+            activity?: string;
+            /** @default [] */
+            highlights?: components["schemas"]["Highlight"][];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * ParameterReason
+         * @description Why a parameter that is not simply an argument of the call has its value.
+         *
+         *         `how` is where the value comes from: the caller, the default, or inference from the conditions. `others` are the
+         *         other individuals that `infer any` could have chosen.
+         */
+        ParameterReason: {
+            parameter: string;
+            /** @enum {unknown} */
+            how: "default" | "inferred" | "passed";
+            /** @default [] */
+            conditions?: components["schemas"]["DecidingCondition"][];
+            /** @default [] */
+            others?: components["schemas"]["LabelledIri"][];
+        };
+        /**
+         * DecidingCondition
+         * @description A condition as written in the source, with the facts that decided it.
+         */
+        DecidingCondition: {
+            text: string;
+            source: components["schemas"]["Position"];
+            facts: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["LabelledClass"] | components["schemas"]["LabelledIdentity"])[];
+        };
+        /**
+         * UntriedImplementation
+         * @description An implementation that ranks after the chosen one; `reason` is why it could not start, empty if it could.
+         */
+        UntriedImplementation: {
+            implementation: string;
+            source: components["schemas"]["Position"];
+            /** @default  */
+            reason?: string;
+        };
+        /**
+         * Highlight
+         * @description What `what` is, for example `pressed`, when a call begins or ends successfully: a moment to show in a report.
+         */
+        Highlight: {
+            /** @enum {unknown} */
+            when: "begins" | "ends";
+            what: components["schemas"]["LabelledIri"];
+            word: string;
+        };
+        /**
+         * WorldChanged
+         * @description The world model changed; `known` is the evidence for the change, None for changes from outside the run.
+         */
+        WorldChanged: {
+            /** @enum {unknown} */
+            type: "world-changed";
+            time: number;
+            origin: string;
+            changes: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["IndividualAdded"] | components["schemas"]["IndividualRemoved"])[];
+            /** @default null */
+            known?: ("assumed" | "idealised" | "reported" | "sensed") | null;
+        };
+        /**
+         * Note
+         * @description A message for users, without effect on the run.
+         */
+        Note: {
+            /** @enum {unknown} */
+            type: "note";
+            time: number;
+            message: string;
+            /** @default 0 */
+            node?: number;
+            /** @default null */
+            source?: components["schemas"]["Position"] | null;
+        };
+        /**
+         * Paused
+         * @description The run was paused.
+         */
+        Paused: {
+            /** @enum {unknown} */
+            type: "paused";
+            time: number;
+        };
+        /**
+         * Resumed
+         * @description The run was resumed.
+         */
+        Resumed: {
+            /** @enum {unknown} */
+            type: "resumed";
+            time: number;
+        };
+        /**
+         * TaskEnded
+         * @description A task ended in the state `status`; `facts` are those that its success rests on.
+         *
+         *         `verified` is whether none of them is only assumed; None if the task did not succeed.
+         */
+        TaskEnded: {
+            /** @enum {unknown} */
+            type: "task-ended";
+            time: number;
+            task: string;
+            /** @enum {unknown} */
+            status: "failed" | "interrupted" | "stopped" | "succeeded";
+            /** @default null */
+            failure?: components["schemas"]["Failure"] | null;
+            /** @default null */
+            verified?: boolean | null;
+            /** @default [] */
+            facts?: components["schemas"]["KnownFact"][];
+        };
+        /**
+         * KnownFact
+         * @description A fact and its evidence: `given` before the run, or established by the skill or device `by`.
+         */
+        KnownFact: {
+            fact: components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["LabelledClass"] | components["schemas"]["LabelledIdentity"];
+            /** @enum {unknown} */
+            known: "assumed" | "given" | "idealised" | "reported" | "sensed";
+            /** @default  */
+            by?: string;
+        };
+        /**
+         * Order
+         * @description An order of `owner`, and how far it is: `next_at` is when its next operation is due, null if there is none.
+         *
+         *         `operation` is the last one that was submitted; `reason` says why the last one that was due was not.
+         */
+        Order: {
+            id: string;
+            cell: string;
+            owner: string;
+            order: components["schemas"]["OrderRequest"];
+            next_at: string | null;
+            /** @default null */
+            operation?: string | null;
+            /** @default  */
+            reason?: string;
+        };
+        /**
+         * OrderRequest
+         * @description An operation that is submitted `at` a time, or from then on again `every_s` s, `count` times or `until` a time.
+         *
+         *         One is missed if it could not be submitted within 60 s after it was due, because the server or the cell was off,
+         *         another client had the lease, or the operation before had not ended. Of those that were missed the last one is
+         *         submitted as soon as that is possible, or none (`skip`).
+         */
+        OrderRequest: {
+            request: components["schemas"]["OperationRequest"];
+            /** Format: date-time */
+            at: string;
+            /** @default null */
+            every_s?: number | null;
+            /** @default null */
+            until?: string | null;
+            /** @default null */
+            count?: number | null;
+            /**
+             * @default run-once
+             * @enum {unknown}
+             */
+            missed?: "run-once" | "skip";
+        };
+        /**
+         * WorldFacts
+         * @description Some of the `total` facts that were asked for, of the world after the write `sequence`.
+         */
+        WorldFacts: {
+            sequence: number;
+            total: number;
+            facts: components["schemas"]["WorldFact"][];
+        };
+        /**
+         * WorldFact
+         * @description A fact, and how it is known: `evidence` is None for what the scene or a person stated, and by whom or what.
+         */
+        WorldFact: {
+            fact: components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["LabelledClass"] | components["schemas"]["LabelledIdentity"];
+            /** @default null */
+            evidence?: ("assumed" | "idealised" | "reported" | "sensed") | null;
+            /** @default  */
+            origin?: string;
+        };
+        /**
+         * QueryRows
+         * @description The answer to a query, of the world after the write `sequence`; `truncated` if there were more rows.
+         */
+        QueryRows: {
+            sequence: number;
+            columns: string[];
+            rows: (string | boolean | number | null)[][];
+            /** @default false */
+            truncated?: boolean;
+        };
+        /**
+         * WorldQuery
+         * @description A SPARQL query, SELECT, ASK or CONSTRUCT; the prefixes of the vocabulary are declared.
+         */
+        WorldQuery: {
+            sparql: string;
+        };
+        /**
+         * WorldEdit
+         * @description Changes that are made together or not at all, and why.
+         *
+         *         Each is `SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`, as of `skillc scene edit`.
+         */
+        WorldEdit: {
+            edits: string[];
+            why: string;
+        };
+        /**
+         * WorldWrite
+         * @description A write to the world: its number, when it was made, who or what made it, how that is known, and the changes.
+         *
+         *         `written_ns` is the wall time in ns since 1970, 0 if it is not known; `evidence` is None for what a person states.
+         */
+        WorldWrite: {
+            sequence: number;
+            written_ns: number;
+            origin: string;
+            evidence: ("assumed" | "idealised" | "reported" | "sensed") | null;
+            changes: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["IndividualAdded"] | components["schemas"]["IndividualRemoved"])[];
+        };
+        /**
+         * VersionInfo
+         * @description The version of skillc, and that of the API.
+         */
+        VersionInfo: {
+            skillc: string;
+            api: string;
+        };
+        /**
+         * LibraryStatus
+         * @description A library, and the cells whose next operations run it.
+         *
+         *         `problem` is why that is not the one on disk; empty if it is.
+         */
+        LibraryStatus: {
+            name: string;
+            hash: string;
+            problem: string;
+            cells: string[];
+        };
+        /**
+         * LibraryDescription
+         * @description A compiled library; `hash` identifies its content.
+         */
+        LibraryDescription: {
+            name: string;
+            hash: string;
+            skills: components["schemas"]["SkillDescription"][];
+            tasks: components["schemas"]["TaskDescription"][];
+        };
+        /**
+         * SkillDescription
+         * @description A skill: its conditions as they are written, and its implementations in the order in which they are tried.
+         */
+        SkillDescription: {
+            name: string;
+            doc: string;
+            parameters: components["schemas"]["ParameterDescription"][];
+            pre: string[];
+            post: string[];
+            implementations: components["schemas"]["ImplementationDescription"][];
+        };
+        /**
+         * ParameterDescription
+         * @description A parameter: a caller gives it (`in`), may give it (`opt`), or it is found (`infer`) or returned (`out`).
+         *
+         *         `type` is as in the language.
+         */
+        ParameterDescription: {
+            name: string;
+            /** @enum {unknown} */
+            direction: "in" | "infer" | "opt" | "out";
+            type: string;
+            doc: string;
+        };
+        /**
+         * ImplementationDescription
+         * @description An implementation of a skill; `pre` are the conditions that it adds.
+         */
+        ImplementationDescription: {
+            name: string;
+            doc: string;
+            pre: string[];
+        };
+        /**
+         * TaskDescription
+         * @description A task; `goal` is empty for one with a body.
+         */
+        TaskDescription: {
+            name: string;
+            doc: string;
+            parameters: components["schemas"]["ParameterDescription"][];
+            goal: string;
+        };
+        /**
+         * DeviceStatus
+         * @description A device, and the operation that holds it; null if it is free.
+         */
+        DeviceStatus: {
+            device: components["schemas"]["Device"];
+            held_by: string | null;
+        };
+        /**
+         * Device
+         * @description A device: its IRI, its short name (`label`), its classes, and the device that it is part of.
+         *
+         *         `figures` are those of its data sheet, `controller` is that of an arm.
+         */
+        Device: {
+            iri: string;
+            label: string;
+            /** @enum {unknown} */
+            kind: "arm" | "base" | "camera" | "gripper" | "robot" | "sensor";
+            types: string[];
+            part_of: string | null;
+            controller: string | null;
+            figures: components["schemas"]["Figure"][];
+        };
+        /**
+         * Figure
+         * @description What a data sheet states: `property` is its short name; `unit` is that of the SI, empty without one.
+         */
+        Figure: {
+            property: string;
+            value: string | boolean | number;
+            unit: string;
+        };
+        /**
+         * PlanPreview
+         * @description The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
+         *
+         *         `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
+         *         of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends.
+         */
+        PlanPreview: {
+            /** @enum {unknown} */
+            status: "gave-up" | "solved" | "unsolvable";
+            sequence: number;
+            text: string;
+            /** @default [] */
+            plan?: components["schemas"]["PreviewedStep"][];
+            /** @default false */
+            plan_optimal?: boolean;
+            /** @default  */
+            optimal?: string;
+            /** @default null */
+            at_least_s?: number | null;
+            /** @default  */
+            quality?: string;
+            /** @default [] */
+            assumptions?: string[];
+            /** @default [] */
+            left_out?: components["schemas"]["OmittedPart"][];
+            /** @default null */
+            duration_s?: number | null;
+            /** @default null */
+            makespan_s?: number | null;
+            /** @default  */
+            planner?: string;
+            /** @default null */
+            times?: string | null;
+            /** @default null */
+            note?: string | null;
+            /** @default  */
+            failure?: string;
+            /** @default [] */
+            causes?: string[];
+            /** @default null */
+            searched?: boolean | null;
+        };
+        /**
+         * PreviewedStep
+         * @description A step of a plan: its skill, its arguments in short names, where the skill is defined, and when it runs, in s.
+         *
+         *         The times are those of a schedule; without one they are None.
+         */
+        PreviewedStep: {
+            skill: string;
+            arguments: {
+                [key: string]: string;
+            };
+            source: string;
+            /** @default null */
+            start_s?: number | null;
+            /** @default null */
+            duration_s?: number | null;
+        };
+        /**
+         * OmittedPart
+         * @description Things without which a plan was made, and why; `harmless` if that is proved to make no difference.
+         */
+        OmittedPart: {
+            kind: string;
+            what: string[];
+            why: string;
+            harmless: boolean;
+        };
+        /**
+         * PlanRequest
+         * @description A task of the cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
+         *
+         *         `prove` searches until the least work is proved; the search ends after `deadline_s` s.
+         */
+        PlanRequest: {
+            /** @default null */
+            task?: string | null;
+            /** @default null */
+            goal?: string | null;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+            /**
+             * @default work
+             * @enum {unknown}
+             */
+            minimise?: "makespan" | "work";
+            /** @default false */
+            prove?: boolean;
+            /** @default 30 */
+            deadline_s?: number;
+        };
+        /**
+         * Rehearsal
+         * @description A rehearsal of a request in a twin of a cell, as the cell was when it was requested.
+         *
+         *         `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film` is
+         *         whether there is one.
+         */
+        Rehearsal: {
+            id: string;
+            cell: string;
+            request: components["schemas"]["RehearsalRequest"];
+            /**
+             * @default going on
+             * @enum {unknown}
+             */
+            state?: "ended" | "going on";
+            /** @default  */
+            reason?: string;
+            /** @default null */
+            result?: components["schemas"]["TaskResult"] | null;
+            /** @default false */
+            film?: boolean;
+        };
+        /**
+         * RehearsalRequest
+         * @description A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
+         *
+         *         `seed` determines how the reality of the twin differs from the facts. `deadline_s` is in the twin's time. It is
+         *         filmed with `film`.
+         */
+        RehearsalRequest: {
+            /** @default null */
+            task?: string | null;
+            /** @default null */
+            goal?: string | null;
+            /** @default null */
+            call?: string | null;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+            /** @default 0 */
+            seed?: number;
+            /** @default 600 */
+            deadline_s?: number;
+            /** @default false */
+            film?: boolean;
+        };
+        /**
+         * TaskResult
+         * @description The result of a task; one that did not start is `refused`, and `failure` is why it did not succeed.
+         *
+         *         `cause` is the same with all details, None if the task did not begin; `failed_calls` lead to it, outermost first.
+         *
+         *         `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
+         *         which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
+         *         is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
+         *         was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved, `works` one for each
+         *         other piece of work, `touches` one for each contact of a link, a hand or a base.
+         */
+        TaskResult: {
+            task: string;
+            status: ("failed" | "interrupted" | "stopped" | "succeeded") | "refused";
+            /** @default null */
+            verified?: boolean | null;
+            /** @default [] */
+            facts?: components["schemas"]["KnownFact"][];
+            /** @default [] */
+            plan?: components["schemas"]["StepResult"][];
+            /** @default [] */
+            choices?: components["schemas"]["ChoiceResult"][];
+            /** @default null */
+            plan_optimal?: boolean | null;
+            /** @default  */
+            plan_quality?: string;
+            /** @default  */
+            planner?: string;
+            /** @default [] */
+            robots?: components["schemas"]["LabelledIri"][];
+            /** @default [] */
+            controllers?: string[];
+            /** @default 0 */
+            sim_time_s?: number;
+            /** @default 0 */
+            wall_time_s?: number;
+            /** @default 0 */
+            real_time_factor?: number;
+            /** @default 0 */
+            seed?: number;
+            /** @default  */
+            variation?: string;
+            /** @default null */
+            wiping?: components["schemas"]["WipingResult"] | null;
+            /** @default [] */
+            wipings?: components["schemas"]["WipingResult"][];
+            /** @default [] */
+            placements?: components["schemas"]["PlacementResult"][];
+            /** @default [] */
+            works?: (components["schemas"]["PushResult"] | components["schemas"]["SearchResult"] | components["schemas"]["GuidanceResult"] | components["schemas"]["GraspResult"] | components["schemas"]["DriveResult"])[];
+            /** @default [] */
+            touches?: components["schemas"]["TouchResult"][];
+            /** @default [] */
+            replanned?: string[];
+            /** @default null */
+            failure?: string | null;
+            /** @default null */
+            cause?: components["schemas"]["Failure"] | null;
+            /** @default [] */
+            failed_calls?: components["schemas"]["FailedCall"][];
+        };
+        /**
+         * StepResult
+         * @description A step of a plan or of a given body, with its arguments by parameter name and its source line.
+         *
+         *         `implementation` is empty if the step never started; `alternatives` is the number of the skill's other
+         *         implementations, of which `rejected` could not be used.
+         */
+        StepResult: {
+            skill: string;
+            implementation: string;
+            arguments: {
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+            };
+            source: string;
+            status: string;
+            /** @default 0 */
+            alternatives?: number;
+            /** @default [] */
+            rejected?: components["schemas"]["Rejection"][];
+        };
+        /**
+         * ChoiceResult
+         * @description The implementation that was chosen among several for a skill, and those that were rejected.
+         */
+        ChoiceResult: {
+            skill: string;
+            implementation: string;
+            /** @default [] */
+            rejected?: components["schemas"]["Rejection"][];
+        };
+        /**
+         * WipingResult
+         * @description The quality of the wiping of a surface, measured by the simulator and not by the controller.
+         *
+         *         `lane_dwell_s` is the time lost at each corner of the lanes, None without corners; if an overlay hides the dwell of
+         *         the tool, it is the dwell of the commanded path.
+         */
+        WipingResult: {
+            surface: components["schemas"]["LabelledIri"];
+            coverage: number;
+            force_command_n: number;
+            force_mean_n: number;
+            force_rmse_n: number;
+            contact_lost: number;
+            vibration_mm_s: number;
+            tilt_rms_deg: number;
+            first_impact_n: number;
+            tracking_rms_mm: number;
+            /** @default null */
+            lane_dwell_s?: number | null;
+            /**
+             * @default tool
+             * @enum {unknown}
+             */
+            lane_dwell_of?: "path" | "tool";
+        };
+        /**
+         * PlacementResult
+         * @description Where a thing that the run moved is at its end, in m in the world: believed, and as the simulator has it.
+         *
+         *         `holder` is what is believed to contain it, None for nothing; it is held if that is a gripper. `holder_known` and
+         *         `known` are the evidence for that and for the believed place. `error_m` and `turned_deg` are how far the true pose
+         *         is from the believed one. `intended_m` is where (x, y) its middle should be, to which it was last carried, and
+         *         `missed_m` how far from there it really is in the plane. What is not known is None: a held thing is believed to be
+         *         where the hand is.
+         */
+        PlacementResult: {
+            thing: components["schemas"]["LabelledIri"];
+            holder: components["schemas"]["LabelledIri"] | null;
+            is_held: boolean;
+            holder_known: string;
+            known: string;
+            believed_m: [
+                number,
+                number,
+                number
+            ] | null;
+            true_m: [
+                number,
+                number,
+                number
+            ] | null;
+            error_m: number | null;
+            turned_deg: number | null;
+            /** @default null */
+            intended_m?: [
+                number,
+                number
+            ] | null;
+            /** @default null */
+            missed_m?: number | null;
+        };
+        /**
+         * PushResult
+         * @description A tool was pressed on something: times in s, forces in N opposite to the push, travel in mm after contact.
+         *
+         *         `skill` is the innermost skill around the push, `on` what its parameters name besides devices. The mean and the
+         *         greatest force are those that the arm knew, from `force_source`, while there was contact; `true_` ones are those of
+         *         the simulator, None where it has none. `contact_s` is when something was touched, by the simulator if it has the
+         *         force, None if nothing was.
+         */
+        PushResult: {
+            /** @enum {unknown} */
+            type: "push";
+            skill: string;
+            arm: components["schemas"]["LabelledIri"];
+            on: components["schemas"]["LabelledIri"][];
+            start_s: number;
+            end_s: number;
+            contact_s: number | null;
+            force_command_n: number;
+            force_mean_n: number | null;
+            force_greatest_n: number | null;
+            /** @enum {unknown} */
+            force_source: "estimate" | "sensor";
+            true_mean_n: number | null;
+            true_greatest_n: number | null;
+            travel_mm: number | null;
+        };
+        /**
+         * SearchResult
+         * @description Something was searched for with a pressed tool, as the arm measured it: times in s, lengths in mm.
+         *
+         *         `path_mm` is how far the tool went across the push, `radius_mm` how far from where the search began it came,
+         *         `found_mm` how far from there it was when something gave way, None if nothing did. `depth_mm` is how far it then
+         *         sank below where it had searched, to the end of the push.
+         */
+        SearchResult: {
+            /** @enum {unknown} */
+            type: "search";
+            skill: string;
+            arm: components["schemas"]["LabelledIri"];
+            on: components["schemas"]["LabelledIri"][];
+            start_s: number;
+            end_s: number;
+            path_mm: number;
+            radius_mm: number;
+            found_mm: number | null;
+            depth_mm: number;
+        };
+        /**
+         * GuidanceResult
+         * @description An arm yielded in all directions, so that it could be guided: times in s, lengths in mm, speed in mm/s.
+         *
+         *         The forces in N of whoever guided it are those of the simulator; None if nobody did.
+         */
+        GuidanceResult: {
+            /** @enum {unknown} */
+            type: "guidance";
+            arm: components["schemas"]["LabelledIri"];
+            start_s: number;
+            end_s: number;
+            path_mm: number;
+            moved_mm: number;
+            greatest_speed_mm_s: number;
+            person_mean_n: number | null;
+            person_greatest_n: number | null;
+        };
+        /**
+         * GraspResult
+         * @description A thing was grasped by a gripper: times in s, None if it was held to the end, and the grip 0.2 s after the grasp.
+         *
+         *         force_n: with which each finger presses, by the simulator, None where it computes none; opening_mm: by the sensor of
+         *         the fingers.
+         */
+        GraspResult: {
+            /** @enum {unknown} */
+            type: "grasp";
+            thing: components["schemas"]["LabelledIri"];
+            gripper: components["schemas"]["LabelledIri"];
+            grasped_s: number;
+            released_s: number | null;
+            force_n: number | null;
+            opening_mm: number | null;
+        };
+        /**
+         * DriveResult
+         * @description A mobile base drove during the run: the length of its path in m, by the simulator.
+         */
+        DriveResult: {
+            /** @enum {unknown} */
+            type: "drive";
+            robot: components["schemas"]["LabelledIri"];
+            path_m: number;
+        };
+        /**
+         * TouchResult
+         * @description What a part of a robot touched that it should not, as the simulator saw it, as texts.
+         *
+         *         Times in s, the greatest force in N, None where the simulation does not compute it.
+         */
+        TouchResult: {
+            part: string;
+            other: string;
+            start_s: number;
+            end_s: number;
+            /** @default null */
+            peak_force_n?: number | null;
+        };
+        /**
+         * FailedCall
+         * @description A call that failed, with its implementation, and its source line.
+         */
+        FailedCall: {
+            name: string;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * TokenInfo
+         * @description A token as it is listed, without its secret; `created_ns` is in ns since 1970-01-01 UTC.
+         */
+        TokenInfo: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+            created_ns: number;
+        };
+        /**
+         * MadeToken
+         * @description A token that was made; `token` is shown this once.
+         */
+        MadeToken: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+            token: string;
+        };
+        /**
+         * NewToken
+         * @description A token to be made.
+         */
+        NewToken: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+        };
+        /**
+         * TrialSeries
+         * @description Trials of a task from the scene of a cell: how many are `done`, and how many of these met all criteria.
+         *
+         *         `interrupted`: the server has ended before. `reason` is why no more were done.
+         */
+        TrialSeries: {
+            id: string;
+            cell: string;
+            request: components["schemas"]["TrialsRequest"];
+            /** @enum {unknown} */
+            state: "ended" | "going on" | "interrupted" | "waiting";
+            /** @default  */
+            reason?: string;
+            /** @default 0 */
+            done?: number;
+            /** @default 0 */
+            passed?: number;
+        };
+        /**
+         * TrialsRequest
+         * @description A task of the cell's library with arguments, to run `number` times from the cell's scene, with seeds from `seed`.
+         *
+         *         `disturb` is what disturbs each trial; one may take `deadline_s` s of wall time.
+         */
+        TrialsRequest: {
+            task: string;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+            /** @default 50 */
+            number?: number;
+            /** @default 0 */
+            seed?: number;
+            /**
+             * @default none
+             * @enum {unknown}
+             */
+            disturb?: "missing" | "none" | "obstacle" | "push";
+            /** @default 3600 */
+            deadline_s?: number;
+        };
+        /**
+         * Series
+         * @description All trials of one task: `wanted` were requested, `done` were run, and `passed` of these met all criteria.
+         *
+         *         `pass_interval` is the confidence interval of the probability to pass, from the trials that were done; None if none
+         *         was. In `unverified` trials the task finished, but the facts `assumed` were not sensed. `false_successes` are trials
+         *         that succeeded although the world model claims something false about things.
+         */
+        Series: {
+            task: string;
+            /** @enum {unknown} */
+            disturbance: "missing" | "none" | "obstacle" | "push";
+            wanted: number;
+            done: number;
+            passed: number;
+            pass_interval: components["schemas"]["Interval"] | null;
+            spreads: components["schemas"]["Spread"][];
+            failed: components["schemas"]["FailedSeed"][];
+            trials: components["schemas"]["Trial"][];
+            /** @default 0 */
+            unverified?: number;
+            /** @default [] */
+            assumed?: string[];
+            /** @default 0 */
+            false_successes?: number;
+        };
+        /**
+         * Interval
+         * @description The ends of a confidence interval at the level LEVEL.
+         */
+        Interval: {
+            low: number;
+            high: number;
+        };
+        /**
+         * Spread
+         * @description A metric of one object over all trials in which it was measured; `met` is the number that meet the target.
+         *
+         *         `low_quartile` and `high_quartile` enclose the middle half of the values; `mean_interval` is the confidence
+         *         interval of the `mean`, None for a single value. `target` is the target as text, `bound` its value, None without a
+         *         target; `values` are in the order of the seeds.
+         */
+        Spread: {
+            metric: string;
+            subject: string;
+            unit: string;
+            target: string;
+            bound: number | null;
+            least: number;
+            median: number;
+            greatest: number;
+            low_quartile: number;
+            high_quartile: number;
+            mean: number;
+            mean_interval: components["schemas"]["Interval"] | null;
+            met: number;
+            values: number[];
+            /** @default null */
+            median_missed?: string | null;
+        };
+        /**
+         * FailedSeed
+         * @description A seed whose trial failed, with the reasons and how reality differed from the world model.
+         */
+        FailedSeed: {
+            seed: number;
+            reasons: string[];
+            variation: string;
+        };
+        /**
+         * Trial
+         * @description One run: its seed, how it ended and why, how reality differed from the world model, and what was measured.
+         *
+         *         `assumed` are the facts that a success rests on and that were not sensed; it is `verified` if there are none.
+         *         `works` has an entry for each object that was worked on; `coverage` is the lowest of all surfaces, wiped or not,
+         *         over the whole run. `greatest_force_n` is the greatest contact force on any tool, `force_limit_n` the lowest limit
+         *         of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `at_rest` whether at the end
+         *         nothing moved and no force was applied. `false_claims` are sentences about what the world model claims at the end of
+         *         things and where they are, and what really is so.
+         */
+        Trial: {
+            seed: number;
+            status: ("failed" | "interrupted" | "stopped" | "succeeded") | ("crashed" | "refused");
+            /** @default null */
+            reason?: string | null;
+            /** @default null */
+            verified?: boolean | null;
+            /** @default [] */
+            assumed?: string[];
+            /** @default  */
+            variation?: string;
+            /** @default [] */
+            false_claims?: string[];
+            /** @default [] */
+            works?: (components["schemas"]["WipingWork"] | components["schemas"]["PolishingWork"] | components["schemas"]["PressingWork"] | components["schemas"]["InsertingWork"] | components["schemas"]["TeachingWork"] | components["schemas"]["PlacingWork"])[];
+            /** @default 0 */
+            coverage?: number;
+            /** @default 0 */
+            greatest_force_n?: number;
+            /** @default null */
+            force_limit_n?: number | null;
+            /** @default false */
+            pushed?: boolean;
+            /** @default false */
+            at_rest?: boolean;
+            /** @default 0 */
+            sim_time_s?: number;
+            /** @default 0 */
+            wall_time_s?: number;
+        };
+        /**
+         * WipingWork
+         * @description A surface was wiped.
+         */
+        WipingWork: {
+            /** @enum {unknown} */
+            type: "wiping";
+            wiping: components["schemas"]["WipingResult"];
+        };
+        /**
+         * PolishingWork
+         * @description A surface was polished: wiped with an oscillating overlay, whose measured and commanded amplitudes are in m.
+         *
+         *         The amplitudes are None without an overlay. `polished_share` of the surface was rubbed for the required time.
+         */
+        PolishingWork: {
+            /** @enum {unknown} */
+            type: "polishing";
+            wiping: components["schemas"]["WipingResult"];
+            polished_share: number;
+            overlay_amplitude_m: number | null;
+            commanded_amplitude_m: number | null;
+        };
+        /**
+         * PressingWork
+         * @description A button was pressed: forces in N that it requires, that held it after it had switched, and the greatest one.
+         *
+         *         `duration_share` is the time of the work relative to the duration of the skill; None if the skill declares none.
+         */
+        PressingWork: {
+            /** @enum {unknown} */
+            type: "pressing";
+            button: components["schemas"]["LabelledIri"];
+            required_n: number;
+            held_n: number;
+            greatest_n: number;
+            duration_share: number | null;
+        };
+        /**
+         * InsertingWork
+         * @description A peg is in a socket: its depth and the depth of the hole in m, the greatest force on it in N.
+         */
+        InsertingWork: {
+            /** @enum {unknown} */
+            type: "inserting";
+            socket: components["schemas"]["LabelledIri"];
+            depth_m: number;
+            hole_depth_m: number;
+            greatest_n: number;
+            duration_share: number | null;
+        };
+        /**
+         * TeachingWork
+         * @description A pose was taught: its distance in m from the intended one, the greatest and mean force of the person in N.
+         */
+        TeachingWork: {
+            /** @enum {unknown} */
+            type: "teaching";
+            pose: components["schemas"]["LabelledIri"];
+            position_error_m: number;
+            greatest_n: number;
+            mean_n: number;
+            duration_share: number | null;
+        };
+        /**
+         * PlacingWork
+         * @description A thing was put down: how far it is from its believed pose, in m and degrees, and from the intended place, in m.
+         *
+         *         `missed_m` is None if no place was intended.
+         */
+        PlacingWork: {
+            /** @enum {unknown} */
+            type: "placing";
+            thing: components["schemas"]["LabelledIri"];
+            error_m: number;
+            turned_deg: number;
+            missed_m: number | null;
+        };
+        /**
+         * AuditEntry
+         * @description A request that changed something, or that was refused; `wall_ns` is in ns since 1970-01-01 UTC.
+         */
+        AuditEntry: {
+            number: number;
+            wall_ns: number;
+            who: string;
+            origin: string;
+            action: string;
+            status: number;
+            detail: string;
+        };
+        /**
+         * ProblemDetails
+         * @description Why a request was refused; nothing has changed. `title` is the phrase of the status, `detail` says what to do.
+         *
+         *         `allowed` are the commands that the state of an operation allows.
+         */
+        ProblemDetails: {
+            /** @default about:blank */
+            type?: string;
+            title: string;
+            status: number;
+            detail: string;
+            /** @default null */
+            allowed?: string[] | null;
+        };
+    };
+    responses: never;
+    parameters: never;
+    requestBodies: never;
+    headers: never;
+    pathItems: never;
+}
+export type $defs = Record<string, never>;
+export type operations = Record<string, never>;

@@ -1,0 +1,70 @@
+// The types of the server under the names that the page uses.
+import type { components } from "./schema";
+
+type Schemas = components["schemas"];
+
+// Values that events carry leave out what has its default; answers about cells, operations and plans are complete.
+
+export type CellStatus = Required<Schemas["CellStatus"]>;
+export type CellState = CellStatus["state"];
+export type OperationStatus = Required<Schemas["OperationStatus"]>;
+export type OperationRequest = Partial<Schemas["OperationRequest"]>;
+export type OperationEndState = Schemas["TaskEnded"]["status"];
+export type RunState = OperationStatus["state"];
+export type Envelope = Schemas["Envelope"];
+export type RunEvent = Envelope["event"];
+export type Position = Schemas["Position"];
+export type Failure = Schemas["Failure"];
+export type FailedCallContext = Schemas["FailedCallContext"];
+export type Rejection = Schemas["Rejection"];
+export type ImplementationChosen = Schemas["ImplementationChosen"];
+export type NodeStarted = Schemas["NodeStarted"];
+export type NodeEnded = Schemas["NodeEnded"];
+export type TaskStarted = Schemas["TaskStarted"];
+export type TaskEnded = Schemas["TaskEnded"];
+export type PlanMade = Schemas["PlanMade"];
+export type PlanStep = Schemas["PlanStep"];
+export type PlanPreview = Required<Schemas["PlanPreview"]>;
+export type Prompt = Schemas["Prompt"];
+export type LabelledIri = Schemas["LabelledIri"];
+export type LabelledValue = Schemas["ImplementationChosen"]["bindings"][string];
+export type LabelledFact = Schemas["KnownFact"]["fact"];
+export type LabelledChange = Schemas["WorldChanged"]["changes"][number];
+export type WorldFacts = Schemas["WorldFacts"];
+export type WorldFact = Schemas["WorldFact"];
+export type WorldWrite = Schemas["WorldWrite"];
+export type LibraryDescription = Schemas["LibraryDescription"];
+export type TaskDescription = Schemas["TaskDescription"];
+export type ParameterDescription = Schemas["ParameterDescription"];
+export type Rehearsal = Required<Schemas["Rehearsal"]>;
+export type ProblemDetails = Schemas["ProblemDetails"];
+export type Role = Schemas["MadeToken"]["role"];
+
+/** Who uses the page. */
+export interface Session {
+  name: string;
+  role: Role;
+}
+
+/** A pose in the world: position in m, then the unit quaternion (w, x, y, z). */
+export type PoseNumbers = [number, number, number, number, number, number, number];
+
+/** An arm at one instant: joints in rad and rad/s; `wrench` in N and N m in the base frame of the arm, null without sensor. */
+export interface ArmSample {
+  joints: number[];
+  speeds: number[];
+  base: PoseNumbers;
+  tool: PoseNumbers;
+  wrench: [number, number, number, number, number, number] | null;
+}
+
+/** What moves in a cell at one instant, by IRI. */
+export interface Sample {
+  cell: string;
+  time_s: number;
+  arms: Record<string, ArmSample>;
+  things: Record<string, PoseNumbers>;
+}
+
+/** A message of the socket about cells and operations. */
+export type News = { type: "status"; status: CellStatus } | { type: "happened"; operation: OperationStatus };

@@ -1,0 +1,20 @@
+// The keywords and the types of the language; a test compares them with the tokens of the compiler.
+
+// prettier-ignore
+export const KEYWORDS: ReadonlySet<string> = new Set([
+  "_", "after", "all", "and", "any", "anywhere", "apply", "before", "between", "check", "class",
+  "disjoint", "do", "duration", "else", "endless", "eventually", "exists", "fallback", "false", "for",
+  "forall", "function", "functional", "given", "goal", "has", "hold", "if", "impl", "implies", "import",
+  "in", "infer", "inverse", "invert", "is", "keep", "lead", "let", "max", "never", "noplan", "not", "of",
+  "once", "opt", "or", "out", "outside", "par", "pause", "post", "pre", "prefer", "prefix", "property",
+  "python", "race", "range", "reactive", "refine", "relation", "repeat", "retry", "run", "scene", "scoped",
+  "sel", "sensed", "seq", "shares", "skill", "steps", "sub", "symmetric", "task", "timeout", "transitive",
+  "true", "try", "until", "use", "uses", "verify", "wait", "while", "with",
+]);
+
+// prettier-ignore
+export const TYPES: ReadonlySet<string> = new Set([
+  "Acceleration", "Angle", "AngularSpeed", "Area", "Bool", "Direction", "Force", "Frequency", "Int",
+  "Length", "Mass", "Number", "Pose", "RotationalStiffness", "Speed", "Stiffness", "Text", "Time",
+  "Torque", "Vector",
+]);

@@ -1,0 +1,43 @@
+// The page of skillc studio.
+import { render } from "preact";
+import { useEffect } from "preact/hooks";
+import "uplot/dist/uPlot.min.css";
+import "./design/tokens.css";
+import "./design/base.css";
+import "./design/layout.css";
+import "./design/views.css";
+import { followServer } from "./state/live";
+import { measureSamples } from "./state/signals";
+import { session } from "./state/studio";
+import { handleKey } from "./views/keys";
+import { findSession, Login } from "./views/Login";
+import { Workspace } from "./views/Workspace";
+
+function App() {
+  const who = session.value;
+  if (who === undefined)
+    return (
+      <main class="empty">
+        <span class="spinner" />
+        skillc studio
+      </main>
+    );
+  return who === null ? <Login /> : <LoggedIn />;
+}
+
+function LoggedIn() {
+  useEffect(() => {
+    const ends = [measureSamples(), followServer()];
+    document.addEventListener("keydown", handleKey);
+    return () => {
+      document.removeEventListener("keydown", handleKey);
+      ends.forEach((end) => end());
+    };
+  }, []);
+  return <Workspace />;
+}
+
+const root = document.getElementById("app");
+if (root !== null) render(<App />, root);
+window.addEventListener("hashchange", () => void findSession());
+void findSession();

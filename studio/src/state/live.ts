@@ -1,0 +1,169 @@
+// Feeds the signals from the server: cells and operations, the events of one operation, samples, and the world.
+import { decode } from "@msgpack/msgpack";
+import { batch, effect } from "@preact/signals";
+import { api, ApiError } from "../api/client";
+import { openStream } from "../api/stream";
+import type { Envelope, News, OperationStatus, Sample, WorldFact } from "../api/types";
+import { applyEvents, EMPTY } from "./operation";
+import * as studio from "./studio";
+
+const SAMPLES_HZ = 20;
+const PAGE = 1000;
+const HISTORY = 50;
+
+/** Begin to follow the server; the function that is returned ends that. */
+export function followServer(): () => void {
+  const ends = [followNews(), effect(followCell), effect(followOperation)];
+  return () => ends.forEach((end) => end());
+}
+
+function followNews(): () => void {
+  return openStream({
+    path: "/events",
+    hello: () => ({}),
+    onMessage: (data) => batch(() => (JSON.parse(data as string) as News[]).forEach(takeNews)),
+    onStatus: (status) => {
+      studio.connection.value = status;
+      if (status.state === "closed") studio.session.value = null;
+    },
+  });
+}
+
+function takeNews(news: News): void {
+  if (news.type === "status") {
+    studio.cells.value = new Map(studio.cells.value).set(news.status.name, news.status);
+    studio.cellName.value ??= news.status.name;
+  } else {
+    takeOperation(news.operation);
+  }
+}
+
+/** Note how an operation is; the first one that goes on is shown. */
+export function takeOperation(operation: OperationStatus): void {
+  studio.operations.value = new Map(studio.operations.value).set(operation.id, operation);
+  if (operation.cell === studio.cellName.value && !studio.ENDS.includes(operation.state))
+    studio.operationId.value ??= operation.id;
+}
+
+/** Follow the samples, the library and the history of the cell that is chosen. */
+function followCell(): (() => void) | undefined {
+  const name = studio.cellName.value;
+  if (name === null) return undefined;
+  studio.sample.value = null;
+  void loadHistory(name);
+  const ends = [
+    openStream({
+      path: "/samples",
+      hello: () => ({ cell: name, rate_hz: SAMPLES_HZ }),
+      onMessage: (data) => (studio.sample.value = decode(data as ArrayBuffer) as Sample),
+    }),
+    effect(() => followLibrary(name)),
+    effect(() => followWorld(name)),
+  ];
+  return () => ends.forEach((end) => end());
+}
+
+async function loadHistory(cell: string): Promise<void> {
+  const found = await quietly(() => api.operations(cell, { limit: HISTORY }));
+  if (found === null) return;
+  batch(() => {
+    const known = new Map(found.map((each) => [each.id, each]));
+    studio.operations.value = new Map([...known, ...studio.operations.value]);
+    if (studio.cellName.value === cell) studio.operationId.value ??= found[0]?.id ?? null;
+  });
+}
+
+function followLibrary(name: string): void {
+  const cell = studio.cells.value.get(name);
+  if (cell === undefined || cell.state === "off" || cell.library_hash === studio.library.peek()?.hash) return;
+  void quietly(() => api.library(name)).then((found) => {
+    if (found !== null && studio.cellName.peek() === name) studio.library.value = found;
+  });
+}
+
+/** Read the world again when the operation that is shown has changed it, or another one has ended. */
+function followWorld(name: string): void {
+  const cell = studio.cells.value.get(name);
+  const changes = studio.live.value.log.filter((each) => each.severity === "world").length;
+  const ends = [...studio.operations.value.values()].filter((each) =>
+    studio.ENDS.includes(each.state),
+  ).length;
+  if (cell === undefined || cell.state === "off") return;
+  worldWanted = `${name} ${changes} ${ends}`;
+  void readWorld(name);
+}
+
+let worldWanted = "";
+let worldRead = "";
+let isReading = false;
+
+/** Read all facts, page by page; once more if something has changed meanwhile. */
+export async function readWorld(name: string, force = false): Promise<void> {
+  if (isReading || (!force && worldWanted === worldRead)) return;
+  isReading = true;
+  const wanted = worldWanted;
+  try {
+    const found: WorldFact[] = [];
+    let sequence = 0;
+    for (let total = Infinity; found.length < total;) {
+      const page = await api.world(name, { offset: found.length, limit: PAGE });
+      found.push(...page.facts);
+      [total, sequence] = [page.facts.length === 0 ? 0 : page.total, page.sequence];
+    }
+    batch(() => {
+      studio.facts.value = found;
+      studio.worldSequence.value = sequence;
+      studio.worldError.value = "";
+    });
+    worldRead = wanted;
+  } catch (error) {
+    studio.worldError.value = error instanceof ApiError ? error.message : String(error);
+    worldRead = wanted;
+  } finally {
+    isReading = false;
+  }
+  if (worldWanted !== worldRead) await readWorld(name);
+}
+
+/** Follow the events of the operation that is chosen, from the first one. */
+function followOperation(): (() => void) | undefined {
+  const id = studio.operationId.value;
+  studio.live.value = EMPTY;
+  if (id === null) return undefined;
+  const flush = inFrames((envelopes: Envelope[]) => {
+    if (studio.operationId.peek() === id) studio.live.value = applyEvents(studio.live.peek(), envelopes);
+  });
+  return openStream({
+    path: "/events",
+    hello: () => ({ operation: id, after: studio.live.peek().lastEvent }),
+    onMessage: (data) => flush(JSON.parse(data as string) as Envelope[]),
+  });
+}
+
+/** Return a function that collects items and hands them on once a frame, also while the page is hidden. */
+function inFrames<T>(take: (items: T[]) => void): (items: T[]) => void {
+  let waiting: T[] = [];
+  const run = (): void => {
+    const items = waiting;
+    waiting = [];
+    take(items);
+  };
+  return (items) => {
+    if (waiting.length === 0) {
+      if (document.hidden) window.setTimeout(run, 100);
+      else requestAnimationFrame(run);
+    }
+    waiting.push(...items);
+  };
+}
+
+/** Return the answer to a request that nobody has made by hand; null if it fails, since the next one may not. */
+async function quietly<T>(ask: () => Promise<T>): Promise<T | null> {
+  try {
+    return await ask();
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    if (error.status === 401) studio.session.value = null;
+    return null;
+  }
+}

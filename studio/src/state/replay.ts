@@ -1,0 +1,103 @@
+// Plays a recording: the same state as live, made of the events up to a time.
+import { batch } from "@preact/signals";
+import { api, ApiError } from "../api/client";
+import type { Envelope } from "../api/types";
+import { readRecording } from "../recording/recording";
+import { applyEvents, EMPTY, type OperationState } from "./operation";
+import { recorded } from "./signals";
+import * as studio from "./studio";
+
+let envelopes: readonly Envelope[] = [];
+let timer = 0;
+const TICK_MS = 50;
+
+/** Read the recording of an operation from the server, and play it. */
+export async function replayOperation(id: string): Promise<void> {
+  openRecording(id, await api.recording(id));
+}
+
+/** Play a file; ApiError if it is no recording. */
+export function openRecording(name: string, content: ArrayBuffer): void {
+  const found = read(content);
+  envelopes = found.envelopes;
+  const times = envelopes.map((each) => each.event.time);
+  const [begin, end] = [times[0] ?? 0, Math.max(...times)];
+  batch(() => {
+    recorded.value = { lines: found.lines, columns: found.columns };
+    studio.selection.value = { kind: "nothing" };
+    studio.replay.value = {
+      name,
+      state: EMPTY,
+      sample: null,
+      begin,
+      end,
+      time: begin,
+      playing: false,
+      speed: 4,
+    };
+  });
+  seek(end);
+}
+
+function read(content: ArrayBuffer): ReturnType<typeof readRecording> {
+  try {
+    return readRecording(content);
+  } catch (error) {
+    throw new ApiError(
+      0,
+      `This recording cannot be read: ${error instanceof Error ? error.message : String(error)}`,
+    );
+  }
+}
+
+/** Return the state at a time: that of before with more events, or from the beginning again. */
+export function stateAt(
+  all: readonly Envelope[],
+  time: number,
+  before: OperationState = EMPTY,
+): OperationState {
+  const until = all.filter((each) => each.event.time <= time);
+  const isLater = (until.at(-1)?.sequence ?? 0) >= before.lastEvent;
+  return { ...applyEvents(isLater ? before : EMPTY, until), time };
+}
+
+export function seek(time: number): void {
+  const current = studio.replay.peek();
+  if (current === null) return;
+  const at = Math.min(current.end, Math.max(current.begin, time));
+  studio.replay.value = { ...current, time: at, state: stateAt(envelopes, at, current.state) };
+}
+
+export function play(playing: boolean): void {
+  const current = studio.replay.peek();
+  window.clearInterval(timer);
+  if (current === null) return;
+  const time = playing && current.time >= current.end ? current.begin : current.time;
+  studio.replay.value = { ...current, time, state: stateAt(envelopes, time, current.state), playing };
+  if (!playing) return;
+  let last = performance.now();
+  timer = window.setInterval(() => {
+    const now = performance.now();
+    const running = studio.replay.peek();
+    if (running === null) return window.clearInterval(timer);
+    seek(running.time + ((now - last) / 1000) * running.speed);
+    last = now;
+    if ((studio.replay.peek()?.time ?? 0) >= running.end) play(false);
+  }, TICK_MS);
+}
+
+export function setSpeed(speed: number): void {
+  const current = studio.replay.peek();
+  if (current !== null) studio.replay.value = { ...current, speed };
+}
+
+/** Show again what happens now. */
+export function endReplay(): void {
+  window.clearInterval(timer);
+  envelopes = [];
+  batch(() => {
+    studio.replay.value = null;
+    recorded.value = null;
+    studio.selection.value = { kind: "nothing" };
+  });
+}

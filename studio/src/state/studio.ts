@@ -1,0 +1,76 @@
+// What the page knows: signals that views read. Only `live.ts`, `replay.ts` and `actions.ts` write them.
+import { computed, signal } from "@preact/signals";
+import type { StreamStatus } from "../api/stream";
+import type {
+  CellStatus,
+  LibraryDescription,
+  OperationStatus,
+  Sample,
+  Session,
+  WorldFact,
+} from "../api/types";
+import { EMPTY, type OperationState } from "./operation";
+import { NOTHING, selectedPlace, selectedSpan, selectedThings, type Selection } from "./selection";
+
+/** Who is logged in: null for nobody, undefined while that is not known yet. */
+export const session = signal<Session | null | undefined>(undefined);
+export const connection = signal<StreamStatus>({ state: "connecting" });
+
+export const cells = signal<ReadonlyMap<string, CellStatus>>(new Map());
+export const operations = signal<ReadonlyMap<string, OperationStatus>>(new Map());
+export const cellName = signal<string | null>(null);
+export const cell = computed(() => cells.value.get(cellName.value ?? "") ?? null);
+
+export const library = signal<LibraryDescription | null>(null);
+export const facts = signal<readonly WorldFact[]>([]);
+/** The number of the last write that `facts` has. */
+export const worldSequence = signal(0);
+export const worldError = signal("");
+
+/** The operation that is shown, and what its events tell. */
+export const operationId = signal<string | null>(null);
+export const status = computed(() => operations.value.get(operationId.value ?? "") ?? null);
+export const live = signal<OperationState>(EMPTY);
+
+/** A recording that is played: what it tells at `time`, instead of what happens now. */
+export interface Replay {
+  name: string;
+  state: OperationState;
+  sample: Sample | null;
+  begin: number;
+  end: number;
+  time: number;
+  playing: boolean;
+  speed: number;
+}
+export const replay = signal<Replay | null>(null);
+export const operation = computed(() => replay.value?.state ?? live.value);
+
+export const sample = signal<Sample | null>(null);
+export const shownSample = computed(() => (replay.value === null ? sample.value : replay.value.sample));
+
+export const selection = signal<Selection>(NOTHING);
+export const span = computed(() => selectedSpan(selection.value, operation.value));
+export const place = computed(() => selectedPlace(selection.value, operation.value));
+export const things = computed(() => selectedThings(selection.value, operation.value));
+
+/** What went wrong last with something that a person wanted, until it is dismissed. */
+export const message = signal<{ kind: "error" | "done"; text: string } | null>(null);
+
+const RANKS = ["view", "operate", "edit", "admin"];
+
+/** Whether who is logged in may do what needs a role. */
+export function may(role: "operate" | "edit" | "admin"): boolean {
+  const own = session.value?.role;
+  return own !== undefined && RANKS.indexOf(own) >= RANKS.indexOf(role);
+}
+
+/** Whether a command is possible now for the operation that is shown. */
+export function allows(command: string): boolean {
+  return replay.value === null && (status.value?.allowed.includes(command) ?? false);
+}
+
+export const ENDS: readonly string[] = ["succeeded", "failed", "stopped", "interrupted"];
+
+/** Whether the operation that is shown goes on. */
+export const isOngoing = computed(() => status.value !== null && !ENDS.includes(status.value.state));

@@ -1,0 +1,272 @@
+// Choosing what to do: a task of the library, or a goal; the plan is shown before anything moves.
+import { useSignal } from "@preact/signals";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { api, ApiError, type PlanWish } from "../api/client";
+import type { ParameterDescription, PlanPreview, TaskDescription } from "../api/types";
+import { start } from "../state/actions";
+import { breakpoints } from "../state/source";
+import { cell, facts, library, may, status, worldSequence } from "../state/studio";
+import { individualsOf } from "../state/text";
+import { GoalInput } from "./GoalInput";
+import { Preview } from "./Preview";
+import { Rehearse } from "./Rehearse";
+
+type Wish =
+  { kind: "task"; task: TaskDescription; values: Record<string, string> } | { kind: "goal"; goal: string };
+
+export function Choose({ onDone }: { onDone: () => void }) {
+  const [wish, setWish] = useState<Wish | null>(null);
+  if (library.value === null) return <LibraryMissing />;
+  return (
+    <div class="run stack">
+      {status.value !== null && (
+        <button class="link" onClick={onDone}>
+          ‹ back to the operation
+        </button>
+      )}
+      {wish === null ? (
+        <Offers onChoose={setWish} />
+      ) : (
+        <Chosen wish={wish} onChange={setWish} onDone={onDone} />
+      )}
+    </div>
+  );
+}
+
+function LibraryMissing() {
+  const current = cell.value;
+  return (
+    <div class="empty">
+      {current?.state === "off" && current.reason !== "it starts" && current.reason !== "" ? (
+        <p class="notice bad">The cell is off: {current.reason}</p>
+      ) : (
+        <>
+          <span class="spinner" />
+          The cell starts, and its skills are checked
+        </>
+      )}
+    </div>
+  );
+}
+
+/** Return what a goal names that the world of the cell does not have. */
+function missingIn(goal: string, known: ReadonlySet<string>): string[] {
+  const names = goal.match(/\b[a-z][\w-]*:[A-Z][\w-]*/g) ?? [];
+  return known.size === 0 ? [] : [...new Set(names)].filter((each) => !known.has(each));
+}
+
+function Offers({ onChoose }: { onChoose: (wish: Wish) => void }) {
+  const [goal, setGoal] = useState("");
+  const known = useMemo(
+    () => new Set(facts.value.flatMap((each) => individualsOf(each.fact)).map((each) => each.label)),
+    [facts.value],
+  );
+  const offers = (library.value?.tasks ?? [])
+    .map((task) => ({ task, missing: missingIn(task.goal, known) }))
+    .sort((one, other) => one.missing.length - other.missing.length);
+  return (
+    <>
+      <h3>What shall be done?</h3>
+      <ul class="stack" aria-label="Tasks">
+        {offers.map(({ task, missing }, index) => (
+          <li key={task.name}>
+            <button
+              class="offer"
+              data-focus={index === 0 ? "" : undefined}
+              onClick={() => onChoose({ kind: "task", task, values: {} })}
+            >
+              <strong>{task.name}</strong>
+              <span class="muted small">{task.doc}</span>
+              {missing.length > 0 && (
+                <span class="small is-waiting">not in this cell: {missing.join(", ")}</span>
+              )}
+            </button>
+          </li>
+        ))}
+      </ul>
+      <form
+        class="stack"
+        onSubmit={(event) => {
+          event.preventDefault();
+          if (goal.trim() !== "") onChoose({ kind: "goal", goal: goal.trim() });
+        }}
+      >
+        <h3>or a goal</h3>
+        <GoalInput value={goal} onChange={setGoal} />
+        <button disabled={goal.trim() === ""}>Plan for this goal</button>
+      </form>
+    </>
+  );
+}
+
+interface ChosenProps {
+  wish: Wish;
+  onChange: (wish: Wish | null) => void;
+  onDone: () => void;
+}
+
+function Chosen({ wish, onChange, onDone }: ChosenProps) {
+  const inputs =
+    wish.kind === "task"
+      ? wish.task.parameters.filter((each) => each.direction === "in" || each.direction === "opt")
+      : [];
+  const values = wish.kind === "task" ? wish.values : {};
+  const isComplete = inputs.every(
+    (each) => each.direction === "opt" || (values[each.name] ?? "").trim() !== "",
+  );
+  const request = toRequest(wish);
+  return (
+    <>
+      <button class="link" onClick={() => onChange(null)}>
+        ‹ all tasks
+      </button>
+      <h3>{wish.kind === "task" ? wish.task.name : "Goal"}</h3>
+      <p class="muted">
+        {wish.kind === "task" ? wish.task.doc : <code class="wrap-anywhere">{wish.goal}</code>}
+      </p>
+      {wish.kind === "task" && wish.task.goal !== "" && (
+        <p class="small">
+          until <code class="wrap-anywhere">{wish.task.goal}</code>
+        </p>
+      )}
+      {wish.kind === "task" &&
+        inputs.map((each) => (
+          <ParameterInput
+            key={each.name}
+            parameter={each}
+            value={values[each.name] ?? ""}
+            onChange={(value) => onChange({ ...wish, values: { ...values, [each.name]: value } })}
+          />
+        ))}
+      {isComplete ? (
+        <PlanAndStart request={request} onDone={onDone} />
+      ) : (
+        <p class="muted small">Fill in the values to see the plan.</p>
+      )}
+    </>
+  );
+}
+
+function toRequest(wish: Wish): PlanWish {
+  if (wish.kind === "goal") return { goal: wish.goal };
+  const given = Object.entries(wish.values).filter(([, value]) => value.trim() !== "");
+  return { task: wish.task.name, arguments: Object.fromEntries(given) };
+}
+
+interface ParameterInputProps {
+  parameter: ParameterDescription;
+  value: string;
+  onChange: (value: string) => void;
+}
+
+function ParameterInput({ parameter, value, onChange }: ParameterInputProps) {
+  return (
+    <label class="stack parameter">
+      <span class="small">
+        <span class="mono">{parameter.name}</span>{" "}
+        <span class="muted">
+          {parameter.type}
+          {parameter.direction === "opt" ? ", optional" : ""}
+        </span>
+      </span>
+      <GoalInput
+        value={value}
+        onChange={onChange}
+        label={parameter.name}
+        placeholder={parameter.doc || parameter.type}
+      />
+    </label>
+  );
+}
+
+interface PlanAndStartProps {
+  request: PlanWish;
+  onDone: () => void;
+}
+
+function PlanAndStart({ request, onDone }: PlanAndStartProps) {
+  const { preview, problem } = usePreview(request);
+  const options = useSignal({ approve: false, ask_after_failure: false, step: false });
+  const key = useRef(crypto.randomUUID());
+  const [busy, setBusy] = useState(false);
+  const submit = async (): Promise<void> => {
+    setBusy(true);
+    const done = await start(
+      { ...request, ...options.value, breakpoints: [...breakpoints.value] },
+      key.current,
+    );
+    setBusy(false);
+    key.current = crypto.randomUUID();
+    if (done) onDone();
+  };
+  const option = (name: keyof typeof options.value, label: string, why: string) => (
+    <label class="row small" title={why}>
+      <input
+        type="checkbox"
+        checked={options.value[name]}
+        onChange={(event) => (options.value = { ...options.value, [name]: event.currentTarget.checked })}
+      />
+      {label}
+    </label>
+  );
+  return (
+    <>
+      {problem !== "" && <p class="notice bad">{problem}</p>}
+      {preview === null && problem === "" && (
+        <p class="row muted" role="status">
+          <span class="spinner" /> Planning for the world as it is now
+        </p>
+      )}
+      {preview !== null && <Preview preview={preview} />}
+      <div class="stack options">
+        {option("step", "pause before the first step", "Then go on step by step")}
+        {option("approve", "ask before each plan runs", "Each plan, also a new one, waits for approval")}
+        {option(
+          "ask_after_failure",
+          "ask after a failure",
+          "A failed step waits for a decision instead of another plan",
+        )}
+      </div>
+      <div class="row">
+        <button
+          class="primary grow"
+          disabled={!may("operate") || busy || preview?.status === "unsolvable" || problem !== ""}
+          title={may("operate") ? "Start in the cell (Enter)" : "This needs the role operate"}
+          onClick={() => void submit()}
+        >
+          Start
+        </button>
+        <Rehearse request={request} />
+      </div>
+    </>
+  );
+}
+
+/** Plan again whenever what is wanted, or the world, has changed. */
+function usePreview(request: PlanWish): { preview: PlanPreview | null; problem: string } {
+  const [found, setFound] = useState<{ preview: PlanPreview | null; problem: string }>({
+    preview: null,
+    problem: "",
+  });
+  const wanted = JSON.stringify(request);
+  const name = cell.value?.name;
+  useEffect(() => {
+    if (name === undefined) return;
+    let isCurrent = true;
+    setFound({ preview: null, problem: "" });
+    const timer = window.setTimeout(() => {
+      api.plan(name, request).then(
+        (preview) => isCurrent && setFound({ preview, problem: "" }),
+        (error: unknown) => {
+          if (!(error instanceof ApiError)) throw error;
+          if (isCurrent) setFound({ preview: null, problem: error.message });
+        },
+      );
+    }, 200);
+    return () => {
+      isCurrent = false;
+      window.clearTimeout(timer);
+    };
+  }, [wanted, name, worldSequence.value]);
+  return found;
+}

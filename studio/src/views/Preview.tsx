@@ -1,0 +1,95 @@
+// A plan before it runs: its steps, what is proved of it, and what was left out; or why there is none.
+import type { PlanPreview } from "../api/types";
+import { formatTime } from "../state/text";
+import { PlaceLink } from "./links";
+
+export function Preview({ preview }: { preview: PlanPreview }) {
+  if (preview.status !== "solved") return <NoPlan preview={preview} />;
+  return (
+    <section class="plan" aria-label="Plan">
+      <h3 class="row spread">
+        <span>Plan</span>
+        <span class="muted small">{summary(preview)}</span>
+      </h3>
+      {preview.plan.length === 0 && <p class="muted">Nothing to do: the goal holds already.</p>}
+      <ol class="preview">
+        {preview.plan.map((each, index) => (
+          <li key={index} class="preview-step">
+            <span class="muted small mono">{index + 1}</span>
+            <span class="plan-text">
+              <span>{each.skill}</span>
+              <span class="muted small truncate" title={argumentsOf(each.arguments)}>
+                {argumentsOf(each.arguments)}
+              </span>
+            </span>
+            <Source text={each.source} />
+          </li>
+        ))}
+      </ol>
+      {preview.assumptions.map((each) => (
+        <p key={each} class="small muted">
+          assumed: {each}
+        </p>
+      ))}
+      <LeftOut preview={preview} />
+      {preview.note && <p class="small muted">{preview.note}</p>}
+    </section>
+  );
+}
+
+function Source({ text }: { text: string }) {
+  const [, path, line] = /^(.*):(\d+)$/.exec(text) ?? [];
+  if (path === undefined || line === undefined) return null;
+  return (
+    <span class="small">
+      <PlaceLink place={{ path, line: Number(line), column: 1 }} />
+    </span>
+  );
+}
+
+const argumentsOf = (given: Record<string, string>): string => Object.values(given).join(", ");
+
+function summary(preview: PlanPreview): string {
+  const time = preview.makespan_s ?? preview.duration_s;
+  const bound = preview.at_least_s === null ? "" : `at least ${formatTime(preview.at_least_s)}`;
+  return [time === null ? "" : `about ${formatTime(time)}`, preview.quality, bound]
+    .filter((each) => each !== "")
+    .join(", ");
+}
+
+function LeftOut({ preview }: { preview: PlanPreview }) {
+  if (preview.left_out.length === 0) return null;
+  return (
+    <details class="small">
+      <summary>
+        left out of the search:{" "}
+        {preview.left_out.map((each) => `${each.what.length} ${each.kind}`).join(", ")}
+      </summary>
+      {preview.left_out.map((each, index) => (
+        <div key={index} class="stack left-out">
+          <p>
+            {each.harmless ? "Makes no difference: " : "May make a difference: "}
+            {each.why}
+          </p>
+          <p class="mono muted wrap-anywhere">{each.what.join(", ")}</p>
+        </div>
+      ))}
+    </details>
+  );
+}
+
+function NoPlan({ preview }: { preview: PlanPreview }) {
+  return (
+    <div class={`notice stack ${preview.status === "unsolvable" ? "bad" : "waiting"}`}>
+      <p>
+        <strong>{preview.status === "unsolvable" ? "No plan is possible." : "No plan was found."}</strong>{" "}
+        {preview.failure}
+      </p>
+      <ul class="causes small">
+        {preview.causes.map((each) => (
+          <li key={each}>{each}</li>
+        ))}
+      </ul>
+    </div>
+  );
+}

@@ -1,0 +1,59 @@
+// A rehearsal: the same in a simulated twin of the cell; what came of it is shown before anything real moves.
+import { useEffect, useState } from "preact/hooks";
+import { api, ApiError, type PlanWish } from "../api/client";
+import type { Rehearsal } from "../api/types";
+import { attempt } from "../state/actions";
+import { cellName, may } from "../state/studio";
+import { describeFailure, formatTime } from "../state/text";
+import { RunBadge } from "./status";
+
+const LOOK_MS = 500;
+
+export function Rehearse({ request }: { request: PlanWish }) {
+  const [rehearsal, setRehearsal] = useState<Rehearsal | null>(null);
+  const goesOn = rehearsal?.state === "going on";
+  useEffect(() => {
+    if (!goesOn) return;
+    const timer = window.setInterval(() => {
+      api.rehearsal(rehearsal.id).then(setRehearsal, (error: unknown) => {
+        if (!(error instanceof ApiError)) throw error;
+        setRehearsal({ ...rehearsal, state: "ended", reason: error.message });
+      });
+    }, LOOK_MS);
+    return () => window.clearInterval(timer);
+  }, [goesOn, rehearsal?.id]);
+  const begin = (): void => {
+    const name = cellName.value;
+    if (name !== null) void attempt(async () => setRehearsal(await api.rehearse(name, request)));
+  };
+  return (
+    <>
+      <button
+        disabled={!may("operate") || goesOn}
+        title="Do it in a simulated twin of the cell first; nothing changes in the cell"
+        onClick={begin}
+      >
+        {goesOn ? <span class="spinner" /> : null}
+        Rehearse
+      </button>
+      {rehearsal !== null && !goesOn && <Result rehearsal={rehearsal} />}
+    </>
+  );
+}
+
+function Result({ rehearsal }: { rehearsal: Rehearsal }) {
+  const result = rehearsal.result;
+  if (result === null) return <p class="notice bad rehearsed">The rehearsal ended: {rehearsal.reason}</p>;
+  if (result.status === "refused")
+    return <p class="notice bad rehearsed">{result.failure ?? "It was refused."}</p>;
+  return (
+    <div class="notice rehearsed stack" role="status">
+      <p class="row">
+        Rehearsal: <RunBadge state={result.status} verified={result.verified} />
+        {result.sim_time_s !== undefined && <span class="mono small">{formatTime(result.sim_time_s)}</span>}
+      </p>
+      {result.cause != null && <p>{describeFailure(result.cause)}</p>}
+      {result.cause == null && result.failure != null && <p>{result.failure}</p>}
+    </div>
+  );
+}

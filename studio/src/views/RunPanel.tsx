@@ -1,0 +1,190 @@
+// Run: choose what to do, see the plan first, start; then how far it is, and how it ended.
+import { command, select } from "../state/actions";
+import { allows, cell, isOngoing, may, operation, status } from "../state/studio";
+import { describeFailure, describeRequest, formatTime, formatValue } from "../state/text";
+import { Choose } from "./Choose";
+import { Icon } from "./icons";
+import { choosing } from "./layout";
+import { NodeMark, RunBadge } from "./status";
+
+export function RunPanel() {
+  if (cell.value === null)
+    return (
+      <div class="empty">
+        <span class="spinner" />
+        Waiting for a cell
+      </div>
+    );
+  if (status.value === null || choosing.value) return <Choose onDone={() => (choosing.value = false)} />;
+  return <Progress />;
+}
+
+function Progress() {
+  const current = status.value;
+  if (current === null) return null;
+  return (
+    <div class="run stack">
+      <div class="stack">
+        <div class="row spread">
+          <h3 class="truncate" title={describeRequest(current.request)}>
+            {describeRequest(current.request)}
+          </h3>
+          <RunBadge state={current.state} verified={current.verified} />
+        </div>
+        {current.reason !== "" && <p class="small wrap-anywhere">{current.reason}</p>}
+        {current.failure != null && <p class="notice bad">{describeFailure(current.failure)}</p>}
+      </div>
+      <Prompts />
+      <Decisions />
+      <Plan />
+      {!isOngoing.value && (
+        <button class="primary" onClick={() => (choosing.value = true)}>
+          Run something else
+        </button>
+      )}
+      {isOngoing.value && (
+        <button class="plain" onClick={() => (choosing.value = true)}>
+          Submit another one
+        </button>
+      )}
+    </div>
+  );
+}
+
+/** What skills ask, as buttons. */
+function Prompts() {
+  const open = isOngoing.value ? operation.value.prompts : [];
+  return (
+    <>
+      {open.map((each) => (
+        <div key={each.id} class="notice waiting stack" role="alert">
+          <p>{each.text}</p>
+          <div class="row">
+            {each.choices.map((choice) => (
+              <button
+                key={choice}
+                disabled={!may("operate")}
+                onClick={() => void command({ type: "answer", choice, prompt: each.id ?? 0 })}
+              >
+                {choice}
+              </button>
+            ))}
+          </div>
+        </div>
+      ))}
+    </>
+  );
+}
+
+const DECISIONS = [
+  { name: "approve", label: "Approve the plan", why: "Run this plan" },
+  { name: "retry", label: "Try again", why: "Run the failed step again" },
+  { name: "skip", label: "Count as done", why: "Somebody did the step by hand; its effects are assumed" },
+  { name: "replan", label: "Plan again", why: "Make another plan for the world as it is" },
+];
+
+/** What a person can decide now: about a plan, or after a failure. */
+function Decisions() {
+  const possible = DECISIONS.filter((each) => allows(each.name));
+  if (possible.length === 0) return null;
+  const give = (name: string): void => {
+    const body =
+      name === "skip" ? { type: name, who: "", why: "counted as done in the studio" } : { type: name };
+    void command(body);
+  };
+  return (
+    <div class="row decisions">
+      {possible.map((each, index) => (
+        <button
+          key={each.name}
+          class={index === 0 ? "primary" : ""}
+          disabled={!may("operate")}
+          title={each.why}
+          onClick={() => give(each.name)}
+        >
+          {each.label}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** The plans of the operation: each step with its state, its values and its span in time. */
+function Plan() {
+  const { attempts, nodes, state, time } = operation.value;
+  if (attempts.length === 0)
+    return state === "planning" ? (
+      <p class="row muted">
+        <span class="spinner" /> Planning
+      </p>
+    ) : null;
+  const end = Math.max(time, 0.1);
+  return (
+    <div class="stack">
+      {attempts.map((attempt, index) => (
+        <section key={index} class="plan">
+          <h3 class="row spread">
+            <span>{attempts.length > 1 ? `Plan ${index + 1}` : "Plan"}</span>
+            {attempt.plan !== null && (
+              <span class="muted small" title={attempt.plan.planner}>
+                about {formatTime(attempt.plan.cost)}
+                {attempt.plan.quality ? `, ${attempt.plan.quality}` : ""}
+              </span>
+            )}
+          </h3>
+          <ol>
+            {(attempt.plan?.steps ?? []).map((step, at) => {
+              const key = attempt.nodes[at] ?? null;
+              const node = key === null ? undefined : nodes.get(key);
+              return (
+                <li key={at}>
+                  <button
+                    class="plan-step"
+                    disabled={key === null}
+                    onClick={() => key !== null && select({ kind: "node", key })}
+                  >
+                    <NodeMark status={node?.status ?? "pending"} />
+                    <span class="plan-text">
+                      <span>{step.skill}</span>
+                      <span class="muted small truncate">
+                        {Object.values(step.arguments).map(formatValue).join(", ")}
+                      </span>
+                    </span>
+                    <span class="mono small muted">
+                      {node === undefined ? "" : formatTime((node.endedAt ?? time) - node.startedAt)}
+                    </span>
+                    <Span from={node?.startedAt} to={node?.endedAt ?? time} end={end} status={node?.status} />
+                  </button>
+                </li>
+              );
+            })}
+          </ol>
+          {attempt.plan?.steps.length === 0 && <p class="muted">Nothing to do: the goal holds already.</p>}
+          {attempt.reason !== "" && (
+            <p class="notice waiting small">
+              <Icon name="warning" /> Planned again: {attempt.reason}
+            </p>
+          )}
+        </section>
+      ))}
+    </div>
+  );
+}
+
+interface SpanProps {
+  from: number | undefined;
+  to: number;
+  end: number;
+  status: string | undefined;
+}
+
+/** When a step ran, as a bar in the time of the whole operation. */
+function Span({ from, to, end, status }: SpanProps) {
+  if (from === undefined) return <span class="span" />;
+  const [left, width] = [(from / end) * 100, Math.max(0.8, ((to - from) / end) * 100)];
+  return (
+    <span class="span" aria-hidden="true">
+      <span class={`span-bar is-${status ?? "pending"}`} style={{ left: `${left}%`, width: `${width}%` }} />
+    </span>
+  );
+}

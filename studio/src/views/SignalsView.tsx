@@ -1,0 +1,81 @@
+// Signals: force and speed over time, with the span of the selection; a click selects a moment.
+import { useEffect, useRef } from "preact/hooks";
+import { effect, signal } from "@preact/signals";
+import type uPlot from "uplot";
+import { plotColumns, plotLines } from "../state/signals";
+import { select } from "../state/actions";
+import { span } from "../state/studio";
+import { Panel } from "./Panel";
+import { theme } from "./layout";
+import { drawPlot } from "./plot";
+
+const pausedAt = signal(false);
+
+export function SignalsView() {
+  return (
+    <Panel name="signals" title="Signals" tools={<Tools />}>
+      <Plots />
+    </Panel>
+  );
+}
+
+function Tools() {
+  return (
+    <label class="row small" title="Keep the plot still, to look at it">
+      <input type="checkbox" checked={pausedAt.value} onChange={() => (pausedAt.value = !pausedAt.value)} />
+      hold
+    </label>
+  );
+}
+
+function Plots() {
+  const box = useRef<HTMLDivElement>(null);
+  const lines = plotLines.value;
+  const key = `${lines.map((each) => each.name).join("|")} ${theme.value}`;
+  useEffect(() => {
+    const element = box.current;
+    if (element === null || lines.length === 0) return;
+    let plot: uPlot | null = null;
+    let isOver = false;
+    let end = (): void => undefined;
+    void drawPlot(
+      element,
+      lines,
+      (time) => select({ kind: "time", time }),
+      () => span.peek(),
+    ).then((made) => {
+      if (isOver) return made.destroy();
+      plot = made;
+      end = effect(() => {
+        const columns = plotColumns.value;
+        if (!pausedAt.value) made.setData(columns as uPlot.AlignedData);
+      });
+    });
+    const ofSpan = span.subscribe(() => plot?.redraw(false));
+    const observer = new ResizeObserver(() =>
+      plot?.setSize({ width: element.clientWidth, height: plotHeight(element) }),
+    );
+    observer.observe(element);
+    return () => {
+      isOver = true;
+      observer.disconnect();
+      ofSpan();
+      end();
+      plot?.destroy();
+    };
+  }, [key]);
+  if (lines.length === 0) return <div class="empty">No arm of this cell is measured yet.</div>;
+  return (
+    <div
+      class="plots"
+      ref={box}
+      role="img"
+      aria-label={`Plot of ${lines.map((each) => each.name).join(", ")}`}
+    />
+  );
+}
+
+/** Return the height of the plot without its legend. */
+function plotHeight(element: HTMLElement): number {
+  return Math.max(80, element.clientHeight - (element.querySelector(".u-legend")?.clientHeight ?? 24));
+}

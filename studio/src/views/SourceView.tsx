@@ -1,0 +1,116 @@
+// Source: the files of the library of the cell, with the line of the selected step and of what runs.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { cell, place } from "../state/studio";
+import {
+  activePlaces,
+  breakpoints,
+  files,
+  openFile,
+  openPath,
+  readFiles,
+  saveFile,
+  source,
+  toggleBreakpoint,
+} from "../state/source";
+import type { Editor } from "../editor/editor";
+import { isWritable } from "../state/source";
+import { theme } from "./layout";
+
+export function SourceView() {
+  const name = cell.value?.library;
+  useEffect(() => {
+    if (name !== undefined) void readFiles(name);
+  }, [name]);
+  const wanted = place.value;
+  useEffect(() => {
+    if (name !== undefined && wanted !== null) void openPath(name, wanted.path);
+    else if (name !== undefined && source.peek() === null) void openPath(name, null);
+  }, [name, wanted?.path, files.value.length]);
+  return (
+    <div class="source">
+      <SourceTools library={name ?? ""} />
+      {source.value?.problem ? <p class="notice bad">{source.value.problem}</p> : null}
+      {source.value === null || source.value.text === null ? (
+        <div class="empty">
+          {files.value.length === 0 ? "The files of this library cannot be read." : "Choose a file."}
+        </div>
+      ) : (
+        <EditorBox key={`${source.value.path} ${theme.value}`} />
+      )}
+    </div>
+  );
+}
+
+function SourceTools({ library }: { library: string }) {
+  const current = source.value;
+  const isChanged = current !== null && current.draft !== null;
+  return (
+    <div class="view-tools row">
+      <label class="grow">
+        <span class="visually-hidden">File</span>
+        <select
+          class="grow"
+          data-focus
+          value={current?.path ?? ""}
+          onChange={(event) => void openFile(library, event.currentTarget.value)}
+        >
+          {current === null && <option value="">choose a file</option>}
+          {files.value.map((each) => (
+            <option key={each} value={each}>
+              {each}
+            </option>
+          ))}
+        </select>
+      </label>
+      <span class="small muted">{isChanged ? "changed" : ""}</span>
+      <button
+        class="primary"
+        disabled={!isChanged || !isWritable.value}
+        title={
+          isWritable.value ? "Save and check (Ctrl-S)" : "This needs the role edit, and a file of your own"
+        }
+        onClick={() => void saveFile()}
+      >
+        Save
+      </button>
+    </div>
+  );
+}
+
+function EditorBox() {
+  const box = useRef<HTMLDivElement>(null);
+  const [editor, setEditor] = useState<Editor | null>(null);
+  useEffect(() => {
+    let made: Editor | null = null;
+    let isOver = false;
+    void import("../editor/editor").then(({ makeEditor }) => {
+      const current = source.peek();
+      if (isOver || box.current === null || current === null) return;
+      made = makeEditor(box.current, {
+        text: current.draft ?? current.text ?? "",
+        path: current.path,
+        readOnly: !isWritable.peek(),
+        onChange: (text) => {
+          const now = source.peek();
+          if (now !== null) source.value = { ...now, draft: text === now.text ? null : text };
+        },
+        onSave: () => void saveFile(),
+        onBreakpoint: (line) => toggleBreakpoint(current.path, line),
+      });
+      setEditor(made);
+    });
+    return () => {
+      isOver = true;
+      made?.destroy();
+    };
+  }, []);
+  const path = source.value?.path ?? "";
+  const wanted = place.value?.path === path ? place.value.line : null;
+  const lines = activePlaces.value.filter((each) => each.path === path).map((each) => each.line);
+  const marked = [...breakpoints.value]
+    .filter((each) => each.startsWith(`${path}:`))
+    .map((each) => Number(each.split(":").at(-1)));
+  useEffect(() => editor?.reveal(wanted), [editor, wanted]);
+  useEffect(() => editor?.mark(lines, marked), [editor, lines.join(), marked.join()]);
+  return <div class="source-editor" ref={box} />;
+}

@@ -1,0 +1,47 @@
+// An individual: what is known about it, and how that is known.
+import { facts, shownSample } from "../state/studio";
+import { formatNumber, individualsOf } from "../state/text";
+import { Fact } from "./links";
+
+export function ThingDetails({ iri }: { iri: string }) {
+  const about = facts.value.filter((each) => individualsOf(each.fact).some((one) => one.iri === iri));
+  const label =
+    about.flatMap((each) => individualsOf(each.fact)).find((each) => each.iri === iri)?.label ?? iri;
+  const pose = shownSample.value?.things[iri];
+  return (
+    <>
+      <p class="row">
+        <strong class="mono">{label}</strong>
+      </p>
+      <p class="small muted wrap-anywhere">{iri}</p>
+      {pose !== undefined && (
+        <p class="small">
+          Really at{" "}
+          <span class="mono">
+            (
+            {pose
+              .slice(0, 3)
+              .map((each) => formatNumber(each, 4))
+              .join(", ")}
+            ) m
+          </span>
+        </p>
+      )}
+      {about.length === 0 ? (
+        <p class="muted">The world model has no fact about it.</p>
+      ) : (
+        <ul>
+          {about.map((each, index) => (
+            <li key={index}>
+              <Fact fact={each.fact} />{" "}
+              <span class="muted small">
+                {each.evidence ?? "given"}
+                {each.origin ? ` by ${each.origin}` : ""}
+              </span>
+            </li>
+          ))}
+        </ul>
+      )}
+    </>
+  );
+}

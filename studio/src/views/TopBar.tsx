@@ -1,0 +1,227 @@
+// The bar on top: which cell, which operation, how it is, and what can be done with it at once.
+import { api } from "../api/client";
+import { attempt, command, logOut, showCell, stop } from "../state/actions";
+import {
+  allows,
+  cell,
+  cells,
+  connection,
+  isOngoing,
+  may,
+  operation,
+  replay,
+  session,
+  status,
+} from "../state/studio";
+import { describeRequest, formatTime } from "../state/text";
+import { Icon, type IconName } from "./icons";
+import { helpShown, nextTheme, theme } from "./layout";
+import { CellBadge, RunBadge } from "./status";
+
+export function TopBar() {
+  return (
+    <header class="topbar">
+      <strong class="product">skillc studio</strong>
+      <CellChoice />
+      <OperationTitle />
+      <Transport />
+      <div class="grow" />
+      <Connection />
+      <button
+        class="plain icon"
+        aria-label={`Theme: ${theme.value}`}
+        title={`Theme: ${theme.value} (t)`}
+        onClick={nextTheme}
+      >
+        <Icon name="theme" />
+      </button>
+      <button class="plain icon" aria-label="Help" title="Help (?)" onClick={() => (helpShown.value = true)}>
+        <Icon name="help" />
+      </button>
+    </header>
+  );
+}
+
+function CellChoice() {
+  const current = cell.value;
+  if (current === null) return <span class="muted">no cell</span>;
+  const needsCare = current.state !== "off" && current.state !== "operational";
+  return (
+    <div class="row">
+      <label class="row">
+        <span class="visually-hidden">Cell</span>
+        <select
+          class="cell-choice"
+          value={current.name}
+          onChange={(event) => showCell(event.currentTarget.value)}
+        >
+          {[...cells.value.values()].map((each) => (
+            <option key={each.name} value={each.name}>
+              {each.name}
+            </option>
+          ))}
+        </select>
+      </label>
+      <span title={current.reason || current.scene}>
+        <CellBadge state={current.state} />
+      </span>
+      {needsCare && (
+        <button
+          disabled={!may("operate")}
+          title={current.reason}
+          onClick={() =>
+            void attempt(() => api.acknowledge(current.name), "The cell takes operations again.")
+          }
+        >
+          Acknowledge
+        </button>
+      )}
+      <Pace name={current.name} pace={current.pace} />
+    </div>
+  );
+}
+
+const PACES = [null, 0.25, 0.5, 1, 2, 5, 10];
+
+function Pace({ name, pace }: { name: string; pace: number | null }) {
+  const set = (text: string): void => {
+    void attempt(() => api.setPace(name, text === "" ? null : Number(text)));
+  };
+  const choices = PACES.includes(pace) ? PACES : [...PACES, pace];
+  return (
+    <label title="How fast the time of the cell passes">
+      <span class="visually-hidden">Pace</span>
+      <select
+        value={pace ?? ""}
+        disabled={!may("operate")}
+        onChange={(event) => set(event.currentTarget.value)}
+      >
+        {choices.map((each) => (
+          <option key={each} value={each ?? ""}>
+            {each === null ? "fastest" : each === 1 ? "real time" : `${each} × real`}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function OperationTitle() {
+  const current = status.value;
+  if (replay.value !== null)
+    return (
+      <span class="operation">
+        <strong class="truncate">{replay.value.name}</strong>
+        <span class="badge is-waiting">
+          <Icon name="play" />
+          recording
+        </span>
+      </span>
+    );
+  if (current === null) return <span class="operation muted">nothing has run yet</span>;
+  return (
+    <span class="operation" title={current.id}>
+      <strong class="truncate">{describeRequest(current.request)}</strong>
+      <RunBadge state={current.state} verified={current.verified} />
+      <span class="clock mono" title="Time of the cell">
+        {formatTime(operation.value.time)}
+      </span>
+    </span>
+  );
+}
+
+interface ControlProps {
+  icon: IconName;
+  label: string;
+  hotkey: string;
+  enabled: boolean;
+  act: () => unknown;
+  tone?: string;
+  wide?: boolean;
+}
+
+function Control({ icon, label, hotkey, enabled, act, tone = "", wide = false }: ControlProps) {
+  return (
+    <button
+      class={`${tone} ${wide ? "" : "icon"}`}
+      disabled={!enabled}
+      title={`${label} (${hotkey})`}
+      aria-label={label}
+      aria-keyshortcuts={hotkey}
+      onClick={() => void act()}
+    >
+      <Icon name={icon} />
+      {wide && label}
+    </button>
+  );
+}
+
+/** Pause or resume, whichever is possible. */
+export function togglePause(): void {
+  if (allows("pause")) void command({ type: "pause", reason: "paused in the studio" });
+  else if (allows("resume")) void command({ type: "resume" });
+}
+
+function Transport() {
+  if (replay.value !== null) return null;
+  const resumes = allows("resume");
+  const can = may("operate");
+  return (
+    <div class="transport" role="toolbar" aria-label="Operation">
+      <Control
+        icon={resumes ? "play" : "pause"}
+        label={resumes ? "Resume" : "Pause"}
+        hotkey="p"
+        enabled={can && (resumes || allows("pause"))}
+        act={togglePause}
+      />
+      <Control
+        icon="over"
+        label="Step over"
+        hotkey="n"
+        enabled={can && allows("step-over")}
+        act={() => command({ type: "step-over" })}
+      />
+      <Control
+        icon="into"
+        label="Step into"
+        hotkey="i"
+        enabled={can && allows("step-into")}
+        act={() => command({ type: "step-into" })}
+      />
+      <Control
+        icon="out"
+        label="Step out"
+        hotkey="o"
+        enabled={can && allows("step-out")}
+        act={() => command({ type: "step-out" })}
+      />
+      <Control icon="stop" label="Stop" hotkey="x" enabled={isOngoing.value} act={stop} tone="stop" wide />
+    </div>
+  );
+}
+
+function Connection() {
+  const isOpen = connection.value.state === "open";
+  const who = session.value;
+  return (
+    <div class="row">
+      {!isOpen && (
+        <span class="badge is-bad" role="status">
+          <Icon name="plug" />
+          no connection; trying again
+        </span>
+      )}
+      {who && (
+        <button
+          class="plain who"
+          title={`${who.name} has the role ${who.role}. Log out`}
+          onClick={() => void logOut()}
+        >
+          <span class="truncate">{who.name}</span>
+          <span class="muted small">{who.role}</span>
+        </button>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,113 @@
+// The page once somebody is logged in: the bar on top and five panels.
+import { operation } from "../state/studio";
+import { Details } from "./Details";
+import { EventsView } from "./EventsView";
+import { Help } from "./Help";
+import { detailsTab, maximised, runTab, sizes } from "./layout";
+import { Messages } from "./Messages";
+import { Panel, TabbedPanel } from "./Panel";
+import { ReplayBar } from "./ReplayBar";
+import { RunPanel } from "./RunPanel";
+import { RunsView } from "./RunsView";
+import { SceneView } from "./SceneView";
+import { SignalsView } from "./SignalsView";
+import { SourceView } from "./SourceView";
+import { Splitter } from "./Splitter";
+import { TopBar } from "./TopBar";
+import { TreePanel } from "./TreeView";
+import { WorldView } from "./WorldView";
+
+export function Workspace() {
+  const { left, middle, upper, scene } = sizes.value;
+  const style = {
+    "--left": `${left}px`,
+    "--middle": `${middle}fr`,
+    "--right": `${1 - middle}fr`,
+    "--upper": `${upper}fr`,
+    "--lower": `${1 - upper}fr`,
+    "--scene": `${scene}fr`,
+    "--signals": `${1 - scene}fr`,
+  };
+  return (
+    <div class="page">
+      <div>
+        <TopBar />
+        <ReplayBar />
+      </div>
+      <main class="workspace" style={style} data-maximised={maximised.value ?? undefined}>
+        <RunColumn />
+        <Splitter of="left" label="Width of the run panel" vertical min={240} max={480} perPixel={() => 1} />
+        <div class="column column-middle">
+          <TreePanel />
+          <Splitter
+            of="upper"
+            label="Height of the tree"
+            vertical={false}
+            min={0.2}
+            max={0.8}
+            perPixel={(box) => 1 / box.height}
+          />
+          <DetailsPanel />
+        </div>
+        <Splitter
+          of="middle"
+          label="Width of the tree"
+          vertical
+          min={0.3}
+          max={0.7}
+          perPixel={(box) => 1 / (box.width - left)}
+        />
+        <div class="column column-right">
+          <Panel name="scene" title="3-D">
+            <SceneView />
+          </Panel>
+          <Splitter
+            of="scene"
+            label="Height of the 3-D view"
+            vertical={false}
+            min={0.2}
+            max={0.8}
+            perPixel={(box) => 1 / box.height}
+          />
+          <SignalsView />
+        </div>
+      </main>
+      <Messages />
+      <Help />
+    </div>
+  );
+}
+
+function RunColumn() {
+  return (
+    <div class="column column-left">
+      <TabbedPanel
+        name="run"
+        title="Run"
+        active={runTab.value}
+        onChoose={(id) => (runTab.value = id as "run" | "runs")}
+        tabs={[
+          { id: "run", title: "Run", view: () => <RunPanel /> },
+          { id: "runs", title: "Runs", view: () => <RunsView /> },
+        ]}
+      />
+    </div>
+  );
+}
+
+function DetailsPanel() {
+  return (
+    <TabbedPanel
+      name="details"
+      title="Details"
+      active={detailsTab.value}
+      onChoose={(id) => (detailsTab.value = id as typeof detailsTab.value)}
+      tabs={[
+        { id: "why", title: "Why", view: () => <Details /> },
+        { id: "world", title: "World", view: () => <WorldView /> },
+        { id: "source", title: "Source", view: () => <SourceView /> },
+        { id: "events", title: "Events", count: operation.value.log.length, view: () => <EventsView /> },
+      ]}
+    />
+  );
+}

@@ -1,0 +1,183 @@
+// The world model: facts with their evidence, searched; its history; and edits, which say why.
+import { signal } from "@preact/signals";
+import { useEffect, useState } from "preact/hooks";
+import { api } from "../api/client";
+import type { WorldFact, WorldWrite } from "../api/types";
+import { attempt } from "../state/actions";
+import { readWorld } from "../state/live";
+import { cellName, facts, may, selection, things, worldError, worldSequence } from "../state/studio";
+import { formatChange, formatFact, individualsOf } from "../state/text";
+import { Fact } from "./links";
+
+const search = signal("");
+const view = signal<"facts" | "history">("facts");
+const editing = signal(false);
+
+export function WorldView() {
+  return (
+    <div class="world">
+      <div class="view-tools row">
+        <input
+          type="search"
+          data-focus
+          placeholder={`Search in ${facts.value.length} facts`}
+          aria-label="Search in the facts"
+          value={search.value}
+          onInput={(event) => (search.value = event.currentTarget.value)}
+        />
+        <label>
+          <span class="visually-hidden">What to show</span>
+          <select
+            value={view.value}
+            onChange={(event) => (view.value = event.currentTarget.value as "facts" | "history")}
+          >
+            <option value="facts">facts</option>
+            <option value="history">who changed what</option>
+          </select>
+        </label>
+        <button
+          disabled={!may("edit")}
+          title={may("edit") ? "Change facts, and say why" : "This needs the role edit"}
+          aria-expanded={editing.value}
+          onClick={() => (editing.value = !editing.value)}
+        >
+          Edit
+        </button>
+      </div>
+      {editing.value && <EditForm />}
+      {worldError.value !== "" && <p class="notice bad">{worldError.value}</p>}
+      <div class="scroll">{view.value === "facts" ? <FactTable /> : <History />}</div>
+    </div>
+  );
+}
+
+function FactTable() {
+  const selected = new Set(things.value);
+  const text = search.value.toLowerCase();
+  const isAbout = (each: WorldFact): boolean => individualsOf(each.fact).some((one) => selected.has(one.iri));
+  const found = facts.value.filter(
+    (each) => text === "" || formatFact(each.fact).toLowerCase().includes(text),
+  );
+  const shown = [...found.filter(isAbout), ...found.filter((each) => !isAbout(each))].slice(0, 500);
+  if (facts.value.length === 0)
+    return <div class="empty">No facts: the cell is off, or its world is empty.</div>;
+  if (shown.length === 0) return <div class="empty">No fact has “{search.value}” in it.</div>;
+  return (
+    <table>
+      <thead>
+        <tr>
+          <th>fact</th>
+          <th>known</th>
+        </tr>
+      </thead>
+      <tbody>
+        {shown.map((each) => (
+          <tr key={formatFact(each.fact)} class={isAbout(each) ? "is-selected" : ""}>
+            <td>
+              <Fact fact={each.fact} />
+            </td>
+            <td class="muted">
+              {each.evidence ?? "given"}
+              {each.origin ? ` by ${each.origin}` : ""}
+            </td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function History() {
+  const [writes, setWrites] = useState<WorldWrite[] | null>(null);
+  const name = cellName.value;
+  const sequence = worldSequence.value;
+  useEffect(() => {
+    if (name !== null) void attempt(async () => setWrites(await api.writes(name, { limit: 200 })));
+  }, [name, sequence]);
+  if (writes === null) return <div class="empty">Reading …</div>;
+  if (writes.length === 0) return <div class="empty">Nobody has changed anything yet.</div>;
+  return (
+    <table>
+      <thead>
+        <tr>
+          <th>when</th>
+          <th>who</th>
+          <th>changes</th>
+        </tr>
+      </thead>
+      <tbody>
+        {writes.map((each) => (
+          <tr key={each.sequence}>
+            <td class="muted">
+              {each.written_ns === 0
+                ? `write ${each.sequence}`
+                : new Date(each.written_ns / 1e6).toLocaleTimeString()}
+            </td>
+            <td>
+              {each.origin || "the scene"} <span class="muted">{each.evidence ?? "given"}</span>
+            </td>
+            <td class="mono wrap-anywhere">{each.changes.map(formatChange).join("; ")}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function EditForm() {
+  const [text, setText] = useState(selection.value.kind === "thing" ? labelOfSelected() : "");
+  const [why, setWhy] = useState("");
+  const submit = async (event: Event): Promise<void> => {
+    event.preventDefault();
+    const [name, edits] = [cellName.value, lines(text)];
+    if (name === null) return;
+    if (await attempt(() => api.edit(name, edits, why), `${edits.length} changed in the world.`)) {
+      editing.value = false;
+      await readWorld(name, true);
+    }
+  };
+  return (
+    <form class="edit-form stack" onSubmit={(event) => void submit(event)}>
+      <label class="stack">
+        <span class="small muted">
+          One change a line: <code>lab:Part-1 at lab:Tray-2</code>, <code>not lab:Part-1 at lab:Tray-1</code>,
+          or <code>not lab:Part-1</code>. All are made together, or none.
+        </span>
+        <textarea
+          class="mono"
+          rows={3}
+          value={text}
+          onInput={(event) => setText(event.currentTarget.value)}
+        />
+      </label>
+      <div class="row">
+        <input
+          aria-label="Why"
+          placeholder="Why? This is kept in the history."
+          value={why}
+          onInput={(event) => setWhy(event.currentTarget.value)}
+        />
+        <button class="primary" disabled={lines(text).length === 0 || why.trim() === ""}>
+          Change
+        </button>
+        <button type="button" onClick={() => (editing.value = false)}>
+          Cancel
+        </button>
+      </div>
+    </form>
+  );
+}
+
+const lines = (text: string): string[] =>
+  text
+    .split("\n")
+    .map((each) => each.trim())
+    .filter((each) => each !== "");
+
+function labelOfSelected(): string {
+  const iri = things.value[0];
+  const label = facts.value
+    .flatMap((each) => individualsOf(each.fact))
+    .find((each) => each.iri === iri)?.label;
+  return label === undefined ? "" : `${label} `;
+}

@@ -1,0 +1,85 @@
+// The keys of the page; they do nothing while somebody writes.
+import { command, stop } from "../state/actions";
+import { allows, isOngoing, may } from "../state/studio";
+import {
+  choosing,
+  detailsTab,
+  focusPanel,
+  helpShown,
+  maximised,
+  nextTheme,
+  PANELS,
+  runTab,
+  toggleMaximised,
+  type PanelName,
+} from "./layout";
+import { togglePause } from "./TopBar";
+
+function step(type: string): void {
+  if (may("operate") && allows(type)) void command({ type });
+}
+
+function showDetails(tab: typeof detailsTab.value): void {
+  detailsTab.value = tab;
+  requestAnimationFrame(() => focusPanel("details"));
+}
+
+function showRun(tab: typeof runTab.value): void {
+  runTab.value = tab;
+  requestAnimationFrame(() => focusPanel("run"));
+}
+
+const ACTIONS: Record<string, () => void> = {
+  p: () => may("operate") && togglePause(),
+  n: () => step("step-over"),
+  i: () => step("step-into"),
+  o: () => step("step-out"),
+  x: () => {
+    if (isOngoing.value) void stop();
+  },
+  w: () => showDetails("why"),
+  f: () => showDetails("world"),
+  s: () => showDetails("source"),
+  e: () => showDetails("events"),
+  r: () => {
+    choosing.value = true;
+    showRun("run");
+  },
+  h: () => showRun("runs"),
+  m: () => toggleMaximised(focusedPanel() ?? maximised.value ?? "tree"),
+  t: nextTheme,
+  "?": () => (helpShown.value = !helpShown.value),
+  "/": () => search(),
+};
+
+function focusedPanel(): PanelName | null {
+  const panel = document.activeElement?.closest<HTMLElement>("[data-panel]");
+  return (panel?.dataset["panel"] as PanelName | undefined) ?? null;
+}
+
+/** Put the keyboard into the search of the panel that has it, or of the tree. */
+function search(): void {
+  const panel = document.querySelector(`[data-panel="${focusedPanel() ?? "tree"}"]`);
+  const field = panel?.querySelector<HTMLElement>('input[type="search"]');
+  (field ?? document.querySelector<HTMLElement>(".filter"))?.focus();
+}
+
+export function handleKey(event: KeyboardEvent): void {
+  if (event.ctrlKey || event.metaKey || event.altKey || isWriting(event)) return;
+  const panel = PANELS[Number(event.key) - 1];
+  const act = panel === undefined ? ACTIONS[event.key] : () => focusPanel(panel);
+  if (act === undefined) return;
+  event.preventDefault();
+  act();
+}
+
+function isWriting(event: KeyboardEvent): boolean {
+  const target = event.composedPath()[0];
+  if (!(target instanceof HTMLElement)) return false;
+  return (
+    target.isContentEditable ||
+    (target instanceof HTMLInputElement && target.type !== "checkbox") ||
+    target instanceof HTMLTextAreaElement ||
+    target instanceof HTMLSelectElement
+  );
+}

@@ -1,0 +1,95 @@
+// A plot of lines over time with uPlot, in the colours of the theme; the selected span is shaded.
+import type uPlot from "uplot";
+import type { Line } from "../state/series";
+
+/** Return a colour of the theme as the browser resolves it; canvas knows no variables. */
+export function themeColour(name: string): string {
+  const probe = document.createElement("span");
+  probe.style.color = `var(--${name})`;
+  document.body.append(probe);
+  const found = getComputedStyle(probe).color;
+  probe.remove();
+  return found;
+}
+
+/** Draw a plot into an element; `onPick` gets the time of a click, `span` what to shade. */
+export async function drawPlot(
+  element: HTMLElement,
+  lines: readonly Line[],
+  onPick: (time: number) => void,
+  span: () => [number, number] | null,
+): Promise<uPlot> {
+  const { default: UPlot } = await import("uplot");
+  const [ink, line, accent] = [themeColour("muted"), themeColour("line"), themeColour("accent")];
+  const units = [...new Set(lines.map((each) => each.unit))];
+  const axis = {
+    stroke: ink,
+    grid: { stroke: line, width: 1 },
+    ticks: { stroke: line, width: 1 },
+    font: "11px system-ui",
+  };
+  const options: uPlot.Options = {
+    width: element.clientWidth,
+    height: Math.max(80, element.clientHeight - 24),
+    legend: { live: true },
+    cursor: { drag: { x: true, y: false, setScale: true }, points: { size: 5 } },
+    scales: {
+      x: { time: false },
+      ...Object.fromEntries(units.map((each) => [each, { auto: true, range: fromZero }])),
+    },
+    axes: [
+      { ...axis, values: (_, ticks) => ticks.map((each) => `${each} s`), size: 28 },
+      ...units.map((unit, index) => ({
+        ...axis,
+        scale: unit,
+        // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment -- the enum exists in types only
+        side: index === 0 ? 3 : 1,
+        grid: { show: index === 0, stroke: line, width: 1 },
+        values: (_: uPlot, ticks: number[]) => ticks.map((each) => `${each} ${unit}`),
+        size: 64,
+      })),
+    ],
+    series: [
+      { label: "time", value: (_, value) => format(value, "s") },
+      ...lines.map((each, index) => ({
+        label: each.name,
+        scale: each.unit,
+        stroke: themeColour(`line${(index % 4) + 1}`),
+        width: 1.5,
+        ...(index % 2 === 1 ? { dash: [5, 3] } : {}),
+        value: (_: uPlot, value: number | null) => format(value, each.unit),
+      })),
+    ],
+    hooks: { drawClear: [(plot) => shade(plot, span(), accent)], ready: [(plot) => pick(plot, onPick)] },
+  };
+  return new UPlot(options, [[], ...lines.map(() => [])] as uPlot.AlignedData, element);
+}
+
+function fromZero(_: uPlot, least: number | null, most: number | null): [number, number] {
+  return [Math.min(0, least ?? 0), Math.max(most ?? 1, 1e-3) * 1.08];
+}
+
+function format(value: number | null, unit: string): string {
+  return value == null ? `– ${unit}` : `${value.toFixed(2)} ${unit}`;
+}
+
+function shade(plot: uPlot, span: [number, number] | null, colour: string): void {
+  if (span === null) return;
+  const { left, top, width, height } = plot.bbox;
+  const at = (time: number): number => Math.min(left + width, Math.max(left, plot.valToPos(time, "x", true)));
+  const [from, to] = [at(span[0]), at(span[1])];
+  plot.ctx.save();
+  plot.ctx.fillStyle = colour;
+  plot.ctx.globalAlpha = span[0] === span[1] ? 0.9 : 0.16;
+  plot.ctx.fillRect(from, top, Math.max(2, to - from), height);
+  plot.ctx.restore();
+}
+
+/** A click without a drag picks a moment. */
+function pick(plot: uPlot, onPick: (time: number) => void): void {
+  let downAt = 0;
+  plot.over.addEventListener("pointerdown", (event) => (downAt = event.clientX));
+  plot.over.addEventListener("click", (event) => {
+    if (Math.abs(event.clientX - downAt) < 3) onPick(plot.posToVal(event.offsetX, "x"));
+  });
+}

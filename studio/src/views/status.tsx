@@ -1,0 +1,70 @@
+// States of cells, operations and nodes: each has a colour, a shape and a word.
+import type { CellState, RunState } from "../api/types";
+import type { NodeStatus } from "../state/operation";
+import { Icon, type IconName } from "./icons";
+
+type Look = [tone: string, icon: IconName, word: string];
+
+const RUN: Record<RunState, Look> = {
+  queued: ["is-waiting", "hourglass", "queued"],
+  planning: ["is-running", "hourglass", "planning"],
+  planned: ["is-waiting", "ring", "waits for approval"],
+  running: ["is-running", "play", "running"],
+  pausing: ["is-waiting", "pause", "pausing"],
+  paused: ["is-waiting", "pause", "paused"],
+  stopping: ["is-bad", "stop", "stopping"],
+  succeeded: ["is-good", "check", "succeeded"],
+  failed: ["is-bad", "cross", "failed"],
+  stopped: ["is-idle", "stop", "stopped"],
+  interrupted: ["is-bad", "warning", "interrupted"],
+};
+const CELL: Record<CellState, Look> = {
+  off: ["is-idle", "ring", "off"],
+  operational: ["is-good", "check", "operational"],
+  "protective-stop": ["is-bad", "warning", "protective stop"],
+  fault: ["is-bad", "cross", "fault"],
+  "emergency-stop": ["is-bad", "stop", "emergency stop"],
+};
+const NODE: Record<NodeStatus, Look> = {
+  pending: ["is-idle", "ring", "not started"],
+  running: ["is-running", "play", "running"],
+  success: ["is-good", "check", "done"],
+  failure: ["is-bad", "cross", "failed"],
+  halted: ["is-idle", "halted", "halted"],
+};
+
+function Badge({ look, word }: { look: Look; word?: string }) {
+  const [tone, icon, own] = look;
+  return (
+    <span class={`badge ${tone}`}>
+      <Icon name={icon} />
+      {word ?? own}
+    </span>
+  );
+}
+
+/** The state of an operation; a success that rests on assumed facts is not called one. */
+export function RunBadge({ state, verified }: { state: RunState; verified?: boolean | null | undefined }) {
+  if (state === "succeeded" && verified === false)
+    return <Badge look={["is-waiting", "check", "finished, not verified"]} />;
+  return <Badge look={RUN[state]} />;
+}
+
+export function CellBadge({ state }: { state: CellState }) {
+  return <Badge look={CELL[state]} />;
+}
+
+/** The state of a node as a shape; its word is for screen readers. */
+export function NodeMark({ status }: { status: NodeStatus }) {
+  const [tone, icon, word] = NODE[status];
+  return (
+    <span class={`node-mark ${tone}`} title={word}>
+      <Icon name={icon} />
+      <span class="visually-hidden">{word}</span>
+    </span>
+  );
+}
+
+export function nodeWord(status: NodeStatus): string {
+  return NODE[status][2];
+}

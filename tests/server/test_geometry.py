@@ -1,0 +1,59 @@
+"""What a cell looks like, over the API: its model, where things are believed, and where tools have worked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from server.running import RunningServer, serving, wait_until
+from server.test_leases import client_of
+from skillc.services.library_files import SHIPPED
+
+PART, TABLE = "http://example.org/lab#Part-A", "http://example.org/lab#Table"
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    """Serve a yard and a bench with an arm and parts."""
+    folder = tmp_path_factory.mktemp("bench")
+    scene = (SHIPPED / "sorting" / "panda.ttl").read_text()
+    scene = scene.replace("sorting:WorkPart", "skiros:Product").replace("sorting:Box", "skiros:Container")
+    (folder / "bench.ttl").write_text(scene)
+    with serving(folder, options=("--cell", "bench.ttl")) as running:
+        wait_until(lambda: running.client.get("/cells/bench").json(), lambda it: it["state"] == "operational")
+        yield running
+
+
+def test_who_may_only_look_gets_the_model_and_the_poses(bench: RunningServer) -> None:
+    with client_of(bench, "ann", "view") as ann:
+        model, poses = ann.get("/cells/bench/model").json(), ann.get("/cells/bench/poses").json()
+        assert ann.get("/cells/bench/coverage").json() == {}, "there is no surface"
+    part = model["individuals"][PART]
+    assert part["label"] == "lab:Part-A" and model["bodies"][part["body"]]["individual"] == PART
+    assert np.allclose(model["bodies"][part["body"]]["pose"], poses[PART])
+    placed = {iri for iri, each in model["individuals"].items() if each["kind"] != "gripper"}
+    assert placed <= set(poses), "the world knows where everything is"
+    assert np.allclose([np.linalg.norm(each[3:]) for each in poses.values()], 1.0)
+
+
+def test_believed_poses_are_those_of_the_facts_also_where_they_are_wrong(bench: RunningServer) -> None:
+    before = bench.client.get("/cells/bench/poses").json()[PART]
+    move = {"type": "move", "thing": "lab:Part-A", "by_m": [0.1, 0.0, 0.0]}
+    assert bench.client.post("/cells/bench/disturbances", json=move).status_code == 200
+    assert bench.client.get("/cells/bench/poses").json()[PART] == before, "nobody has seen it"
+    edits = ["lab:Part-A skillc:atX 0.05"]
+    seen = bench.client.post("/cells/bench/world/edits", json={"edits": edits, "why": "somebody moved it"})
+    assert seen.status_code == 204, seen.text
+    assert np.allclose(bench.client.get("/cells/bench/poses").json()[PART][0], before[0] + 0.1)
+
+
+def test_a_cell_that_does_not_exist_has_no_model(bench: RunningServer) -> None:
+    assert bench.client.get("/cells/garden/model").status_code == 404
+
+
+def test_a_cell_without_shapes_has_an_empty_model(bench: RunningServer) -> None:
+    model = bench.client.get("/cells/yard/model").json()
+    assert model["individuals"] == {} and [each["name"] for each in model["bodies"]] == ["world"]
+    assert bench.client.get("/cells/yard/poses").json() == {}

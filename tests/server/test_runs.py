@@ -1,0 +1,123 @@
+"""What operations have done: their trees, explanations, signals and differences, also while they go on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from running_cells.test_operations import run_all
+from running_cells.test_reality import TABLE, make_settings
+from server.running import RunningServer, wait_until
+from server.test_recordings import CARRY
+from skillc.cells.host import open_cell
+from skillc.cells.operation import OperationRequest
+from skillc.services.reporting import SilentReporter
+from skillc.workers.answering import JobRefused
+from skillc.workers.run_jobs import ReadSignals, RunFiles, SignalRows
+from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_job
+
+
+def test_a_tree_is_shown_while_its_operation_waits_for_approval_and_its_events_have_its_numbers(
+    server: RunningServer,
+) -> None:
+    server.put_back()
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    operation = server.submit(**CARRY, approve=True)["id"]
+    server.wait_for(operation, "planned")
+    tree = wait_until(lambda: server.client.get(f"/operations/{operation}/tree").json(), lambda it: it.get("nodes"))
+    calls = {each["id"]: each for each in tree["nodes"] if each["kind"] == "call"}
+    assert [(each["skill"], each["arguments"]["crate"]) for each in calls.values()] == [
+        ("Load", "lab:crate-0"),
+        ("Unload", "lab:crate-0"),
+    ]
+    server.client.post(f"/operations/{operation}/commands", json={"type": "approve"})
+    server.wait_for(operation, "succeeded")
+    events = [each["event"] for each in server.client.get(f"/operations/{operation}/events").json()]
+    started = {each["node"]: each for each in events if each["type"] == "node-started"}
+    assert calls.keys() <= started.keys() and all(started[each]["kind"] == "call" for each in calls)
+    after = server.client.get(f"/operations/{operation}/tree").json()
+    assert after["sequence"] == len(events) and started.keys() <= {each["id"] for each in after["nodes"]}
+    assert {each["implementation"] for each in after["nodes"] if each["id"] in calls} == {"by_hand"}
+
+
+def test_a_run_is_explained_with_the_nodes_of_its_calls(server: RunningServer) -> None:
+    server.put_back()
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    operation = server.submit(**CARRY)["id"]
+    server.wait_for(operation, "succeeded")
+    why = server.client.get(f"/operations/{operation}/why", params={"question": "Load.from"}).json()
+    assert why["lines"][0].startswith("carry(crate: lab:crate-0, to: lab:Goal): finished, not verified")
+    assert any("lab:Start" in each for each in why["answer"])
+    nodes = {each["id"]: each for each in server.client.get(f"/operations/{operation}/tree").json()["nodes"]}
+    assert [(nodes[each["node"]]["skill"], each["lines"][0].split()[0]) for each in why["calls"]] == [
+        ("Load", "1"),
+        ("Unload", "2"),
+    ]
+    assert not any("skillc why" in each for each in why["lines"])
+    refused = server.client.get(f"/operations/{operation}/why", params={"question": "Fly"})
+    assert refused.status_code == 422 and "Fly" in refused.json()["detail"]
+
+
+def test_two_runs_are_compared(server: RunningServer) -> None:
+    server.put_back()
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    other = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
+    first, second = (server.submit(**each)["id"] for each in (CARRY, other))
+    server.wait_for(second, "succeeded")
+    diff = wait_until(
+        lambda: server.client.get(f"/operations/{first}/diff", params={"other": second}).json(), lambda it: "runs" in it
+    )
+    assert diff["runs"] == [first, second]
+    plans = [(each["first"], each["second"]) for each in diff["differences"] if each["part"] == "plan"]
+    load = "Load(cart: lab:Cart-1, crate: lab:crate-{})"
+    assert (load.format(0), load.format(1)) in plans
+    assert str(server.folder) not in str(diff["runs"])
+
+
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [
+        ("nothing/tree", 404),
+        ("nothing/why", 404),
+        ("nothing/signals", 404),
+        ("{it}/diff", 422),
+        ("{it}/diff?other=nothing", 404),
+        ("{it}/signals?every_s=-1", 422),
+        ("{it}/signals?every_s=nan", 422),
+        ("{it}/signals?after_s=1e99", 422),
+        ("{it}/signals?match=" + "a" * 501, 422),
+        ("{it}/why?question=" + "a" * 201, 422),
+        ("{it}/tree?depth=1", 422),
+    ],
+)
+def test_what_does_not_exist_or_is_out_of_range_is_refused(server: RunningServer, path: str, status: int) -> None:
+    operation = server.client.get("/cells/yard/operations").json()[0]["id"]
+    answer = server.client.get(f"/operations/{path.format(it=operation)}")
+    assert answer.status_code == status and answer.json()["detail"], answer.text
+
+
+def test_signals_are_read_while_they_are_recorded(tmp_path: Path) -> None:
+    settings = make_settings(tmp_path, TABLE, "kinematic")
+    recording = Path(settings.folder) / "recordings" / "first.mcap"
+    run = RunFiles("first", str(settings.journal), str(recording))
+    with open_cell(settings, SilentReporter()) as host:
+        assert isinstance(answer_run_job((ReadSignals(run, (), -1.0, 1e9, 0.0), b"")), JobRefused)
+        host.submit("first", OperationRequest(task=TABLE[1]))
+        (ended,) = run_all(host)
+        assert ended.state == "succeeded"
+    whole = read(ReadSignals(run, ("wrench", "joint"), -1.0, 1e9, 0.0))
+    assert whole.signals and all("wrench" in each.column or "joint" in each.column for each in whole.signals)
+    assert len(whole.columns) == len(whole.signals) and {len(each) for each in whole.columns} == {len(whole.time_s)}
+    assert whole.more and len(whole.time_s) == min(MAX_ROWS, MAX_VALUES // len(whole.signals))
+    rest = read(ReadSignals(run, ("joint",), whole.time_s[-1], 1e9, 0.0))
+    assert rest.time_s[0] > whole.time_s[-1] and rest.time_s[0] - whole.time_s[-1] < 2.0 * whole.every_s
+    coarse = read(ReadSignals(run, ("joint",), 1.0, 3.0, 0.1))
+    assert 18 <= len(coarse.time_s) <= 21 and not coarse.more and 1.0 < coarse.time_s[0] < coarse.time_s[-1] <= 3.0
+
+
+def read(job: ReadSignals) -> SignalRows:
+    answer = answer_run_job((job, b""))
+    assert isinstance(answer, bytes), answer
+    return msgspec.json.decode(answer, type=SignalRows)
