@@ -113,10 +113,10 @@ class CellHost:
         """
         self._condition.acknowledge(self._commit)
 
-    def submit(self, operation: str, request: OperationRequest) -> None:
+    def submit(self, operation: str, request: OperationRequest, assignment: Assignment | None = None) -> None:
         """Take an operation, with an id that no other has. RequestError or DiagnosticsError if it cannot be one.
 
-        TooManyRequests if as many as possible go on.
+        `assignment` is what it asks for, if that was read before. TooManyRequests if as many as possible go on.
         """
         if operation in self._operations or self._journal.has_operation(operation):
             raise RequestError(f"there is already an operation {operation}")
@@ -126,7 +126,7 @@ class CellHost:
         if request.continues:
             self._continue(operation, request)
         else:
-            self._submit(operation, request, Continuation(self._assign(request)))
+            self._submit(operation, request, Continuation(assignment or self._assign(request)))
 
     def request(self, operation: str, command: Command) -> Request:
         """Give a command to an operation in the next tick; RequestError if it is not one that goes on."""

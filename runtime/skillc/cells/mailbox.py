@@ -85,15 +85,13 @@ class Inbox:
         self._woken = False
         Thread(target=self._receive, args=(FrameReader(connection, CellRequest),), daemon=True).start()
 
-    def take(self, seconds: float) -> list[CellRequest]:
-        """Return the requests that wait; if there are none, wait for one, or to be woken, for up to `seconds`."""
+    def take(self, seconds: float) -> CellRequest | None:
+        """Return the next request; if there is none, wait for one, or to be woken, for up to `seconds`."""
         with self._news:
             if not (self._waiting or self._woken or self.closed):
                 self._news.wait(seconds)
             self._woken = False
-            taken = list(self._waiting)
-            self._waiting.clear()
-            return taken
+            return self._waiting.popleft() if self._waiting else None
 
     def wake(self) -> None:
         """End the wait."""

@@ -31,6 +31,8 @@ from skillc_runtime.world.state.transactions import StoreError
 
 MEMORY_BYTES = max(4 * 2**30, (physical_bytes() or 0) // 4)
 """The largest address space of a cell: a primitive that wants more fails, before the machine has none left."""
+SWITCH_S = 0.001
+"""How long a thread that reads texts may go on while the loop is ready, in s."""
 CLOSE_S = 5.0
 """How long the last reports may take to be sent, in s."""
 
@@ -49,6 +51,7 @@ class _Log:
 def main(requests: socket.socket, stops: socket.socket) -> int:
     """Serve a cell until the other end is gone or asks for the end; return the exit code."""
     limit_memory(MEMORY_BYTES)
+    sys.setswitchinterval(SWITCH_S)
     settings = FrameReader(requests, CellSettings).read()
     if settings is None:
         return 1

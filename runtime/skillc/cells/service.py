@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import assert_never
 
 import msgspec
 
+from skillc.cells.assigner import Assigned, Assigner
 from skillc.cells.host import CellHost
 from skillc.cells.mailbox import Inbox, Outbox
 from skillc.cells.messages import (
@@ -39,6 +43,8 @@ IDLE_S = 0.2
 """How long the loop waits for requests while nothing runs, in s of wall time."""
 BUSY_S = 0.02
 """How long it waits at most while a tick is not due, or while nothing but planning goes on."""
+ROUND_S = 0.005
+"""How long requests are carried out, in s of wall time, before the next tick if one is due: stops take effect there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +65,7 @@ class CellService:
     def __init__(self, host: CellHost, inbox: Inbox, outbox: Outbox) -> None:
         self._host, self._inbox, self._outbox = host, inbox, outbox
         self._pace = Pace()
+        self._assigner = Assigner(inbox.wake)
         self._requested_end = "the server of the cell is gone"
         self._ending: str | None = None
         self._pending: list[_Pending] = []
@@ -77,16 +84,27 @@ class CellService:
         idle = True
         while self._ending is None or self._host.loop.runs:
             self._outbox.rounds += 1
-            for request in self._inbox.take(self._find_wait(idle)):
-                self._take(request)
+            self._take_requests(self._find_wait(idle))
             if self._inbox.closed and self._ending is None:
                 self._end(self._requested_end)
             idle = not self._tick()
             self._report()
             self._answer()
 
+    def _take_requests(self, wait_s: float) -> None:
+        """Wait for requests for up to `wait_s`, and do what they say for ROUND_S at most; the others wait."""
+        request = self._inbox.take(wait_s)
+        end = time.monotonic() + ROUND_S
+        if (assigned := self._assigner.take()) is not None:
+            self._submit(assigned)
+        while request is not None:
+            self._take(request)
+            request = self._inbox.take(0.0) if time.monotonic() < end else None
+
     def _find_wait(self, idle: bool) -> float:
         """Return how long to wait for requests before the next round; `idle` if nothing happened in the last one."""
+        if self._assigner.ready:
+            return 0.0
         if not self._host.loop.runs:
             return IDLE_S
         return BUSY_S if idle else min(BUSY_S, self._find_remaining())
@@ -110,13 +128,33 @@ class CellService:
     def _take(self, request: CellRequest) -> None:
         """Do what is requested, as far as that is possible before the next tick."""
         message, number = request.message, request.number
-        try:
-            if self._ending is not None:
-                raise RequestError(f"the cell ends: {self._ending}")
-            if isinstance(message, Look):
+        with self._answering(number):
+            if isinstance(message, Submit) and not message.request.continues:
+                self._assigner.begin(number, message, self._host.library, self._host.world.snapshot())
+            elif isinstance(message, Look):
                 self._outbox.send(CellAnswer(number=number, result=self._look(message)))
             else:
                 self._pending.append(self._carry_out(message, number))
+
+    def _submit(self, assigned: Assigned) -> None:
+        """Submit what was read; it is read again if the library is another one by now."""
+        message, number, host = assigned.message, assigned.number, self._host
+        with self._answering(number):
+            if isinstance(assigned.result, ServiceError):
+                raise assigned.result
+            if assigned.library is host.library:
+                host.submit(message.operation, message.request, assigned.result)
+                self._pending.append(_Pending(number))
+            else:
+                self._assigner.begin(number, message, host.library, host.world.snapshot())
+
+    @contextmanager
+    def _answering(self, number: int) -> Iterator[None]:
+        """Answer a request that cannot be done with the reason; a cell that ends does nothing more."""
+        try:
+            if self._ending is not None:
+                raise RequestError(f"the cell ends: {self._ending}")
+            yield
         except (ServiceError, TooManyRequests, NotDurable) as error:
             self._outbox.send(CellAnswer(number=number, refused=_refuse(error)))
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sqlite3
 import time
+from collections import Counter
 from collections.abc import Awaitable, Callable
 from functools import partial
 from http import HTTPStatus
@@ -18,7 +20,8 @@ from starlette.types import ASGIApp
 from skillc.cells.database import DatabaseError
 from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
-from skillc.server.authentication import find_client, find_cookie, read_session
+from skillc.server.audit import AuditedRequest
+from skillc.server.authentication import find_cookie, find_known_client, read_session
 from skillc.server.context import ServerContext
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.endpoints import ENDPOINTS, PREFIX
@@ -36,8 +39,8 @@ from skillc.server.studio_page import STUDIO_FILES, StudioPage
 
 REQUESTS_PER_S, BURST = 200.0, 400.0
 """How many requests a client may make; stops are not counted."""
-FAILURES_PER_S, FAILURES = 0.2, 100.0
-"""How many requests without a valid token an address may make."""
+MAX_ONGOING = 100
+"""How many requests of a client may be answered at the same time; stops are not counted."""
 
 AUDITED_REFUSALS = (HTTPStatus.UNAUTHORIZED, HTTPStatus.FORBIDDEN, HTTPStatus.TOO_MANY_REQUESTS)
 DETAILS = {404: "there is no such path", 405: "this path does not have this method"}
@@ -50,7 +53,7 @@ class Application:
         """Serve requests that name one of `hosts`, with port if it is not the default one; only those of a proxy."""
         self._server = server
         self._requests = TokenBuckets(REQUESTS_PER_S, BURST)
-        self._failures = TokenBuckets(FAILURES_PER_S, FAILURES)
+        self._ongoing = Counter[str]()
         document = msgspec.json.encode(make_openapi(ENDPOINTS, PREFIX))
         by_path: dict[str, dict[str, ApiEndpoint]] = {}
         for each in ENDPOINTS:
@@ -77,18 +80,21 @@ class Application:
     async def _answer(self, methods: dict[str, ApiEndpoint], request: Request) -> Response:
         """Answer a request; what changes something, or is refused for who made it, is written to the audit log."""
         endpoint = methods["GET" if request.method == "HEAD" else request.method]
-        client, detail, began = None, "", time.monotonic()
+        began, noted = time.monotonic(), AuditedRequest(self._server, request)
         try:
-            client = self._authenticate(request)
-            response = await self._carry_out(endpoint, client, request)
+            noted.client = find_known_client(self._server, request)
+            self._check_allowed(endpoint, noted.client)
+            if endpoint.method != "GET" and not endpoint.unlimited:
+                noted.begin()
+            response = await self._carry_out(endpoint, noted.client, request)
         except ApiRefusal as refused:
-            response, detail = refuse(refused), refused.problem.detail
-        except DatabaseError as error:
-            response, detail = refuse(ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error))), str(error)
+            response, noted.detail = refuse(refused), refused.problem.detail
+        except (DatabaseError, sqlite3.Error) as error:
+            noted.detail = self._server.state.describe(error)
+            response = refuse(ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, noted.detail))
         if endpoint.method != "GET" or response.status_code in AUDITED_REFUSALS:
-            who, origin = client.name if client else "", request.client.host if request.client else ""
-            self._server.audit.add(who, origin, f"{request.method} {request.url.path}", response.status_code, detail)
-        self._report(endpoint, client, request, response.status_code, time.monotonic() - began)
+            noted.end(response.status_code)
+        self._report(endpoint, noted.client, request, response.status_code, time.monotonic() - began)
         return response
 
     def _report(
@@ -98,22 +104,26 @@ class Application:
         who = client.name if client else ""
         log("request", method=request.method, path=request.url.path, status=status, who=who, ms=round(seconds * 1e3, 2))
 
-    def _authenticate(self, request: Request) -> Client:
-        """Return who makes a request; ApiRefusal (401, 429) without a valid token."""
-        address = request.client.host if request.client else ""
-        client = find_client(self._server, request)
-        if client is not None:
-            return client
-        if not self._failures.take(address):
-            raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, "too many requests without a valid token")
-        raise ApiRefusal(HTTPStatus.UNAUTHORIZED, "send a token: `Authorization: Bearer TOKEN`")
-
-    async def _carry_out(self, endpoint: ApiEndpoint, client: Client, request: Request) -> Response:
+    def _check_allowed(self, endpoint: ApiEndpoint, client: Client) -> None:
+        """Raise ApiRefusal (403, 429) if a client may not make a request, or not so many."""
         if not includes(client.role, endpoint.role):
             needed = f"this needs the role `{endpoint.role}`, and `{client.name}` has `{client.role}`"
             raise ApiRefusal(HTTPStatus.FORBIDDEN, needed)
-        if not endpoint.unlimited and not self._requests.take(client.name):
+        if endpoint.unlimited:
+            return
+        if not self._requests.take(client.name):
             raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"at most {REQUESTS_PER_S:g} requests a second")
+        if self._ongoing[client.name] >= MAX_ONGOING:
+            raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"at most {MAX_ONGOING} requests at the same time")
+
+    async def _carry_out(self, endpoint: ApiEndpoint, client: Client, request: Request) -> Response:
+        self._ongoing[client.name] += not endpoint.unlimited
+        try:
+            return await self._call(endpoint, client, request)
+        finally:
+            self._ongoing[client.name] -= not endpoint.unlimited
+
+    async def _call(self, endpoint: ApiEndpoint, client: Client, request: Request) -> Response:
         query = read_query(request, endpoint.query)
         content = b"" if endpoint.body is None else await read_body(request)
         body = None if endpoint.body is None else decode_body(content, endpoint.body)

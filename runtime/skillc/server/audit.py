@@ -5,8 +5,18 @@ from __future__ import annotations
 import sqlite3
 import time
 from collections.abc import Iterator
+from dataclasses import dataclass
+from http import HTTPStatus
+from typing import TYPE_CHECKING
 
 import msgspec
+from starlette.requests import HTTPConnection
+
+from skillc.server.access.tokens import Client
+from skillc.server.log import log
+
+if TYPE_CHECKING:
+    from skillc.server.context import ServerContext
 
 TABLE = """
 CREATE TABLE audit (
@@ -15,7 +25,7 @@ CREATE TABLE audit (
     who     TEXT NOT NULL,                     -- the name of a token; empty for requests without a valid one
     origin  TEXT NOT NULL,                     -- the address of the client
     action  TEXT NOT NULL,                     -- the method and path of the request
-    status  INTEGER NOT NULL,                  -- the status of the answer
+    status  INTEGER NOT NULL,                  -- the status of the answer; 0 if it is not known
     detail  TEXT NOT NULL                      -- why it was refused; empty otherwise
 )
 """
@@ -26,7 +36,10 @@ MAX_TEXT = 500
 
 
 class AuditEntry(msgspec.Struct, frozen=True):
-    """A request that changed something, or that was refused; `wall_ns` is in ns since 1970-01-01 UTC."""
+    """A request that changed something, or that was refused; `wall_ns` is in ns since 1970-01-01 UTC.
+
+    `status` is that of the answer; 0 while it is carried out, and if it was when the server ended or its disk was full.
+    """
 
     number: int
     wall_ns: int
@@ -43,12 +56,19 @@ class AuditLog:
     def __init__(self, database: sqlite3.Connection) -> None:
         self._database = database
 
-    def add(self, who: str, origin: str, action: str, status: int, detail: str) -> None:
-        """Add an entry; characters that are no text in one line are replaced."""
+    def add(self, who: str, origin: str, action: str, status: int, detail: str) -> int:
+        """Add an entry, and return its number; characters that are no text in one line are replaced."""
         texts = [_clean(each) for each in (who, origin, action)]
         row = (time.time_ns(), *texts, status, _clean(detail))
         query = "INSERT INTO audit (wall_ns, who, origin, action, status, detail) VALUES (?, ?, ?, ?, ?, ?)"
-        self._database.execute(query, row)
+        number = self._database.execute(query, row).lastrowid
+        assert number is not None, "a row was added"
+        return number
+
+    def complete(self, number: int, status: int, detail: str) -> None:
+        """Note how the request of an entry was answered."""
+        query = "UPDATE audit SET status = ?, detail = ? WHERE number = ?"
+        self._database.execute(query, (status, _clean(detail), number))
 
     def prune(self, before_ns: int) -> int:
         """Remove the entries before a time in ns since 1970-01-01 UTC, and return how many; an entry says so."""
@@ -69,6 +89,39 @@ class AuditLog:
         columns = "number, wall_ns, who, origin, action, status, detail"
         query = f"SELECT {columns} FROM audit WHERE number > ? ORDER BY number LIMIT ?"
         return tuple(AuditEntry(*row) for row in self._database.execute(query, (after, limit)))
+
+
+@dataclass(slots=True)
+class AuditedRequest:
+    """A request, or a WebSocket, as the audit log has it: `client` made it, `detail` is why it is refused."""
+
+    server: ServerContext
+    connection: HTTPConnection
+    client: Client | None = None
+    detail: str = ""
+    _number: int | None = None
+
+    def begin(self) -> None:
+        """Note the request before anything is changed; an error of the database keeps it from being carried out."""
+        self._number = self._add(0)
+
+    def end(self, status: int) -> None:
+        """Note how it was answered. If that cannot be written, the log of the server has it: the answer stays."""
+        if self.client is None and status == HTTPStatus.TOO_MANY_REQUESTS:
+            return  # so that nobody without a token fills the disk
+        try:
+            if self._number is None:
+                self._add(status)
+            else:
+                self.server.audit.complete(self._number, status, self.detail)
+        except sqlite3.Error as error:
+            log("audit", problem=self.server.state.describe(error))
+
+    def _add(self, status: int) -> int:
+        connection, who = self.connection, self.client.name if self.client is not None else ""
+        method = connection.scope.get("method", "WebSocket")
+        origin = connection.client.host if connection.client else ""
+        return self.server.audit.add(who, origin, f"{method} {connection.url.path}", status, self.detail)
 
 
 def _clean(text: str) -> str:

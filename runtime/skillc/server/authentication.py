@@ -71,6 +71,21 @@ def find_client(server: ServerContext, connection: HTTPConnection) -> Client | N
     return server.state.tokens.find(text.strip()) or _use_code(server, text.strip())
 
 
+def find_known_client(server: ServerContext, connection: HTTPConnection) -> Client:
+    """Return who makes a request; ApiRefusal (401, 429) without a valid token or session, 403 as of `find_client`."""
+    client = find_client(server, connection)
+    if client is None:
+        raise refuse_unknown(server, connection, "send a token: `Authorization: Bearer TOKEN`")
+    return client
+
+
+def refuse_unknown(server: ServerContext, connection: HTTPConnection, why: str) -> ApiRefusal:
+    """Return how a request or a WebSocket without a valid token is refused; an address may make only so many."""
+    if not server.failures.take(connection.client.host if connection.client else ""):
+        return ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, "too many requests without a valid token")
+    return ApiRefusal(HTTPStatus.UNAUTHORIZED, why)
+
+
 def make_credential(
     server: ServerContext, connection: HTTPConnection, token: str | None
 ) -> Callable[[], Client | None]:

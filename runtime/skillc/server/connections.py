@@ -18,8 +18,8 @@ REQUEST_S = 10.0
 class BoundedConnection(H11Protocol):
     """A connection that is closed if it keeps a request waiting, or others out.
 
-    `idle` are those of this process that answer no request, the one that has been idle for longest first; `counted` are
-    all that are no WebSocket.
+    `idle` are those of this process that answer no request that has arrived as a whole, the one that has been so for
+    longest first: a request whose body does not come keeps nobody out. `counted` are all that are no WebSocket.
     """
 
     idle: ClassVar[OrderedDict[BoundedConnection, None]] = OrderedDict()
@@ -35,15 +35,16 @@ class BoundedConnection(H11Protocol):
         self.idle[self] = None
         self.counted.add(self)
         self._expect()
-        if len(self.counted) > MAX_CONNECTIONS:
+        if len(self.counted) > MAX_CONNECTIONS and self.idle:
             self.idle.popitem(last=False)[0].close()
 
     def data_received(self, data: bytes) -> None:
         """Take what the client sends."""
         super().data_received(data)
         if self.cycle is not None and not self.cycle.response_complete:
-            self.idle.pop(self, None)
             self._cancel()
+            if self.conn.their_state is not h11.SEND_BODY:
+                self.idle.pop(self, None)
         elif self.conn.their_state is h11.IDLE:
             self._expect()
 

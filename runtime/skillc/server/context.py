@@ -20,6 +20,7 @@ from skillc.server.metrics import Metrics
 from skillc.server.orders.store import Orders
 from skillc.server.orders.submitting import now_utc
 from skillc.server.problems import ApiRefusal
+from skillc.server.rates import TokenBuckets
 from skillc.server.rehearsals import Rehearsals
 from skillc.server.reports import Reports
 from skillc.server.served_library import ServedLibrary
@@ -32,6 +33,9 @@ from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
 from skillc.workers.run_reading import answer_run_job
 
+FAILURES_PER_S, FAILURES = 0.2, 100.0
+"""How many requests and WebSockets without a valid token an address may make."""
+
 
 @dataclass(frozen=True, slots=True)
 class ServerContext:
@@ -43,6 +47,7 @@ class ServerContext:
     libraries: tuple[ServedLibrary, ...] = ()
     leases: Leases = field(default_factory=Leases)
     codes: LoginCodes = field(default_factory=LoginCodes)
+    failures: TokenBuckets = field(default_factory=lambda: TokenBuckets(FAILURES_PER_S, FAILURES))
     workers: Workers = field(default_factory=Workers)
     jobs: SimulationJobs = field(init=False)
     run_readers: Workers = field(default_factory=partial(Workers, answer_run_job))
@@ -85,6 +90,14 @@ class ServerContext:
             if (operation := cell.operations.get(name) or _find_ended(cell, name)) is not None:
                 return cell, operation
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no operation `{name}`")
+
+    def has_operation(self, name: str) -> bool:
+        """Whether an operation was submitted; one that was interrupted, too, before its cell has started again."""
+        try:
+            self.find_operation(name)
+        except ApiRefusal as refused:
+            return refused.status is not HTTPStatus.NOT_FOUND
+        return True
 
 
 def open_journal(cell: CellSupervisor) -> JournalReader:

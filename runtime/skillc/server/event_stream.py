@@ -15,7 +15,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from skillc.cells.database import DatabaseError
 from skillc.cells.messages import Happened, StatusChanged
 from skillc.server.access.tokens import Client
-from skillc.server.authentication import make_credential
+from skillc.server.audit import AuditedRequest
+from skillc.server.authentication import make_credential, refuse_unknown
 from skillc.server.context import ServerContext, open_journal
 from skillc.server.hub import Listener, News
 from skillc.server.problems import ApiRefusal
@@ -25,6 +26,7 @@ from skillc_runtime.recording.envelope import Envelope
 
 REFUSED, ENDED, BROKEN, TRY_AGAIN = 1008, 1000, 1011, 1013
 CLOSE_CODES = {HTTPStatus.SERVICE_UNAVAILABLE: BROKEN, HTTPStatus.TOO_MANY_REQUESTS: TRY_AGAIN}
+INVALID_TOKEN = "the token is not valid"
 HELLO_S = 10.0
 """How long a client may take to send its first message, in s."""
 SILENCE_S = 30.0
@@ -51,7 +53,7 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=Hello)
             stream = ClientSocket(server, socket, make_credential(server, socket, hello.token))
-            name = stream.check_client().name
+            name = stream.introduce().name
         with server.watchers.watching(name), server.hub.listening() as listener:
             if hello.operation is None:
                 await stream.send_states(listener)
@@ -75,11 +77,21 @@ class ClientSocket:
     socket: WebSocket
     find_client: Callable[[], Client | None]
 
+    def introduce(self) -> Client:
+        """Return whose WebSocket begins; ApiRefusal (401, 429) without a valid token, which the audit log notes."""
+        if (client := self.find_client()) is not None:
+            return client
+        refused = refuse_unknown(self.server, self.socket, INVALID_TOKEN)
+        noted = AuditedRequest(self.server, self.socket)
+        noted.detail = refused.problem.detail
+        noted.end(refused.status)
+        raise refused
+
     def check_client(self) -> Client:
         """Return whose WebSocket it is; ApiRefusal (401) if its token or session is not valid, or no longer."""
         client = self.find_client()
         if client is None:
-            raise ApiRefusal(HTTPStatus.UNAUTHORIZED, "the token is not valid")
+            raise ApiRefusal(HTTPStatus.UNAUTHORIZED, INVALID_TOKEN)
         return client
 
     async def send_states(self, listener: Listener) -> None:

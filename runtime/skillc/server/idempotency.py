@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import sqlite3
 import time
-from collections.abc import Set
+from collections.abc import AsyncIterator, Set
+from contextlib import asynccontextmanager
 from hashlib import sha256
 
 from skillc.cells.database import transaction
@@ -30,6 +32,20 @@ class RequestKeys:
 
     def __init__(self, database: sqlite3.Connection) -> None:
         self._database = database
+        self._waiting: dict[tuple[str, str], tuple[asyncio.Lock, int]] = {}
+
+    @asynccontextmanager
+    async def alone(self, who: str, key: str) -> AsyncIterator[None]:
+        """Let requests with the same key wait for each other, in a `with` statement."""
+        lock, count = self._waiting.get((who, key), (asyncio.Lock(), 0))
+        self._waiting[who, key] = lock, count + 1
+        try:
+            async with lock:  # wait ends: with the answer to the request before, which the cell or its end gives
+                yield
+        finally:
+            lock, count = self._waiting.pop((who, key))
+            if count > 1:
+                self._waiting[who, key] = lock, count - 1
 
     def claim(self, who: str, key: str, content: bytes, operation: str) -> str:
         """Return the operation for a request: `operation` if its key is new, else that of the first request with it.

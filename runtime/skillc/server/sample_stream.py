@@ -60,7 +60,7 @@ async def stream_samples(server: ServerContext, sources: dict[str, SampleSource]
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=SampleHello)
             stream = ClientSocket(server, socket, make_credential(server, socket, hello.token))
-            name = stream.check_client().name
+            name = stream.introduce().name
         cell = server.find_cell(hello.cell)
         source = sources.setdefault(hello.cell, SampleSource())
         with server.watchers.watching(name):

@@ -9,7 +9,7 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc.cells.database import Schema, open_for_writing
+from skillc.cells.database import DatabaseError, Schema, describe_error, open_for_writing
 from skillc.server.access.sessions import TABLE as SESSIONS
 from skillc.server.access.sessions import Sessions
 from skillc.server.access.tokens import TABLE as TOKENS
@@ -52,6 +52,10 @@ class ServerState:
     folder: Path
     database: sqlite3.Connection
     token_file: Path
+
+    def describe(self, error: DatabaseError | sqlite3.Error) -> str:
+        """Return an error of a database as a sentence that says what to do."""
+        return str(error if isinstance(error, DatabaseError) else describe_error(self.folder / DATABASE, error))
 
     @property
     def tokens(self) -> Tokens:

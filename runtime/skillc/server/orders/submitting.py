@@ -16,7 +16,6 @@ from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes
 from skillc.server.log import log
 from skillc.server.orders.order import Due, Order, find_due
-from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ async def submit_due(server: ServerContext, cell: CellSupervisor, now: datetime)
 
 async def _submit(server: ServerContext, cell: CellSupervisor, order: Order, due: Due) -> None:
     operation = f"{order.id}-{due.number + 1}"
-    if _exists(server, operation):
+    if server.has_operation(operation):
         server.orders.pass_on(order, due.number, operation, "")
     elif due.is_missed and order.order.missed == "skip":
         _refuse(server, order, due, f"missed: {order.reason or 'the server was off'}")
@@ -103,12 +102,3 @@ def _find_obstacle(server: ServerContext, cell: CellSupervisor, order: Order) ->
     except LeaseHeld as error:
         return str(error)
     return None
-
-
-def _exists(server: ServerContext, operation: str) -> bool:
-    """Whether an operation was submitted; one that was interrupted, too, before its cell has started again."""
-    try:
-        server.find_operation(operation)
-    except ApiRefusal as refused:
-        return refused.problem.status != HTTPStatus.NOT_FOUND
-    return True

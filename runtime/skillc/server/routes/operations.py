@@ -66,16 +66,14 @@ async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:
 async def submit_operation(call: ApiCall) -> OperationStatus:
     cell = call.server.find_cell(call.path["cell"])
     check_lease(call, cell)
-    request: OperationRequest = structs.replace(call.body, owner=call.client.name)
-    operation = make_run_id(request.task or "operation")
-    content = b"\0".join((cell.settings.name.encode(), call.content))
-    if call.key is not None and (first := _claim(call, content, operation)) != operation:
-        return call.server.find_operation(first)[1]
-    answer = await cell.request(Submit(operation=operation, request=request))
-    if isinstance(answer, Refused) and call.key is not None and answer.kind != "off":
-        call.server.keys.release(call.client.name, call.key)
-    raise_refused(answer)
-    return call.server.find_operation(operation)[1]
+    operation = make_run_id(call.body.task or "operation")
+    if call.key is None:
+        return await _submit(call, cell, operation)
+    async with call.server.keys.alone(call.client.name, call.key):
+        first = _claim(call, b"\0".join((cell.settings.name.encode(), call.content)), operation)
+        if call.server.has_operation(first):
+            return call.server.find_operation(first)[1]
+        return await _submit(call, cell, first)  # also one with a key that no cell has heard of, because one was off
 
 
 async def show_operation(call: ApiCall) -> OperationStatus:
@@ -99,6 +97,15 @@ async def list_events(call: ApiCall) -> tuple[Envelope, ...]:
     cell, operation = call.server.find_operation(call.path["operation"])
     with closing(open_journal(cell)) as reader:
         return reader.envelopes(operation.id, call.query.after, call.query.limit)
+
+
+async def _submit(call: ApiCall, cell: CellSupervisor, operation: str) -> OperationStatus:
+    request: OperationRequest = structs.replace(call.body, owner=call.client.name)
+    answer = await cell.request(Submit(operation=operation, request=request))
+    if isinstance(answer, Refused) and call.key is not None and answer.kind != "off":
+        call.server.keys.release(call.client.name, call.key)
+    raise_refused(answer)
+    return call.server.find_operation(operation)[1]
 
 
 def _claim(call: ApiCall, content: bytes, operation: str) -> str:
