@@ -64,6 +64,13 @@ class ServerContext:
         """Return the cells that run a library."""
         return tuple(each for each in self.cells.values() if each.settings.library == library.path)
 
+    def find_library(self, name: str) -> ServedLibrary:
+        """Return a library; ApiRefusal (404) if there is none of this name."""
+        found = {each.checked.name: each for each in reversed(self.libraries)}
+        if name not in found:
+            raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no library `{name}`; there is {_join(found)}")
+        return found[name]
+
     def find_cell(self, name: str) -> CellSupervisor:
         """Return a cell; ApiRefusal (404) if there is none of this name."""
         if name not in self.cells:
