@@ -30,6 +30,9 @@ from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
 from skillc.workers.run_reading import answer_run_job
 
+MAX_OF_CLIENT, MAX_SERVERS = 4, 8
+"""How many language servers a client has, and how many there are; each is a process."""
+
 
 @dataclass(frozen=True, slots=True)
 class ServerContext:
@@ -46,6 +49,9 @@ class ServerContext:
     rehearsals: Rehearsals = field(init=False)
     trials: TrialRuns = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
+    language_servers: Watchers = field(
+        default_factory=partial(Watchers, "language servers", MAX_OF_CLIENT, MAX_SERVERS)
+    )
     clock: Callable[[], datetime] = now_utc
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)

@@ -22,6 +22,7 @@ from skillc.server.hub import EventHub, News
 from skillc.server.listening import Listening
 from skillc.server.log import log
 from skillc.server.orders.submitting import keep_submitting
+from skillc.server.requests import MAX_BODY_BYTES
 from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import ServiceError
@@ -112,7 +113,7 @@ def _configure(application: ASGIApp, listening: Listening) -> uvicorn.Config:
         timeout_keep_alive=KEEP_ALIVE_S,
         timeout_graceful_shutdown=GRACE_S,
         ws="websockets-sansio",
-        ws_max_size=2**16,
+        ws_max_size=2 * MAX_BODY_BYTES,
         ssl_certfile=certificate.chain if certificate else None,
         ssl_keyfile=certificate.key if certificate else None,
     )
