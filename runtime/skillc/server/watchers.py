@@ -1,4 +1,4 @@
-"""Bounds how many watch by WebSocket, or use anything else: each token, all together, and those that have not yet said who they are."""
+"""Bounds how many watch: each token, all together, and those that have not yet said who they are."""
 
 from __future__ import annotations
 

@@ -112,12 +112,10 @@ def _prepare(message: dict[str, Any], uris: TextUris) -> Any:
     method = message.get("method", "")
     if method == "initialize":
         params = message.get("params")
-        about = (
-            {key: value for key, value in params.items() if key == "capabilities"} if isinstance(params, dict) else {}
-        )
+        capabilities = params.get("capabilities", {}) if isinstance(params, dict) else {}
         folders = [{"uri": uris.root, "name": uris.library.checked.name}]
         opened = {"processId": None, "rootUri": uris.root, "workspaceFolders": folders}
-        return {**message, "params": {"capabilities": {}, **about, **opened}}
+        return {**message, "params": {"capabilities": capabilities, **opened}}
     if method and not (isinstance(method, str) and (method.startswith("textDocument/") or method in OTHER_METHODS)):
         raise NotImplementedError(f"pages do not have the method {str(method)[:100]}")
     return uris.from_page(message)

@@ -35,7 +35,7 @@ class TextUris:
         return Path(self.library.checked.basis.folders[0]).as_uri()
 
     def from_page(self, message: Any) -> Any:
-        """Return a message of a page with the addresses of files; UnknownText for any that is no text of the library."""
+        """Return a message of a page with the addresses of files; UnknownText for what is no text of the library."""
         return _replace(message, self._find_file)
 
     def to_page(self, message: Any) -> Any:
