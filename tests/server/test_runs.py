@@ -14,7 +14,7 @@ from server.test_recordings import CARRY
 from skillc.cells.host import open_cell
 from skillc.cells.operation import OperationRequest
 from skillc.services.reporting import SilentReporter
-from skillc.workers.answering import JobRefused
+from skillc.workers.jobs import JobRefused
 from skillc.workers.run_jobs import ReadSignals, RunFiles, SignalRows
 from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_job
 
@@ -66,9 +66,7 @@ def test_two_runs_are_compared(server: RunningServer) -> None:
     other = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
     first, second = (server.submit(**each)["id"] for each in (CARRY, other))
     server.wait_for(second, "succeeded")
-    diff = wait_until(
-        lambda: server.client.get(f"/operations/{first}/diff", params={"other": second}).json(), lambda it: "runs" in it
-    )
+    diff = server.client.get(f"/operations/{first}/diff", params={"other": second}).json()
     assert diff["runs"] == [first, second]
     plans = [(each["first"], each["second"]) for each in diff["differences"] if each["part"] == "plan"]
     load = "Load(cart: lab:Cart-1, crate: lab:crate-{})"
@@ -93,7 +91,8 @@ def test_two_runs_are_compared(server: RunningServer) -> None:
     ],
 )
 def test_what_does_not_exist_or_is_out_of_range_is_refused(server: RunningServer, path: str, status: int) -> None:
-    operation = server.client.get("/cells/yard/operations").json()[0]["id"]
+    operation = server.submit(**CARRY, approve=True)["id"]
+    server.client.post(f"/operations/{operation}/stop", json={})
     answer = server.client.get(f"/operations/{path.format(it=operation)}")
     assert answer.status_code == status and answer.json()["detail"], answer.text
 

@@ -85,6 +85,7 @@ async def _serve(
     going += [asyncio.create_task(each.keep_up(context.find_users(each))) for each in served.libraries]
     going += [asyncio.create_task(keep_submitting(context, each)) for each in cells.values()]
     if on_ready is not None:
+        context.run_readers.warm()
         going.append(asyncio.create_task(asyncio.to_thread(on_ready, context, address)))
     try:
         with announced(state, address):

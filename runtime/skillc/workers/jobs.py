@@ -106,6 +106,12 @@ Job: TypeAlias = (
 )
 
 
+class JobRefused(msgspec.Struct, frozen=True):
+    """Why a job cannot be done."""
+
+    why: str
+
+
 class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
     """A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
 
