@@ -120,3 +120,29 @@ def read(job: ReadSignals) -> SignalRows:
     answer = answer_run_job((job, b""))
     assert isinstance(answer, bytes), answer
     return msgspec.json.decode(answer, type=SignalRows)
+
+
+def test_breakpoints_are_set_while_an_operation_runs(server: RunningServer) -> None:
+    server.put_back()
+    operation = server.submit(task="carry_two", breakpoints=["Load"])["id"]
+    server.wait_for(operation, "paused")
+    commands = f"/operations/{operation}/commands"
+
+    def set_breakpoints(*breakpoints: str) -> int:
+        body = {"type": "set-breakpoints", "breakpoints": breakpoints}
+        return server.client.post(commands, json=body).status_code
+
+    assert set_breakpoints("Fly") == set_breakpoints("yard.skill:1") == set_breakpoints("/etc/passwd:1") == 409
+    assert set_breakpoints(*(["Load"] * 101)) == set_breakpoints("a" * 301) == 422
+    line = 1 + (server.folder / "yard.skill").read_text().splitlines().index(
+        "        Unload(cart: lab:Cart-1, crate: lab:crate-0, to: lab:Goal)"
+    )
+    assert set_breakpoints(f"yard.skill:{line}") == 200
+    server.client.post(commands, json={"type": "resume"})
+    paused = wait_until(
+        lambda: server.client.get(f"/operations/{operation}").json(),
+        lambda it: it["state"] == "paused" and "Load" not in it["reason"],
+    )
+    assert paused["reason"] == f"breakpoint at yard.skill:{line}"
+    server.client.post(f"/operations/{operation}/stop", json={})
+    server.wait_for(operation, "stopped")
