@@ -129,10 +129,7 @@ class CellHost:
             self._submit(operation, request, Continuation(self._assign(request)))
 
     def request(self, operation: str, command: Command) -> Request:
-        """Give a command to an operation in the next tick.
-
-        RequestError if it is not one that goes on, or for a breakpoint at which nothing could ever pause.
-        """
+        """Give a command to an operation in the next tick; RequestError if it has ended, or for a wrong breakpoint."""
         if operation not in self._operations:
             raise RequestError(f"no operation {operation} goes on in {self.settings.name}")
         if isinstance(command, SetBreakpoints):
