@@ -12,6 +12,7 @@ from typing import Literal
 import msgspec
 from msgspec import structs
 
+from skillc.services.recordings import RECORDING
 from skillc.workers.jobs import RehearsalRequest, Rehearse
 from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs, Workers
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -27,8 +28,8 @@ FILM = "film.mp4"
 class Rehearsal(msgspec.Struct, frozen=True, kw_only=True):
     """A rehearsal of a request in a twin of a cell, as the cell was when it was requested.
 
-    `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film` is
-    whether there is one.
+    `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film`
+    and `recording` are whether there is one.
     """
 
     id: str
@@ -38,6 +39,7 @@ class Rehearsal(msgspec.Struct, frozen=True, kw_only=True):
     reason: str = ""
     result: TaskResult | None = None
     film: bool = False
+    recording: bool = False
 
 
 @dataclass(slots=True)
@@ -80,6 +82,11 @@ class Rehearsals:
         found = self._known.get(name)
         return self.folder / name / FILM if found is not None and found.film else None
 
+    def find_recording(self, name: str) -> Path | None:
+        """Return the recording of a rehearsal; None if there is none."""
+        found = self._known.get(name)
+        return self.folder / name / RECORDING if found is not None and found.recording else None
+
     def remove(self, name: str) -> None:
         """End and forget a rehearsal."""
         self._known.pop(name, None)
@@ -98,7 +105,7 @@ class Rehearsals:
 
     async def _rehearse(self, begun: Rehearsal, twin: bytes) -> None:
         folder = self.folder / begun.id
-        job = Rehearse(begun.request, str(folder) if begun.request.film else None)
+        job = Rehearse(begun.request, str(folder))
         result, reason = None, ""
         try:
             result = await self._workers.answer(job, twin, TaskResult, LIMIT_S)
@@ -107,8 +114,9 @@ class Rehearsals:
         except asyncio.CancelledError:
             self._clear(begun.id)
             raise
-        film = (folder / FILM).exists()
-        self._known[begun.id] = structs.replace(begun, state="ended", result=result, reason=reason, film=film)
+        film, recording = (folder / FILM).exists(), (folder / RECORDING).exists()
+        ended = structs.replace(begun, state="ended", result=result, reason=reason, film=film, recording=recording)
+        self._known[begun.id] = ended
         del self._tasks[begun.id]
 
     def _clear(self, name: str) -> None:
