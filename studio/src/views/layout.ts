@@ -62,5 +62,5 @@ export function nextTheme(): void {
 export function focusPanel(name: PanelName): void {
   if (maximised.value !== null && maximised.value !== name) maximised.value = name;
   const panel = document.querySelector<HTMLElement>(`[data-panel="${name}"]`);
-  (panel?.querySelector<HTMLElement>("[data-focus]") ?? panel)?.focus();
+  (panel?.querySelector<HTMLElement>("[data-focus]") ?? panel)?.focus({ preventScroll: true });
 }
