@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import webbrowser
 from collections.abc import Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
@@ -132,3 +133,20 @@ def test_what_does_not_exist_is_refused(
     monkeypatch.chdir(tmp_path)
     with pytest.raises(RequestError, match=message):
         choose_studio(what, ())
+
+
+@pytest.mark.parametrize("display", ["", ":0"])
+def test_a_browser_is_opened_where_it_can_be_seen(
+    yard: Path, started: tuple[subprocess.Popen[str], str], monkeypatch: pytest.MonkeyPatch, display: str
+) -> None:
+    opened = list[str]()
+    monkeypatch.setattr(webbrowser, "open", lambda address: opened.append(address) is None)
+    for name in ("WAYLAND_DISPLAY", "BROWSER", "DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    if display:
+        monkeypatch.setenv("DISPLAY", display)
+    monkeypatch.chdir(yard)
+    done = CliRunner().invoke(skillc, ["studio", "--state", "served", "."])
+    assert done.exit_code == 0, done.output
+    (address,) = opened if display else done.output.split()
+    assert address.startswith(started[1].partition("#")[0]) and (display == "") == bool(done.output)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 import socket
-import sys
 import webbrowser
 from collections.abc import Callable
 from pathlib import Path
@@ -26,8 +25,6 @@ if TYPE_CHECKING:
     from skillc.services.backends import BackendName
     from skillc.services.studio_choice import StudioChoice
 
-DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
-"""The variables of the environment of which a browser with windows needs one."""
 Show: TypeAlias = Callable[[str], None]
 EXAMPLES = """
 skillc studio clean_whiteboard
@@ -139,7 +136,9 @@ def _make_address(address: str, code: str, choice: StudioChoice, cell: str) -> s
 
 def _open_browser(address: str) -> None:
     """Open the address in a browser; print it if there is none, or only one for the terminal."""
-    if not (sys.platform == "darwin" or any(map(os.environ.get, DISPLAYS))) or not webbrowser.open(address):
+    from skillc_runtime.platforms.display import has_display
+
+    if not (has_display() or "BROWSER" in os.environ) or not webbrowser.open(address):
         _print_address(address)
 
 
