@@ -14,7 +14,7 @@ from skillc.server.studio_page import STUDIO_FILES
 playwright_api = pytest.importorskip("playwright.sync_api", reason="the tests of the studio need playwright")
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright  # noqa: E402
 
-from studio.opening import EXPECTED_ERRORS, open_studio  # noqa: E402
+from studio.opening import EXPECTED_ERRORS, open_studio, warm_up  # noqa: E402
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FLAGS = (
@@ -49,7 +49,7 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture(scope="package")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
     with serving(tmp_path_factory.mktemp("studio")) as running:
-        running.client.get("/cells/yard/library").raise_for_status()  # the first answer of a worker takes its time
+        warm_up(running)
         yield running
 
 

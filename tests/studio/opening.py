@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+
 from playwright.sync_api import Page
 
 from server.running import RunningServer
@@ -33,10 +36,19 @@ def origin_of(server: RunningServer) -> str:
 
 def open_studio(page: Page, server: RunningServer) -> None:
     """Open the page with a code, and wait until the tasks of the cell are there."""
-    server.client.get("/cells/yard/library").raise_for_status()  # The first answer of a worker takes its time.
+    warm_up(server)
     page.goto(f"{origin_of(server)}/#code={make_code(server)}")
     page.locator(".workspace").wait_for()
     page.get_by_text("operational").wait_for()
+
+
+def warm_up(server: RunningServer) -> None:
+    """Let the workers of a server start, which takes them several seconds."""
+    get = partial(server.client.get, timeout=120.0)
+    with ThreadPoolExecutor() as together:
+        asked = [together.submit(get, f"/cells/yard/{each}") for each in ("library", "world")]
+        for each in asked:
+            each.result().raise_for_status()
 
 
 def choose(page: Page, task: str) -> None:

@@ -14,7 +14,6 @@ import {
 } from "../state/source";
 import type { Editor } from "../editor/editor";
 import { isWritable } from "../state/source";
-import { theme } from "./layout";
 
 export function SourceView() {
   const name = cell.value?.library;
@@ -35,7 +34,7 @@ export function SourceView() {
           {files.value.length === 0 ? "The files of this library cannot be read." : "Choose a file."}
         </div>
       ) : (
-        <EditorBox key={`${source.value.path} ${source.value.hash} ${theme.value}`} />
+        <EditorBox key={`${source.value.path} ${source.value.hash}`} />
       )}
     </div>
   );

@@ -1,5 +1,5 @@
 // How the page is divided: sizes of the panels, the one that is enlarged, the tabs, and the theme; kept in the browser.
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 
 export const PANELS = ["run", "tree", "details", "scene", "signals"] as const;
 export type PanelName = (typeof PANELS)[number];
@@ -48,6 +48,15 @@ effect(() => {
   if (theme.value === "system") delete document.documentElement.dataset["theme"];
   else document.documentElement.dataset["theme"] = theme.value;
 });
+
+const prefersDark = matchMedia("(prefers-color-scheme: dark)");
+const systemIsDark = signal(prefersDark.matches);
+prefersDark.addEventListener("change", (event) => (systemIsDark.value = event.matches));
+
+/** Whether the page is dark now, for what is drawn and knows no variables. */
+export const isDark = computed(() =>
+  theme.value === "system" ? systemIsDark.value : theme.value === "dark",
+);
 
 export function toggleMaximised(name: PanelName): void {
   maximised.value = maximised.value === name ? null : name;
