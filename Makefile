@@ -20,7 +20,7 @@ CELLS := 300
 KILLS := 200
 REQUESTS := 500
 
-.PHONY: help demo test check reasoners sim wheel fuzz soak peers bench editors studio docs pictures accept lock clean
+.PHONY: help demo test check reasoners sim browser wheel fuzz soak peers bench editors studio docs pictures accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -45,6 +45,9 @@ reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with t
 
 sim: .venv/.dev  ## run whole tasks in simulation
 	$(BIN)/pytest -m sim -n 2
+
+browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
+	$(BIN)/pytest -m browser tests/studio
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel

@@ -1,11 +1,12 @@
 // The page of skillc studio.
 import { render } from "preact";
-import { useEffect } from "preact/hooks";
+import { useLayoutEffect } from "preact/hooks";
 import "uplot/dist/uPlot.min.css";
 import "./design/tokens.css";
 import "./design/base.css";
 import "./design/layout.css";
 import "./design/views.css";
+import { LOGGED_OUT } from "./api/client";
 import { followServer } from "./state/live";
 import { measureSamples } from "./state/signals";
 import { session } from "./state/studio";
@@ -26,7 +27,7 @@ function App() {
 }
 
 function LoggedIn() {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const ends = [measureSamples(), followServer()];
     document.addEventListener("keydown", handleKey);
     return () => {
@@ -39,5 +40,6 @@ function LoggedIn() {
 
 const root = document.getElementById("app");
 if (root !== null) render(<App />, root);
+window.addEventListener(LOGGED_OUT, () => (session.value = null));
 window.addEventListener("hashchange", () => void findSession());
 void findSession();

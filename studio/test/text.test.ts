@@ -17,7 +17,7 @@ test.each([
   [iri("A"), "lab:A"],
   [{ type: "quantity", value: 0.1 + 0.2, unit: "m" } as const, "0.3 m"],
   [{ type: "quantity", value: 2 } as const, "2"],
-  [{ type: "vector", components: [0, -0, 1], unit: "N" } as const, "(0, 0, 1) N"],
+  [{ type: "vector", components: [2e-16, -0, 1], unit: "N" } as const, "(0, 0, 1) N"],
   [{ type: "list", values: [1, 2, 3, 4] } as const, "4 values"],
   [{ type: "not-finite", text: "inf N" } as const, "inf N"],
 ])("the value %j is %s", (value, text) => {

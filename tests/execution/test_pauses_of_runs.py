@@ -105,6 +105,18 @@ def test_steps_go_to_the_next_call_over_a_call_or_out_of_one(steps: list[Command
     assert watched.until_end() == "succeeded"
 
 
+def test_breakpoints_are_changed_while_it_runs_or_is_paused() -> None:
+    cell, watched = stepping()
+    assert watched.request(commands.SetBreakpoints(("Act",))) is None
+    assert watched.request(commands.Resume()) is None
+    watched.until("paused")
+    assert (watched.run.reason, "".join(cell.starts)) == ("breakpoint at Act", "a")
+    watched.loop.request(watched.run, commands.Resume())
+    watched.loop.request(watched.run, commands.SetBreakpoints(()))
+    assert watched.until_end() == "succeeded"
+    assert watched.request(commands.SetBreakpoints(("Act",))) is not None, "it has ended"
+
+
 def test_a_skill_that_is_never_paused_is_finished_first_visibly() -> None:
     cell, watched = pausing()
     assert watched.run.reason == "requested; Careful must be finished or at its next step first"

@@ -10,6 +10,8 @@ import pytest
 
 from server.running import RunningServer, wait_until
 from server.test_client_commands import here, type_in  # noqa: F401  a fixture
+from skillc_runtime.recording.events import TaskEnded
+from skillc_runtime.recording.mcap.reader import read_recording
 
 GOAL = "lab:Goal contain lab:crate-2"
 
@@ -37,6 +39,18 @@ def test_a_goal_is_rehearsed_and_nothing_is_done(server: RunningServer) -> None:
     assert server.client.get(f"/rehearsals/{done['id']}/film").status_code == 404
     assert server.client.delete(f"/rehearsals/{done['id']}").status_code == 204
     assert server.client.get(f"/rehearsals/{done['id']}").status_code == 404
+
+
+def test_a_rehearsal_is_recorded_to_be_played(server: RunningServer, tmp_path: Path) -> None:
+    server.put_back()
+    done = rehearse(server, goal=GOAL, record=True)
+    assert done["recording"] and not done["film"]
+    answer = server.client.get(f"/rehearsals/{done['id']}/recording")
+    (tmp_path / "twin.mcap").write_bytes(answer.content)
+    recorded = read_recording(tmp_path / "twin.mcap")
+    assert not recorded.note and isinstance(recorded.envelopes[-1].event, TaskEnded)
+    without = rehearse(server, goal=GOAL)
+    assert not without["recording"] and server.client.get(f"/rehearsals/{without['id']}/recording").status_code == 404
 
 
 def test_what_cannot_be_rehearsed_is_refused_with_the_reason(server: RunningServer) -> None:

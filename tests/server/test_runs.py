@@ -14,7 +14,7 @@ from server.test_recordings import CARRY
 from skillc.cells.host import open_cell
 from skillc.cells.operation import OperationRequest
 from skillc.services.reporting import SilentReporter
-from skillc.workers.answering import JobRefused
+from skillc.workers.jobs import JobRefused
 from skillc.workers.run_jobs import ReadSignals, RunFiles, SignalRows
 from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_job
 
@@ -66,9 +66,7 @@ def test_two_runs_are_compared(server: RunningServer) -> None:
     other = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
     first, second = (server.submit(**each)["id"] for each in (CARRY, other))
     server.wait_for(second, "succeeded")
-    diff = wait_until(
-        lambda: server.client.get(f"/operations/{first}/diff", params={"other": second}).json(), lambda it: "runs" in it
-    )
+    diff = server.client.get(f"/operations/{first}/diff", params={"other": second}).json()
     assert diff["runs"] == [first, second]
     plans = [(each["first"], each["second"]) for each in diff["differences"] if each["part"] == "plan"]
     load = "Load(cart: lab:Cart-1, crate: lab:crate-{})"
@@ -93,7 +91,8 @@ def test_two_runs_are_compared(server: RunningServer) -> None:
     ],
 )
 def test_what_does_not_exist_or_is_out_of_range_is_refused(server: RunningServer, path: str, status: int) -> None:
-    operation = server.client.get("/cells/yard/operations").json()[0]["id"]
+    operation = server.submit(**CARRY, approve=True)["id"]
+    server.client.post(f"/operations/{operation}/stop", json={})
     answer = server.client.get(f"/operations/{path.format(it=operation)}")
     assert answer.status_code == status and answer.json()["detail"], answer.text
 
@@ -121,3 +120,29 @@ def read(job: ReadSignals) -> SignalRows:
     answer = answer_run_job((job, b""))
     assert isinstance(answer, bytes), answer
     return msgspec.json.decode(answer, type=SignalRows)
+
+
+def test_breakpoints_are_set_while_an_operation_runs(server: RunningServer) -> None:
+    server.put_back()
+    operation = server.submit(task="carry_two", breakpoints=["Load"])["id"]
+    server.wait_for(operation, "paused")
+    commands = f"/operations/{operation}/commands"
+
+    def set_breakpoints(*breakpoints: str) -> int:
+        body = {"type": "set-breakpoints", "breakpoints": breakpoints}
+        return server.client.post(commands, json=body).status_code
+
+    assert set_breakpoints("Fly") == set_breakpoints("yard.skill:1") == set_breakpoints("/etc/passwd:1") == 409
+    assert set_breakpoints(*(["Load"] * 101)) == set_breakpoints("a" * 301) == 422
+    line = 1 + (server.folder / "yard.skill").read_text().splitlines().index(
+        "        Unload(cart: lab:Cart-1, crate: lab:crate-0, to: lab:Goal)"
+    )
+    assert set_breakpoints(f"yard.skill:{line}") == 200
+    server.client.post(commands, json={"type": "resume"})
+    paused = wait_until(
+        lambda: server.client.get(f"/operations/{operation}").json(),
+        lambda it: it["state"] == "paused" and "Load" not in it["reason"],
+    )
+    assert paused["reason"] == f"breakpoint at yard.skill:{line}"
+    server.client.post(f"/operations/{operation}/stop", json={})
+    server.wait_for(operation, "stopped")

@@ -53,8 +53,8 @@ def test_the_same_request_twice_is_one_operation(server: RunningServer) -> None:
 DOCUMENT = make_openapi(ENDPOINTS, PREFIX)
 OPERATIONS = [(method.upper(), path) for path, methods in DOCUMENT["paths"].items() for method in methods]
 OPEN_PATHS = {f"{PREFIX}/health", f"{PREFIX}/openapi.json"}
-SOCKETS = {f"{PREFIX}/events", f"{PREFIX}/samples"}
-"""What the document cannot describe; test_attacks.py, test_samples.py and test_sessions.py have who may open them."""
+SOCKETS = {f"{PREFIX}/events", f"{PREFIX}/samples", f"{PREFIX}/lsp"}
+"""What the document cannot describe; the tests of attacks, samples, sessions and languages have who may open them."""
 OUTSIDE = {("GET", "/metrics"), ("GET", "/"), ("GET", "/assets/{path:path}")}
 """What is not below the prefix; test_network.py and test_studio_page.py have who may read it."""
 

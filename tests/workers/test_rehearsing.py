@@ -38,7 +38,7 @@ def test_a_twin_holds_what_the_gripper_reports(tmp_path: Path, backend: BackendN
         known = decode_snapshot(host.take_twin())
         before = host.world.sequence
         folder = tmp_path / "rehearsal"
-        done = rehearse(Rehearse(RehearsalRequest(task=TABLE[1]), str(folder) if film else None), known)
+        done = rehearse(Rehearse(RehearsalRequest(task=TABLE[1], film=film), str(folder)), known)
         assert (done.status, [each.skill for each in done.plan]) == ("succeeded", ["Wipe"]), done.failure
         assert host.world.sequence == before and (folder / "film.mp4").exists() == film
 

@@ -44,10 +44,10 @@ from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import prepare_after
 from skillc_runtime.execution.task_state import ENDS
-from skillc_runtime.execution.tree.gate import Gate
+from skillc_runtime.execution.tree.gate import Gate, format_breakpoint
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.primitives.standing_bases import place_standing_bases
-from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
@@ -129,9 +129,12 @@ class CellHost:
             self._submit(operation, request, Continuation(assignment or self._assign(request)))
 
     def request(self, operation: str, command: Command) -> Request:
-        """Give a command to an operation in the next tick; RequestError if it is not one that goes on."""
+        """Give a command to an operation in the next tick; RequestError if it has ended, or for a wrong breakpoint."""
         if operation not in self._operations:
             raise RequestError(f"no operation {operation} goes on in {self.settings.name}")
+        if isinstance(command, SetBreakpoints):
+            found = parse_breakpoints(command.breakpoints, self.library)
+            command = SetBreakpoints(tuple(sorted(map(format_breakpoint, found))))
         return self.loop.request(self._operations[operation].run, command)
 
     def stop(self, operation: str | None, reason: str) -> None:

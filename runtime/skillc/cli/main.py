@@ -34,6 +34,7 @@ SECTIONS = {
     "Tasks": ("plan", "run", "why", "diff", "replay", "report", "trials", "demo"),
     "Scenes": ("world", "scene"),
     "Servers": (
+        "studio",
         "serve",
         "ps",
         "start",

@@ -13,7 +13,7 @@ from skillc.client.connection import Connection, join
 from skillc.client.feed import Status, follow_states
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
-from skillc.server.api_types import LibraryStatus, MadeToken, NewToken, VersionInfo
+from skillc.server.api_types import LibraryStatus, LoginCode, MadeToken, NewToken, VersionInfo
 from skillc.services.errors import RequestError
 
 
@@ -85,6 +85,10 @@ class AsyncServer:
     async def revoke_token(self, name: str) -> None:
         """Refuse all further requests with a token."""
         await self._connection.send("DELETE", join("tokens", name), type(None))
+
+    async def make_login_code(self) -> str:
+        """Return a code that stands for the token of this client in one request, within a minute."""
+        return (await self._connection.send("POST", "/login-codes", LoginCode)).code
 
     async def close(self) -> None:
         """Close the connection; what goes on in the server goes on."""

@@ -65,6 +65,10 @@ class Server:
         """Refuse all further requests with a token."""
         self._loop.run(self._server.revoke_token(name))
 
+    def make_login_code(self) -> str:
+        """Return a code that stands for the token of this client in one request, within a minute."""
+        return self._loop.run(self._server.make_login_code())
+
     def close(self) -> None:
         """Close the connection; what goes on in the server goes on."""
         self._loop.run(self._server.close())

@@ -59,13 +59,15 @@ class VersionInfo(msgspec.Struct, frozen=True):
 class LibraryStatus(msgspec.Struct, frozen=True):
     """A library, and the cells whose next operations run it.
 
-    `problem` is why that is not the one on disk; empty if it is.
+    `problem` is why that is not the one on disk; empty if it is. `pending` if its files have changed, and were not
+    checked yet.
     """
 
     name: str
     hash: str
     problem: str
     cells: tuple[str, ...]
+    pending: bool = False
 
 
 class DeviceStatus(msgspec.Struct, frozen=True):

@@ -27,6 +27,7 @@ from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.endpoints import ENDPOINTS, PREFIX
 from skillc.server.event_stream import stream_events
 from skillc.server.guard import Guard
+from skillc.server.language.stream import stream_language
 from skillc.server.log import log
 from skillc.server.openapi import make_openapi
 from skillc.server.outcome import UNAVAILABLE
@@ -72,6 +73,7 @@ class Application:
             Route("/assets/{path:path}", studio.show_asset),
             WebSocketRoute(f"{PREFIX}/events", partial(stream_events, server)),
             WebSocketRoute(f"{PREFIX}/samples", partial(stream_samples, server, {})),
+            WebSocketRoute(f"{PREFIX}/lsp", partial(stream_language, server)),
         )
         app = Starlette(routes=self.routes, exception_handlers={HTTPException: _refuse_unknown})
         guarded = Guard(app, hosts)

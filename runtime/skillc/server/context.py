@@ -35,6 +35,8 @@ from skillc.workers.run_reading import answer_run_job
 
 FAILURES_PER_S, FAILURES = 0.2, 100.0
 """How many requests and WebSockets without a valid token an address may make."""
+MAX_OF_CLIENT, MAX_SERVERS = 4, 8
+"""How many language servers a client has, and how many there are; each is a process."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,9 @@ class ServerContext:
     reports: Reports = field(init=False)
     trials: TrialRuns = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
+    language_servers: Watchers = field(
+        default_factory=partial(Watchers, "language servers", MAX_OF_CLIENT, MAX_SERVERS)
+    )
     clock: Callable[[], datetime] = now_utc
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
@@ -74,6 +79,13 @@ class ServerContext:
     def find_users(self, library: ServedLibrary) -> tuple[CellSupervisor, ...]:
         """Return the cells that run a library."""
         return tuple(each for each in self.cells.values() if each.settings.library == library.path)
+
+    def find_library(self, name: str) -> ServedLibrary:
+        """Return a library; ApiRefusal (404) if there is none of this name."""
+        found = {each.checked.name: each for each in reversed(self.libraries)}
+        if name not in found:
+            raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no library `{name}`; there is {_join(found)}")
+        return found[name]
 
     def find_cell(self, name: str) -> CellSupervisor:
         """Return a cell; ApiRefusal (404) if there is none of this name."""

@@ -61,7 +61,7 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
                 await stream.send_operation(hello.operation, hello.after, listener)
     except WebSocketDisconnect:
         return
-    except (TimeoutError, msgspec.DecodeError, KeyError):
+    except (TimeoutError, msgspec.DecodeError, RecursionError, KeyError):
         await socket.close(REFUSED, "the first message is no valid hello")
     except ApiRefusal as refused:
         await socket.close(CLOSE_CODES.get(refused.status, REFUSED), refused.problem.detail[:120])

@@ -18,13 +18,13 @@ Stamp: TypeAlias = frozenset[tuple[str, int, int, int]]
 
 def read_stamp(folders: Iterable[str]) -> Stamp:
     """Return how the files in folders are now; hidden folders, other projects and environments are not entered."""
-    files = (file for folder in folders for file in _list_files(Path(folder), ENDINGS))
+    files = (file for folder in folders for file in list_files(Path(folder), ENDINGS))
     return frozenset(each for file in files for each in _stamp_file(file))
 
 
 def read_code(folders: Iterable[str]) -> dict[str, str]:
     """Return the digests of the Python files in folders, by path; what is not entered is as for `read_stamp`."""
-    files = (file for folder in folders for file in _list_files(Path(folder), (".py",)))
+    files = (file for folder in folders for file in list_files(Path(folder), (".py",)))
     return {str(file): _digest(file) for file in files}
 
 
@@ -36,7 +36,8 @@ def describe_changed(before: Mapping[str, str], now: Mapping[str, str]) -> str:
     return f"Python files have changed ({', '.join(changed)}), which is not loaded; start the server again to use them"
 
 
-def _list_files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
+def list_files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
+    """Yield the files in a folder with these endings; hidden ones, other projects and environments are not entered."""
     for place, folders, names in os.walk(folder):
         inner = (each for each in folders if not each.startswith(".") and each != "__pycache__")
         folders[:] = [each for each in inner if not is_nested_project(Path(place, each))]

@@ -60,6 +60,13 @@ class Listening:
         """The scheme of its addresses."""
         return "https" if self.certificate is not None else "http"
 
+    def find_address(self, port: int) -> str:
+        """Return the address that clients use, without a path, if the server listens to `port`."""
+        if self.host in ANY:
+            name = self.names[0]
+            return f"{self.scheme}://{name if ':' in name else f'{name}:{port}'}"
+        return f"{self.scheme}://{f'[{self.host}]' if ':' in self.host else self.host}:{port}"
+
     def find_hosts(self, port: int) -> frozenset[str]:
         """Return what the header `Host` of a request may be, if the server listens to `port`."""
         return frozenset(each.lower() for each in self._list_hosts(port))

@@ -11,6 +11,7 @@ import msgspec
 from msgspec import structs
 
 from skillc.server.simulation_jobs import SimulationJobs
+from skillc.services.recordings import RECORDING
 from skillc.workers.jobs import RehearsalRequest, Rehearse
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.envelope import make_run_id
@@ -21,8 +22,8 @@ FILM = "film.mp4"
 class Rehearsal(msgspec.Struct, frozen=True, kw_only=True):
     """A rehearsal of a request in a twin of a cell, as the cell was when it was requested.
 
-    `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film` is
-    whether there is one.
+    `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film`
+    and `recording` are whether there is one.
     """
 
     id: str
@@ -32,6 +33,7 @@ class Rehearsal(msgspec.Struct, frozen=True, kw_only=True):
     reason: str = ""
     result: TaskResult | None = None
     film: bool = False
+    recording: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,7 @@ class Rehearsals:
         """Rehearse a request in a twin from an encoded snapshot of a cell, once the jobs before it have ended."""
         begun = Rehearsal(id=make_run_id(request.task or "rehearsal"), cell=cell, request=request)
         self._begun[begun.id] = begun
-        self.jobs.begin(begun.id, lambda folder: Rehearse(request, str(folder) if request.film else None), twin)
+        self.jobs.begin(begun.id, lambda folder: Rehearse(request, str(folder)), twin)
         return begun
 
     def list(self, cell: str) -> tuple[Rehearsal, ...]:
@@ -60,12 +62,18 @@ class Rehearsals:
             return None
         if not outcome.ended:
             return begun
-        film = FILM in outcome.files
-        return structs.replace(begun, state="ended", reason=outcome.reason, result=outcome.result, film=film)
+        film, recording = FILM in outcome.files, RECORDING in outcome.files
+        return structs.replace(
+            begun, state="ended", reason=outcome.reason, result=outcome.result, film=film, recording=recording
+        )
 
     def find_film(self, name: str) -> Path | None:
         """Return the film of a rehearsal; None if there is none."""
         return self.jobs.find_file(name, FILM)
+
+    def find_recording(self, name: str) -> Path | None:
+        """Return the recording of a rehearsal; None if there is none."""
+        return self.jobs.find_file(name, RECORDING)
 
     def remove(self, name: str) -> None:
         """End and forget a rehearsal."""

@@ -56,7 +56,7 @@ class SampleSource:
 async def stream_samples(server: ServerContext, sources: dict[str, SampleSource], socket: WebSocket) -> None:
     """Send samples of a cell until the client is gone, or its token is revoked."""
     await socket.accept()  # wait ends: at once, since the request is there
-    async with _closing(socket):
+    async with closing_refused(socket):
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=SampleHello)
             stream = ClientSocket(server, socket, make_credential(server, socket, hello.token))
@@ -73,13 +73,13 @@ async def stream_samples(server: ServerContext, sources: dict[str, SampleSource]
 
 
 @asynccontextmanager
-async def _closing(socket: WebSocket) -> AsyncIterator[None]:
+async def closing_refused(socket: WebSocket) -> AsyncIterator[None]:
     """Close a WebSocket with the reason why a client is refused."""
     try:
         yield
     except WebSocketDisconnect:
         return
-    except (TimeoutError, msgspec.DecodeError, KeyError):
+    except (TimeoutError, msgspec.DecodeError, RecursionError, KeyError):
         await socket.close(REFUSED, "the first message is no valid hello")
     except ApiRefusal as refused:
         await socket.close(CLOSE_CODES.get(refused.status, REFUSED), refused.problem.detail[:120])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import socket
+from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
 
 import uvicorn
@@ -21,7 +22,8 @@ from skillc.server.hub import EventHub, News
 from skillc.server.listening import Listening
 from skillc.server.log import log
 from skillc.server.orders.submitting import keep_submitting
-from skillc.server.state import ServerState
+from skillc.server.requests import MAX_BODY_BYTES
+from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import ServiceError
 from skillc.services.reporting import Reporter
@@ -34,16 +36,22 @@ GRACE_S = 5
 
 
 def serve(
-    served: ServedCells, listening: Listening, state: AbstractContextManager[ServerState], reporter: Reporter
+    served: ServedCells,
+    listening: Listening,
+    state: AbstractContextManager[ServerState],
+    reporter: Reporter,
+    on_ready: Callable[[ServerContext, str], None] | None = None,
 ) -> None:
     """Serve cells until SIGINT or SIGTERM, and let them come to rest then; say how the cells are.
+
+    `on_ready` is called in a thread, with the address without a path, as soon as that takes connections.
 
     ServiceError if the address or the state folder cannot be used.
     """
     raise_open_files_limit()
     try:
         with state as opened, listening.open_socket() as listener:
-            asyncio.run(_serve(opened, served, listening, listener, reporter))
+            asyncio.run(_serve(opened, served, listening, listener, reporter, on_ready))
     except (DatabaseError, StoreError) as error:
         raise ServiceError(str(error)) from error
     except OSError as error:
@@ -56,6 +64,7 @@ async def _serve(
     listening: Listening,
     listener: socket.socket,
     reporter: Reporter,
+    on_ready: Callable[[ServerContext, str], None] | None,
 ) -> None:
     port = listener.getsockname()[1]
     hub = EventHub()
@@ -70,13 +79,17 @@ async def _serve(
     context = ServerContext(state, cells, hub, served.libraries)
     application = Application(context, listening.find_hosts(port), listening.proxy)
     server = uvicorn.Server(_configure(application.asgi, listening))
-    address = f"{listening.scheme}://{listening.host}:{port}{PREFIX}"
-    reporter.say(f"serving at {address}; the token of the command line is in {state.token_file.resolve()}")
+    address = listening.find_address(port)
+    reporter.say(f"serving at {address}{PREFIX}; the token of the command line is in {state.token_file.resolve()}")
     going = [asyncio.create_task(each.keep_going()) for each in cells.values()]
     going += [asyncio.create_task(each.keep_up(context.find_users(each))) for each in served.libraries]
     going += [asyncio.create_task(keep_submitting(context, each)) for each in cells.values()]
+    if on_ready is not None:
+        context.run_readers.warm()
+        going.append(asyncio.create_task(asyncio.to_thread(on_ready, context, address)))
     try:
-        await server.serve(sockets=[listener])
+        with announced(state, address):
+            await server.serve(sockets=[listener])
     finally:
         context.workers.close()
         context.jobs.close()
@@ -101,7 +114,7 @@ def _configure(application: ASGIApp, listening: Listening) -> uvicorn.Config:
         timeout_keep_alive=KEEP_ALIVE_S,
         timeout_graceful_shutdown=GRACE_S,
         ws="websockets-sansio",
-        ws_max_size=2**16,
+        ws_max_size=2 * MAX_BODY_BYTES,
         ssl_certfile=certificate.chain if certificate else None,
         ssl_keyfile=certificate.key if certificate else None,
     )

@@ -34,7 +34,8 @@ class ServedLibrary:
 
     `code` has the digests of its Python files, `stamp` is how its files were looked at last. `environment` are the
     variables of the processes of its cells; `ontologies` and `modules` are the folders where both are found. It is
-    checked in the context `outside`, in which no other library is open.
+    checked in the context `outside`, in which no other library is open. Who changes its files has the lock `writing`,
+    and says that they are `touched`.
     """
 
     path: str
@@ -46,6 +47,9 @@ class ServedLibrary:
     modules: tuple[str, ...]
     outside: Context
     refused: str = ""
+    touched: bool = False
+    checking: bool = False
+    writing: asyncio.Lock = field(default_factory=asyncio.Lock, repr=False)
     _worker: WorkerProcess | None = field(default=None, repr=False)
 
     async def keep_up(self, cells: Sequence[CellSupervisor]) -> None:
@@ -55,14 +59,21 @@ class ServedLibrary:
             while True:  # wait ends: with the server, which cancels it
                 await asyncio.sleep(POLL_S)
                 stamp = await asyncio.to_thread(read_stamp, self.checked.basis.folders)
-                if stamp == seen and stamp != self.stamp:
-                    self.stamp = stamp
+                self.touched |= stamp != self.stamp
+                if stamp == seen and self.touched:
+                    self.stamp, self.touched, self.checking = stamp, False, True
                     await self._check()
+                    self.checking = False
                 seen = stamp
                 await self._tell(cells)
         finally:
             if self._worker is not None:
                 self._worker.kill()
+
+    @property
+    def pending(self) -> bool:
+        """Whether its files have changed, and were not checked yet."""
+        return self.touched or self.checking
 
     def find_obstacle(self) -> str:
         """Return why no cell may be started now: its code would be other than the server was started with."""

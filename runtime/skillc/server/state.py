@@ -38,6 +38,8 @@ def _add_sessions(database: sqlite3.Connection) -> None:
 TABLES = (TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS, SESSIONS)
 SCHEMA = Schema(4, ";\n".join(TABLES), {1: _add_orders, 2: _add_trials, 3: _add_sessions})
 LOCK, DATABASE, ADMIN_TOKEN, CELLS, SIMULATIONS = "lock", "server.sqlite", "admin.token", "cells", "simulations"
+ADDRESS = "address"
+"""The file with the address of the server that runs."""
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""
 
@@ -94,6 +96,25 @@ def read_token(file: Path) -> str | None:
     """Return the token in a file; None if there is none, or it is not for the user of this process."""
     try:
         return file.read_text(encoding="ascii").strip()
+    except (OSError, UnicodeDecodeError):
+        return None
+
+
+@contextmanager
+def announced(state: ServerState, address: str) -> Iterator[None]:
+    """Let the state folder have the address of its server in a `with` statement."""
+    file = state.folder / ADDRESS
+    file.write_text(f"{address}\n", encoding="ascii")
+    try:
+        yield
+    finally:
+        file.unlink(missing_ok=True)
+
+
+def read_address(folder: Path) -> str | None:
+    """Return the address of the server that uses a state folder; it may have died since. None if there is none."""
+    try:
+        return (folder / ADDRESS).read_text(encoding="ascii").strip()
     except (OSError, UnicodeDecodeError):
         return None
 

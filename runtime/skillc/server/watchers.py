@@ -1,4 +1,4 @@
-"""Bounds how many watch by WebSocket: each token, all together, and those that have not yet said who they are."""
+"""Bounds how many watch: each token, all together, and those that have not yet said who they are."""
 
 from __future__ import annotations
 
@@ -15,8 +15,14 @@ MAX_UNKNOWN, MAX_OF_TOKEN, MAX_WATCHERS = 200, 200, 1000
 
 @dataclass(slots=True)
 class Watchers:
-    """Those who watch; `unknown` is the number of those that have not yet sent a valid token."""
+    """Those who watch; `unknown` is the number of those that have not yet sent a valid token.
 
+    There are at most `total` of `what`, `of_client` of them of one client.
+    """
+
+    what: str = "WebSockets"
+    of_client: int = MAX_OF_TOKEN
+    total: int = MAX_WATCHERS
     unknown: int = 0
     _known: Counter[str] = field(default_factory=Counter)
 
@@ -33,8 +39,8 @@ class Watchers:
     @contextmanager
     def watching(self, name: str) -> Iterator[None]:
         """Count one of the client with this name, in a `with` statement; ApiRefusal (429) for too many."""
-        _refuse_from(self._known[name], MAX_OF_TOKEN, f"WebSockets of `{name}`")
-        _refuse_from(self._known.total(), MAX_WATCHERS, "WebSockets")
+        _refuse_from(self._known[name], self.of_client, f"{self.what} of `{name}`")
+        _refuse_from(self._known.total(), self.total, self.what)
         self._known[name] += 1
         try:
             yield

@@ -46,6 +46,7 @@ from skillc_runtime.world.state.transactions import StoreError
 class RunOptions:
     """The folder of recording and report (None: neither), the seed, the planners, the meshes in films, the backend.
 
+    Without that folder `record_in` may be one for the MCAP file alone.
     A run in which a tick takes longer than `tick_timeout_s` is ended with its process (0: only if that dies, None: no
     process watches it). `run_id` is the id of the run, empty for a new one; `recorders` get its events as they are
     recorded. With `prints_json` the caller prints
@@ -75,6 +76,7 @@ class RunOptions:
     saved: bytes | None = None
     run_id: str = ""
     recorders: tuple[Recorder, ...] = ()
+    record_in: Path | None = None
 
     def __post_init__(self) -> None:
         if self.looks != PRIMITIVE_LOOKS and self.out is None:
@@ -150,7 +152,8 @@ class _Run:
     def _recorded(self, run_id: str) -> AbstractContextManager[tuple[Recorder, ...]]:
         """Record the run as an MCAP file, if there is a folder for it."""
         task, options, state = self.task, self.options, self.cell.cell.world.snapshot()
-        if options.out is None:
+        folder = options.out or options.record_in
+        if folder is None:
             return nullcontext(())
         origin = CellOrigin(task.scene, options.seed, options.backend)
         settings = {
@@ -161,7 +164,7 @@ class _Run:
         }
         name = task.assignment.name
         describe = partial(describe_contents, run_id, name, task.library, state, origin, settings)
-        return recorded_in(options.out, describe, self.cell, self.reporter)
+        return recorded_in(folder, describe, self.cell, self.reporter)
 
     def _describe_recording(self, run_id: str, recorders: tuple[Recorder, ...]) -> RecordingOptions:
         options = self.options

@@ -23,6 +23,7 @@ from skillc.workers.jobs import (
     CheckTrials,
     DescribeLibrary,
     Job,
+    JobRefused,
     ListDevices,
     ListFacts,
     ListPoses,
@@ -73,12 +74,6 @@ JobAnswer: TypeAlias = (
     | Trial
     | None
 )
-
-
-class JobRefused(msgspec.Struct, frozen=True):
-    """Why a job cannot be done."""
-
-    why: str
 
 
 def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:

@@ -70,10 +70,10 @@ class PreviewPlan(msgspec.Struct, frozen=True, tag="plan"):
 
 
 class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
-    """Do in a simulated twin of the cell what an operation would; with a report and a film in a folder, if any."""
+    """Do in a simulated twin of the cell what an operation would; what it wants of it is written to a folder."""
 
     request: RehearsalRequest
-    folder: str | None
+    folder: str
 
 
 class MakeReport(msgspec.Struct, frozen=True, tag="report"):
@@ -105,11 +105,17 @@ SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial
 Job: TypeAlias = Question | SimulationJob
 
 
+class JobRefused(msgspec.Struct, frozen=True):
+    """Why a job cannot be done."""
+
+    why: str
+
+
 class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
     """A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
 
     `seed` determines how the reality of the twin differs from the facts. `deadline_s` is in the twin's time. It is
-    filmed with `film`.
+    filmed with `film`, and recorded with `record`.
     """
 
     task: str | None = None
@@ -119,6 +125,7 @@ class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     seed: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
     deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)] = 600.0
     film: bool = False
+    record: bool = False
 
 
 class TrialsRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):

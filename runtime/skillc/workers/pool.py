@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 
-from skillc.workers.answering import JobRefused, answer_job
-from skillc.workers.jobs import Job
+from skillc.workers.answering import answer_job
+from skillc.workers.jobs import Job, JobRefused
 from skillc.workers.run_jobs import RunJob
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
@@ -61,6 +61,7 @@ class Workers:
     _free: asyncio.Semaphore = field(init=False)
     _waiting: int = 0
     _ongoing: set[CancelToken] = field(default_factory=set)
+    _warming: asyncio.Task[None] | None = None
 
     def __post_init__(self) -> None:
         self._free = asyncio.Semaphore(self.count)
@@ -70,11 +71,25 @@ class Workers:
 
         If this is cancelled, the process is killed.
         """
+        return msgspec.json.decode(await self._do((job, snapshot), seconds), type=kind)
+
+    def warm(self) -> None:
+        """Let a process start in the background, unless there is one, so that the first job need not wait for it."""
+        if not self._idle and self._warming is None:
+            self._warming = asyncio.create_task(self._start_one())
+
+    async def _start_one(self) -> None:
+        with suppress(JobFailed, JobTimedOut, TooManyJobs):  # the first job says so
+            await self._do(None, START_S)
+        self._warming = None
+
+    async def _do(self, request: Request | None, seconds: float) -> bytes:
+        """Let a process answer a request; None only asks if it is ready."""
         async with self._turn():
             cancel = CancelToken()
             self._ongoing.add(cancel)
             try:
-                answer = await asyncio.to_thread(self._ask, job, snapshot, cancel, seconds)
+                return await asyncio.to_thread(self._ask, request, cancel, seconds)
             except OSError as error:
                 raise TooManyJobs(f"no process can be started ({error.strerror or error}); try again later") from error
             except Cancelled as error:
@@ -82,7 +97,6 @@ class Workers:
             finally:
                 cancel.cancel("nobody waits for the answer")
                 self._ongoing.discard(cancel)
-        return msgspec.json.decode(answer, type=kind)
 
     def close(self) -> None:
         """End the processes."""
@@ -108,8 +122,8 @@ class Workers:
         finally:
             self._free.release()
 
-    def _ask(self, job: Job | RunJob, snapshot: bytes, cancel: CancelToken, seconds: float) -> bytes:
-        """Let a process do a job; it is kept for the next one if it has answered. Cancelled if it is not to go on.
+    def _ask(self, request: Request | None, cancel: CancelToken, seconds: float) -> bytes:
+        """Let a process answer a request; it is kept if it has answered. Cancelled if it is not to go on.
 
         The time in which a process starts does not count.
         """
@@ -119,7 +133,7 @@ class Workers:
         try:
             ready = not new or isinstance(_wait(worker, None, cancel.limited(START_S)), Returned)
             limit = cancel.limited(seconds if ready else 0.0)
-            result = _wait(worker, (job, snapshot), limit) if ready else None
+            result = _wait(worker, request, limit) if ready else None
         finally:
             if isinstance(result, Returned):
                 self._idle.append(worker)

@@ -26,7 +26,8 @@ def rehearse(job: Rehearse, known: CellSnapshot) -> TaskResult:
     wanted, world = job.request, WorldModel(known.state)
     assignment = assign_request(wanted.task, wanted.goal, wanted.call, wanted.arguments, known.library, known.state)
     options = RunOptions(
-        out=Path(job.folder) if job.folder is not None else None,
+        out=Path(job.folder) if wanted.film else None,
+        record_in=Path(job.folder) if wanted.record else None,
         seed=wanted.seed,
         tick_timeout_s=None,
         deadline_s=wanted.deadline_s,

@@ -19,7 +19,7 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.run_diff.compare import compare_runs
 from skillc.services.run_diff.difference import RunDiff
 from skillc.services.story_text import explain_call, format_answer, overview_lines
-from skillc.workers.answering import JobRefused
+from skillc.workers.jobs import JobRefused
 from skillc.workers.run_jobs import (
     ChainedFailure,
     CompareRuns,
@@ -152,7 +152,7 @@ def _read_signals(job: ReadSignals) -> SignalRows:
         time_s=tuple(table.time_s[chosen[:limit]].tolist()),
         signals=tuple(table.signals[each] for each in wanted),
         columns=tuple(tuple(None if each != each else each for each in column) for column in values.T.tolist()),
-        every_s=step * period_s,
+        every_s=round(step * period_s, 9),
         more=len(chosen) > limit,
     )
 

@@ -23,6 +23,7 @@ from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPre
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.run_status import RunStatus
 from skillc_runtime.execution.task_state import Ending, Refusal, refusal
+from skillc_runtime.execution.tree.gate import read_breakpoint
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
@@ -119,6 +120,8 @@ class TaskRun(RunStatus):
                     self._attempt.invalidate("another plan was requested")
                 else:
                     self._prepare()
+            case commands.SetBreakpoints(breakpoints=breakpoints):
+                self._context.gate.breakpoints = frozenset(map(read_breakpoint, breakpoints))
             case commands.EditWorld() | commands.Answer():
                 pass
             case _:

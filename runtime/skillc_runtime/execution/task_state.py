@@ -12,12 +12,12 @@ from skillc_runtime.recording.states import EndState, State
 ENDS: frozenset[str] = frozenset(get_args(EndState))
 
 ALLOWED: dict[State, tuple[str, ...]] = {
-    "queued": ("stop", "edit-world"),
-    "planning": ("stop", "edit-world"),
-    "planned": ("approve", "replan", "stop", "edit-world"),
-    "running": ("pause", "stop", "edit-world"),
-    "pausing": ("resume", "stop", "edit-world"),
-    "paused": ("resume", "step-into", "step-over", "step-out", "replan", "stop", "edit-world"),
+    "queued": ("stop", "set-breakpoints", "edit-world"),
+    "planning": ("stop", "set-breakpoints", "edit-world"),
+    "planned": ("approve", "replan", "stop", "set-breakpoints", "edit-world"),
+    "running": ("pause", "stop", "set-breakpoints", "edit-world"),
+    "pausing": ("resume", "stop", "set-breakpoints", "edit-world"),
+    "paused": ("resume", "step-into", "step-over", "step-out", "replan", "stop", "set-breakpoints", "edit-world"),
     "stopping": ("stop", "edit-world"),
     "succeeded": (),
     "failed": (),
@@ -26,7 +26,7 @@ ALLOWED: dict[State, tuple[str, ...]] = {
 }
 """The names of the commands that each state allows."""
 
-ALLOWED_AFTER_FAILURE = ("retry", "skip", "replan", "stop", "edit-world")
+ALLOWED_AFTER_FAILURE = ("retry", "skip", "replan", "stop", "set-breakpoints", "edit-world")
 """The same for a run that is paused because a step failed."""
 
 ANSWER = "answer"

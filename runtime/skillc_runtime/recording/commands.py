@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
 
 import msgspec
 
 from skillc_runtime.world.state.labelled import LabelledChange
+
+BreakpointText: TypeAlias = Annotated[str, msgspec.Meta(max_length=300)]
 
 
 class _Command(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -78,6 +80,12 @@ class Answer(_Command, tag="answer", frozen=True):
     prompt: int = 0
 
 
+class SetBreakpoints(_Command, tag="set-breakpoints", frozen=True):
+    """Pause at these breakpoints from now on, each SKILL or FILE:LINE, and at no others."""
+
+    breakpoints: Annotated[tuple[BreakpointText, ...], msgspec.Meta(max_length=100)]
+
+
 class EditWorld(_Command, tag="edit-world", frozen=True):
     """Change the world model in one transaction."""
 
@@ -87,5 +95,18 @@ class EditWorld(_Command, tag="edit-world", frozen=True):
 
 
 Command: TypeAlias = (
-    Approve | Pause | Resume | StepInto | StepOver | StepOut | Stop | Abort | Retry | Skip | Replan | Answer | EditWorld
+    Approve
+    | Pause
+    | Resume
+    | StepInto
+    | StepOver
+    | StepOut
+    | Stop
+    | Abort
+    | Retry
+    | Skip
+    | Replan
+    | Answer
+    | SetBreakpoints
+    | EditWorld
 )

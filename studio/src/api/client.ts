@@ -3,15 +3,24 @@ import type {
   CellStatus,
   Envelope,
   LibraryDescription,
+  LibraryStatus,
   OperationRequest,
   OperationStatus,
+  OperationTree,
   PlanPreview,
   ProblemDetails,
   Rehearsal,
+  RunDiff,
+  RunExplanation,
   Session,
+  SignalRows,
+  SourceText,
   WorldFacts,
   WorldWrite,
 } from "./types";
+
+/** The event that a request was refused because nobody is logged in any more. */
+export const LOGGED_OUT = "logged-out";
 
 const PREFIX = "/api/v1";
 const PATIENCE_MS = 90_000;
@@ -52,7 +61,7 @@ async function send(path: string, init: RequestInit): Promise<Response> {
 
 type Headers = Record<string, string>;
 
-async function request(
+export async function request(
   method: string,
   path: string,
   body?: unknown,
@@ -61,6 +70,7 @@ async function request(
   const json: Headers = body === undefined ? {} : { "Content-Type": "application/json" };
   const content = body === undefined ? null : JSON.stringify(body);
   const response = await send(path, { method, headers: { ...json, ...headers }, body: content });
+  if (response.status === 401) window.dispatchEvent(new Event(LOGGED_OUT));
   if (!response.ok) throw await refusal(response);
   return response;
 }
@@ -74,7 +84,7 @@ async function refusal(response: Response): Promise<ApiError> {
   }
 }
 
-async function read<T>(path: string, query: Query = {}): Promise<T> {
+export async function read<T>(path: string, query: Query = {}): Promise<T> {
   return (await (await request("GET", address(path, query))).json()) as T;
 }
 
@@ -83,7 +93,7 @@ async function write<T>(method: string, path: string, body?: unknown, headers: H
   return (response.status === 204 ? undefined : await response.json()) as T;
 }
 
-const part = encodeURIComponent;
+export const part = encodeURIComponent;
 
 export interface PlanWish {
   task?: string;
@@ -97,14 +107,11 @@ export interface PlanWish {
 /** A command such as `{type: "pause"}`. */
 export type CommandBody = { type: string } & Record<string, unknown>;
 
-/** A text file of a library, with the hash that a write of it has to name. */
-export interface SourceFile {
-  text: string;
-  etag: string;
+/** A file of a library; `editable` if it is its own. */
+export interface SourceName {
+  path: string;
+  editable: boolean;
 }
-
-const filePath = (library: string, path: string): string =>
-  `/libraries/${part(library)}/files/${path.split("/").map(part).join("/")}`;
 
 export const api = {
   session: () => read<Session>("/session"),
@@ -139,15 +146,21 @@ export const api = {
   setPace: (cell: string, factor: number | null) =>
     write<CellStatus>("PUT", `/cells/${part(cell)}/pace`, { factor }),
   acknowledge: (cell: string) => write<CellStatus>("POST", `/cells/${part(cell)}/acknowledge`),
-  files: (library: string) => read<string[]>(`/libraries/${part(library)}/files`),
-  readFile: async (library: string, path: string): Promise<SourceFile> => {
-    const response = await request("GET", address(filePath(library, path)));
-    return { text: await response.text(), etag: response.headers.get("ETag") ?? "" };
-  },
-  /** Write a file if it is still the one with this hash; return the new hash. */
-  writeFile: async (library: string, path: string, text: string, etag: string): Promise<string> => {
-    const response = await request("PUT", address(filePath(library, path)), { text }, { "If-Match": etag });
-    return response.headers.get("ETag") ?? "";
+  tree: (id: string) => read<OperationTree>(`/operations/${part(id)}/tree`),
+  why: (id: string) => read<RunExplanation>(`/operations/${part(id)}/why`),
+  signals: (id: string, match: string, afterS: number | null) =>
+    read<SignalRows>(`/operations/${part(id)}/signals`, { match, after_s: afterS }),
+  diff: (id: string, other: string) => read<RunDiff>(`/operations/${part(id)}/diff`, { other }),
+  libraries: () => read<LibraryStatus[]>("/libraries"),
+  files: (library: string) => read<SourceName[]>(`/libraries/${part(library)}/files`),
+  file: (library: string, path: string) => read<SourceText>(`/libraries/${part(library)}/file`, { path }),
+  /** Write a file if it is still the one with the hash `base`; 412 otherwise. */
+  writeFile: async (library: string, path: string, text: string, base: string): Promise<SourceText> => {
+    const response = await request("PUT", address(`/libraries/${part(library)}/file`, { path }), {
+      text,
+      base_hash: base,
+    });
+    return (await response.json()) as SourceText;
   },
   recording: async (id: string) =>
     (await request("GET", address(`/operations/${part(id)}/recording`))).arrayBuffer(),

@@ -101,6 +101,151 @@ export interface components {
             lost?: boolean;
         };
         /**
+         * CellModel
+         * @description The geometry of a cell as it really is in the simulation; individuals and arms are by IRI.
+         */
+        CellModel: {
+            bodies: components["schemas"]["ModelBody"][];
+            meshes: components["schemas"]["ModelMesh"][];
+            individuals: {
+                [key: string]: components["schemas"]["ModelIndividual"];
+            };
+            arms: {
+                [key: string]: components["schemas"]["ModelArm"];
+            };
+        };
+        /**
+         * ModelBody
+         * @description A body after its parent, whose number is -1 for the world, at a pose in the parent while its joints rest.
+         *
+         *         `individual` is the IRI of what it is a part of; None for the floor.
+         */
+        ModelBody: {
+            name: string;
+            parent: number;
+            pose: [
+                number,
+                number,
+                number,
+                number,
+                number,
+                number,
+                number
+            ];
+            joints: components["schemas"]["ModelJoint"][];
+            geoms: components["schemas"]["ModelGeom"][];
+            individual: string | null;
+        };
+        /**
+         * ModelJoint
+         * @description A joint between a body and its parent: it turns about, or slides along, `axis` through `anchor` in the body.
+         *
+         *         `rest` is its value, in rad or m, with which the body has its own pose in the parent.
+         */
+        ModelJoint: {
+            name: string;
+            /** @enum {unknown} */
+            kind: "ball" | "free" | "hinge" | "slide";
+            axis: [
+                number,
+                number,
+                number
+            ];
+            anchor: [
+                number,
+                number,
+                number
+            ];
+            rest: number;
+        };
+        /**
+         * ModelGeom
+         * @description A shape at a pose in its body; `colour` is red, green, blue and opacity from 0 to 1.
+         *
+         *         `size`: half the extent of boxes and ellipsoids; radius and half the length along z, without the ends, of cylinders
+         *         and capsules; radius of spheres. `mesh` is the number of a mesh.
+         */
+        ModelGeom: {
+            /** @enum {unknown} */
+            shape: "box" | "capsule" | "cylinder" | "ellipsoid" | "mesh" | "plane" | "sphere";
+            size: [
+                number,
+                number,
+                number
+            ];
+            pose: [
+                number,
+                number,
+                number,
+                number,
+                number,
+                number,
+                number
+            ];
+            colour: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /** @default null */
+            mesh?: number | null;
+        };
+        /**
+         * ModelMesh
+         * @description Points in m, three numbers each, and triangles, three numbers of points each.
+         */
+        ModelMesh: {
+            points: number[];
+            triangles: number[];
+        };
+        /**
+         * ModelIndividual
+         * @description An individual with its short name, whose own frame is at the pose `frame` in the body with a number.
+         *
+         *         What is `movable` can be moved by a disturbance while nothing holds it.
+         */
+        ModelIndividual: {
+            label: string;
+            /** @enum {unknown} */
+            kind: "arm" | "base" | "body" | "fixture" | "gripper" | "surface" | "tool";
+            body: number;
+            frame: [
+                number,
+                number,
+                number,
+                number,
+                number,
+                number,
+                number
+            ];
+            /** @default false */
+            movable?: boolean;
+        };
+        /**
+         * ModelArm
+         * @description An arm: samples have the frame of its individual as `base`, and the angles of `joints`, which are names.
+         */
+        ModelArm: {
+            joints: string[];
+        };
+        /**
+         * SurfaceCoverage
+         * @description How long tools have really worked on each cell of a surface of `size` in m, about its middle.
+         *
+         *         `dose` has a byte a cell, first along x, then along y: the time in units of `unit_s`, at most 255; empty for none.
+         */
+        SurfaceCoverage: {
+            size: [
+                number,
+                number
+            ];
+            columns: number;
+            rows: number;
+            unit_s: number;
+            dose: string;
+        };
+        /**
          * Lease
          * @description The lease of a cell: who has it, and for how long yet, in s of wall time; nobody if `owner` is None.
          */
@@ -126,8 +271,8 @@ export interface components {
          *         `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
          *         whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
          *         it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
-         *         operators. `decisions` are how it can be
-         *         continued if it was interrupted, `continued_by` is the operation that does.
+         *         operators. `planning` is how far its planner is; null if none works. `decisions` are how it can be continued if it
+         *         was interrupted, `continued_by` is the operation that does.
          */
         OperationStatus: {
             id: string;
@@ -150,6 +295,8 @@ export interface components {
             devices?: string[] | null;
             /** @default [] */
             prompts?: components["schemas"]["Prompt"][];
+            /** @default null */
+            planning?: components["schemas"]["PlanningProgress"] | null;
             /** @default [] */
             decisions?: ("replan" | "retry" | "skip")[];
             /** @default  */
@@ -336,6 +483,26 @@ export interface components {
             id?: number;
         };
         /**
+         * PlanningProgress
+         * @description A `planner` plans with a number of `individuals`, which are only a part of the scene if they are `narrowed`.
+         *
+         *         Of plans with these, it has found one that takes `best_s` (in s; None for none yet) and proved that any takes at
+         *         least `at_least_s`. `states` is how many it has evaluated.
+         */
+        PlanningProgress: {
+            planner: string;
+            /** @default 0 */
+            individuals?: number;
+            /** @default false */
+            narrowed?: boolean;
+            /** @default null */
+            best_s?: number | null;
+            /** @default 0 */
+            at_least_s?: number;
+            /** @default 0 */
+            states?: number;
+        };
+        /**
          * Approve
          * @description Run the plan that waits for approval.
          */
@@ -423,6 +590,15 @@ export interface components {
             who?: string;
             /** @default 0 */
             prompt?: number;
+        };
+        /**
+         * SetBreakpoints
+         * @description Pause at these breakpoints from now on, each SKILL or FILE:LINE, and at no others.
+         */
+        SetBreakpoints: {
+            /** @enum {unknown} */
+            type: "set-breakpoints";
+            breakpoints: string[];
         };
         /**
          * StopReason
@@ -908,7 +1084,7 @@ export interface components {
             /** @enum {unknown} */
             type: "requested";
             time: number;
-            command: components["schemas"]["Approve"] | components["schemas"]["Pause"] | components["schemas"]["Resume"] | components["schemas"]["StepInto"] | components["schemas"]["StepOver"] | components["schemas"]["StepOut"] | components["schemas"]["Stop"] | components["schemas"]["Abort"] | components["schemas"]["skillc_runtime.recording.commands.Retry"] | components["schemas"]["Skip"] | components["schemas"]["Replan"] | components["schemas"]["Answer"] | components["schemas"]["EditWorld"];
+            command: components["schemas"]["Approve"] | components["schemas"]["Pause"] | components["schemas"]["Resume"] | components["schemas"]["StepInto"] | components["schemas"]["StepOver"] | components["schemas"]["StepOut"] | components["schemas"]["Stop"] | components["schemas"]["Abort"] | components["schemas"]["skillc_runtime.recording.commands.Retry"] | components["schemas"]["Skip"] | components["schemas"]["Replan"] | components["schemas"]["Answer"] | components["schemas"]["SetBreakpoints"] | components["schemas"]["EditWorld"];
             tick: number;
             /** @default  */
             refused?: string;
@@ -1024,7 +1200,10 @@ export interface components {
         };
         /**
          * ArrivedPlan
-         * @description A plan as the planner found it, with its steps in order; the fields are those of `Solved` in `planning.plan`.
+         * @description A plan as the planner found it, with its steps in order.
+         *
+         *         `arrangement` has each step, by its index in `steps`, where it runs in the body; the other fields are those of
+         *         `Solved` in `planning.plan`.
          */
         ArrivedPlan: {
             planner: string;
@@ -1037,6 +1216,12 @@ export interface components {
             at_least_s?: number | null;
             /** @default [] */
             assumptions?: string[];
+            /**
+             * @default {
+             *       "parts": []
+             *     }
+             */
+            arrangement?: components["schemas"]["StepGroup"];
         };
         /**
          * PlanStep
@@ -1061,10 +1246,20 @@ export interface components {
             harmless: boolean;
         };
         /**
+         * StepGroup
+         * @description Parts of a plan that run in series, or in `parallel`: indices of steps, and other groups.
+         */
+        StepGroup: {
+            parts: (number | components["schemas"]["StepGroup"])[];
+            /** @default false */
+            parallel?: boolean;
+        };
+        /**
          * PlanMade
          * @description A planner found a plan; `cost` is its expected duration in s.
          *
-         *         `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds.
+         *         `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement` is
+         *         as in `ArrivedPlan`.
          */
         PlanMade: {
             /** @enum {unknown} */
@@ -1076,6 +1271,12 @@ export interface components {
             steps: components["schemas"]["PlanStep"][];
             /** @default  */
             quality?: string;
+            /**
+             * @default {
+             *       "parts": []
+             *     }
+             */
+            arrangement?: components["schemas"]["StepGroup"];
         };
         /**
          * PromptsChanged
@@ -1381,6 +1582,140 @@ export interface components {
             missed?: "run-once" | "skip";
         };
         /**
+         * OperationTree
+         * @description The nodes of a run after its event `sequence`, each after its parent; later events start and end them.
+         */
+        OperationTree: {
+            sequence: number;
+            nodes: components["schemas"]["TreeNode"][];
+        };
+        /**
+         * TreeNode
+         * @description A node of a tree; the events about it have its `id`. `parent` is 0 for the root of an attempt.
+         *
+         *         `attempt` counts plans from 1. A call has a `skill`, with the `arguments` that a planner or the text has given it by
+         *         name, and once it has started the `implementation` that it chose.
+         */
+        TreeNode: {
+            id: number;
+            parent: number;
+            attempt: number;
+            kind: string;
+            label: string;
+            source: components["schemas"]["Position"];
+            /** @default  */
+            skill?: string;
+            /** @default  */
+            implementation?: string;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * RunExplanation
+         * @description Why a run, up to its event `sequence`, did what it did: `lines` as `skillc why` prints them, and each call.
+         *
+         *         `answer` has the lines for a question, none without.
+         */
+        RunExplanation: {
+            sequence: number;
+            lines: string[];
+            chain: components["schemas"]["ChainedFailure"][];
+            calls: components["schemas"]["ExplainedCall"][];
+            answer: string[];
+        };
+        /**
+         * ChainedFailure
+         * @description A link of the chain that leads from the outermost call that failed to the cause, with its place.
+         */
+        ChainedFailure: {
+            name: string;
+            message: string;
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * ExplainedCall
+         * @description A call, explained as `skillc why RUN NUMBER` does, with those inside it after it.
+         *
+         *         `node` is the one in the tree and the events, 0 if the call never started. `source` is the place of the call,
+         *         `implementation_source` that of the implementation that it chose last.
+         */
+        ExplainedCall: {
+            number: string;
+            skill: string;
+            status: string;
+            lines: string[];
+            /** @default 0 */
+            node?: number;
+            /** @default null */
+            source?: components["schemas"]["Position"] | null;
+            /** @default null */
+            implementation_source?: components["schemas"]["Position"] | null;
+        };
+        /**
+         * SignalRows
+         * @description Signals at the times `time_s` of the cell; each of `signals` has its column in `columns`, null where unknown.
+         *
+         *         `every_s` is how far apart these rows are at least. `more` if there are later ones.
+         */
+        SignalRows: {
+            time_s: number[];
+            signals: components["schemas"]["Signal"][];
+            columns: (number | null)[][];
+            every_s: number;
+            more: boolean;
+        };
+        /**
+         * Signal
+         * @description A column of samples: `DEVICE/ORIGIN/QUANTITY_UNIT`, with its unit and the frame of its axes, empty for none.
+         *
+         *         `device` is the IRI of the device or the thing, empty for the clock.
+         */
+        Signal: {
+            column: string;
+            device: string;
+            /** @enum {unknown} */
+            origin: "command" | "estimate" | "sensor" | "truth";
+            unit: string;
+            frame: string;
+            description: string;
+        };
+        /**
+         * RunDiff
+         * @description The differences between two runs, in the order of their parts; `compared` is how much of each part there was.
+         *
+         *         `notes` say what could not be compared, and why.
+         */
+        RunDiff: {
+            runs: [
+                string,
+                string
+            ];
+            compared: {
+                [key: string]: number;
+            };
+            differences: components["schemas"]["Difference"][];
+            /** @default [] */
+            notes?: string[];
+        };
+        /**
+         * Difference
+         * @description `what` is not the same in two runs; a value is None where a run has none.
+         *
+         *         `size` orders the differences of a part: between numbers, how far they are apart, in s for times, and for signals in
+         *         parts of their range; 0 where there is no order but that of the run.
+         */
+        Difference: {
+            /** @enum {unknown} */
+            part: "choices" | "measures" | "outcomes" | "plan" | "requests" | "settings" | "signals" | "times";
+            what: string;
+            first: string | number | boolean | null;
+            second: string | number | boolean | null;
+            /** @default 0 */
+            size?: number;
+        };
+        /**
          * WorldFacts
          * @description Some of the `total` facts that were asked for, of the world after the write `sequence`.
          */
@@ -1453,13 +1788,16 @@ export interface components {
          * LibraryStatus
          * @description A library, and the cells whose next operations run it.
          *
-         *         `problem` is why that is not the one on disk; empty if it is.
+         *         `problem` is why that is not the one on disk; empty if it is. `pending` if its files have changed, and were not
+         *         checked yet.
          */
         LibraryStatus: {
             name: string;
             hash: string;
             problem: string;
             cells: string[];
+            /** @default false */
+            pending?: boolean;
         };
         /**
          * LibraryDescription
@@ -1647,8 +1985,8 @@ export interface components {
          * Rehearsal
          * @description A rehearsal of a request in a twin of a cell, as the cell was when it was requested.
          *
-         *         `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film` is
-         *         whether there is one.
+         *         `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film`
+         *         and `recording` are whether there is one.
          */
         Rehearsal: {
             id: string;
@@ -1665,13 +2003,15 @@ export interface components {
             result?: components["schemas"]["TaskResult"] | null;
             /** @default false */
             film?: boolean;
+            /** @default false */
+            recording?: boolean;
         };
         /**
          * RehearsalRequest
          * @description A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
          *
          *         `seed` determines how the reality of the twin differs from the facts. `deadline_s` is in the twin's time. It is
-         *         filmed with `film`.
+         *         filmed with `film`, and recorded with `record`.
          */
         RehearsalRequest: {
             /** @default null */
@@ -1690,6 +2030,8 @@ export interface components {
             deadline_s?: number;
             /** @default false */
             film?: boolean;
+            /** @default false */
+            record?: boolean;
         };
         /**
          * TaskResult
@@ -1961,6 +2303,68 @@ export interface components {
             source: components["schemas"]["Position"];
         };
         /**
+         * OperationReport
+         * @description The report of an operation. `result` is null until it is made, and then if it cannot be: `reason` says why.
+         *
+         *         `files` are the names of what can be read of it: the report, a film, figures and pictures.
+         */
+        OperationReport: {
+            operation: string;
+            /**
+             * @default going on
+             * @enum {unknown}
+             */
+            state?: "ended" | "going on";
+            /** @default  */
+            reason?: string;
+            /** @default null */
+            result?: components["schemas"]["TaskResult"] | null;
+            /** @default [] */
+            files?: string[];
+        };
+        /**
+         * LoginCode
+         * @description A code that a request may have in the place of a token, once, within 60 s.
+         */
+        LoginCode: {
+            code: string;
+        };
+        /**
+         * SessionInfo
+         * @description Who makes a request: the name of its token, and what it may do.
+         */
+        SessionInfo: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+        };
+        /**
+         * SourceInfo
+         * @description A text of a library, by the path that places in events and diagnostics have; `editable` if it is its own.
+         */
+        SourceInfo: {
+            path: string;
+            editable: boolean;
+        };
+        /**
+         * SourceText
+         * @description A text; `hash` is that of the file, by which a change says what it is based on.
+         */
+        SourceText: {
+            path: string;
+            editable: boolean;
+            hash: string;
+            text: string;
+        };
+        /**
+         * SourceChange
+         * @description A new text, in the place of the one whose file has the hash `base_hash`.
+         */
+        SourceChange: {
+            text: string;
+            base_hash: string;
+        };
+        /**
          * TokenInfo
          * @description A token as it is listed, without its secret; `created_ns` is in ns since 1970-01-01 UTC.
          */
@@ -2223,6 +2627,8 @@ export interface components {
         /**
          * AuditEntry
          * @description A request that changed something, or that was refused; `wall_ns` is in ns since 1970-01-01 UTC.
+         *
+         *         `status` is that of the answer; 0 while it is carried out, and if it was when the server ended or its disk was full.
          */
         AuditEntry: {
             number: number;

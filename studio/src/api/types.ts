@@ -37,6 +37,13 @@ export type LibraryDescription = Schemas["LibraryDescription"];
 export type TaskDescription = Schemas["TaskDescription"];
 export type ParameterDescription = Schemas["ParameterDescription"];
 export type Rehearsal = Required<Schemas["Rehearsal"]>;
+export type OperationTree = Schemas["OperationTree"];
+export type PlannedNode = Schemas["TreeNode"];
+export type RunExplanation = Schemas["RunExplanation"];
+export type RunDiff = Schemas["RunDiff"];
+export type SignalRows = Schemas["SignalRows"];
+export type SourceText = Schemas["SourceText"];
+export type LibraryStatus = Required<Schemas["LibraryStatus"]>;
 export type ProblemDetails = Schemas["ProblemDetails"];
 export type Role = Schemas["MadeToken"]["role"];
 

@@ -109,6 +109,7 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): Editor 
     parent,
     state: EditorState.create({ doc: options.text, extensions: extensionsOf(options) }),
   });
+  view.scrollDOM.tabIndex = 0; // So that it can be scrolled with the keyboard, as axe wants it.
   return {
     view,
     reveal: (line) => {
@@ -205,5 +206,6 @@ const LOOK = EditorView.theme({
     color: "var(--ink)",
     backgroundColor: "var(--selected)",
   },
+  ".cm-hover-text": { maxWidth: "480px", padding: "6px 10px", whiteSpace: "pre-wrap", fontSize: "12px" },
   ".cm-searchMatch": { backgroundColor: "var(--waiting-ground)", outline: "1px solid var(--waiting)" },
 });

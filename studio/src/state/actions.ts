@@ -14,7 +14,6 @@ export async function attempt(what: () => Promise<unknown>, done = ""): Promise<
     return true;
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
-    if (error.status === 401) studio.session.value = null;
     studio.message.value = { kind: "error", text: error.message };
     return false;
   }
@@ -41,6 +40,7 @@ export function showCell(name: string): void {
     studio.replay.value = null;
     studio.library.value = null;
     studio.facts.value = [];
+    studio.worldSequence.value = 0;
     const ofCell = [...studio.operations.value.values()].filter((each) => each.cell === name);
     const ongoing = ofCell.find((each) => !studio.ENDS.includes(each.state));
     studio.operationId.value = (ongoing ?? ofCell[0])?.id ?? null;

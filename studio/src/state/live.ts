@@ -64,7 +64,7 @@ function followCell(): (() => void) | undefined {
 }
 
 async function loadHistory(cell: string): Promise<void> {
-  const found = await quietly(() => api.operations(cell, { limit: HISTORY }));
+  const found = await persistently(() => api.operations(cell, { limit: HISTORY }), isShown(cell));
   if (found === null) return;
   batch(() => {
     const known = new Map(found.map((each) => [each.id, each]));
@@ -73,11 +73,13 @@ async function loadHistory(cell: string): Promise<void> {
   });
 }
 
+const isShown = (cell: string) => () => studio.cellName.peek() === cell && studio.session.peek() !== null;
+
 function followLibrary(name: string): void {
   const cell = studio.cells.value.get(name);
   if (cell === undefined || cell.state === "off" || cell.library_hash === studio.library.peek()?.hash) return;
-  void quietly(() => api.library(name)).then((found) => {
-    if (found !== null && studio.cellName.peek() === name) studio.library.value = found;
+  void persistently(() => api.library(name), isShown(name)).then((found) => {
+    if (found !== null && isShown(name)()) studio.library.value = found;
   });
 }
 
@@ -99,7 +101,8 @@ let isReading = false;
 
 /** Read all facts, page by page; once more if something has changed meanwhile. */
 export async function readWorld(name: string, force = false): Promise<void> {
-  if (isReading || (!force && worldWanted === worldRead)) return;
+  if (force) worldWanted += " again";
+  if (isReading || worldWanted === worldRead) return;
   isReading = true;
   const wanted = worldWanted;
   try {
@@ -113,11 +116,7 @@ export async function readWorld(name: string, force = false): Promise<void> {
     batch(() => {
       studio.facts.value = found;
       studio.worldSequence.value = sequence;
-      studio.worldError.value = "";
     });
-    worldRead = wanted;
-  } catch (error) {
-    studio.worldError.value = error instanceof ApiError ? error.message : String(error);
     worldRead = wanted;
   } finally {
     isReading = false;
@@ -129,15 +128,41 @@ export async function readWorld(name: string, force = false): Promise<void> {
 function followOperation(): (() => void) | undefined {
   const id = studio.operationId.value;
   studio.live.value = EMPTY;
+  studio.planned.value = null;
   if (id === null) return undefined;
   const flush = inFrames((envelopes: Envelope[]) => {
     if (studio.operationId.peek() === id) studio.live.value = applyEvents(studio.live.peek(), envelopes);
   });
-  return openStream({
-    path: "/events",
-    hello: () => ({ operation: id, after: studio.live.peek().lastEvent }),
-    onMessage: (data) => flush(JSON.parse(data as string) as Envelope[]),
-  });
+  const ends = [
+    openStream({
+      path: "/events",
+      hello: () => ({ operation: id, after: studio.live.peek().lastEvent }),
+      onMessage: (data) => flush(JSON.parse(data as string) as Envelope[]),
+    }),
+    effect(followTree(id)),
+  ];
+  return () => ends.forEach((end) => end());
+}
+
+const TREE_MS = 300;
+
+/** Read the tree again after each plan and each choice of an implementation: it has what will come. */
+function followTree(id: string): () => (() => void) | undefined {
+  const isCurrent = (): boolean => studio.operationId.peek() === id;
+  let known = "";
+  return () => {
+    const { attempts, nodes, ended } = studio.live.value;
+    const choices = [...nodes.values()].filter((each) => each.choice !== null).length;
+    const wanted = `${attempts.length} ${choices} ${ended === null}`;
+    if (attempts.length === 0 || wanted === known) return undefined;
+    const timer = window.setTimeout(() => {
+      known = wanted;
+      void persistently(() => api.tree(id), isCurrent).then((tree) => {
+        if (isCurrent()) studio.planned.value = tree;
+      });
+    }, TREE_MS);
+    return () => window.clearTimeout(timer);
+  };
 }
 
 /** Return a function that collects items and hands them on once a frame, also while the page is hidden. */
@@ -157,13 +182,18 @@ function inFrames<T>(take: (items: T[]) => void): (items: T[]) => void {
   };
 }
 
-/** Return the answer to a request that nobody has made by hand; null if it fails, since the next one may not. */
-async function quietly<T>(ask: () => Promise<T>): Promise<T | null> {
-  try {
-    return await ask();
-  } catch (error) {
-    if (!(error instanceof ApiError)) throw error;
-    if (error.status === 401) studio.session.value = null;
-    return null;
+const AGAIN_MS = 1500;
+
+/** Return the answer to a request that nobody has made by hand: asked again until there is one, or it is not needed. */
+async function persistently<T>(ask: () => Promise<T>, isNeeded: () => boolean): Promise<T | null> {
+  while (isNeeded()) {
+    try {
+      return await ask();
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      if (error.status === 401) return null;
+      await new Promise((resolve) => window.setTimeout(resolve, AGAIN_MS));
+    }
   }
+  return null;
 }

@@ -33,6 +33,8 @@ export interface TreeNode {
   failure: Failure | null;
   failedCall: FailedCallContext | null;
   choice: ImplementationChosen | null;
+  /** What a call gets that has not started, as text. */
+  values: readonly string[];
   children: readonly number[];
 }
 
@@ -156,6 +158,7 @@ class Draft {
         failedCall: event.failed_call ?? null,
       });
     } else if (event.type === "implementation-chosen") {
+      this.dropBody(this.base + event.node);
       this.update(this.base + event.node, { choice: event });
       this.matchStep(this.base + event.node, event);
     }
@@ -180,12 +183,22 @@ class Draft {
       failure: null,
       failedCall: null,
       choice: null,
+      values: [],
       children: before?.children ?? [],
     });
     if (before !== undefined) return;
     const around = this.nodes.get(parent);
     if (around === undefined) this.state.roots = [...this.state.roots, key];
     else this.nodes.set(parent, { ...around, children: [...around.children, key] });
+  }
+
+  /** A call that starts with another implementation, or again, gets another body. */
+  private dropBody(key: number): void {
+    for (const child of this.nodes.get(key)?.children ?? []) {
+      this.dropBody(child);
+      this.nodes.delete(child);
+    }
+    this.update(key, { children: [] });
   }
 
   private update(key: number, change: Partial<TreeNode>): void {

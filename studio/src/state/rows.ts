@@ -45,6 +45,7 @@ function isStructure(node: TreeNode): boolean {
 
 /** Whether a node is open unless somebody has folded it: what runs or failed is, and so is the first level. */
 function isOpen(node: TreeNode, depth: number): boolean {
+  if (node.status === "pending") return false;
   return node.status === "running" || node.status === "failure" || depth === 0;
 }
 

@@ -20,7 +20,7 @@ export function selectedNode(selection: Selection, operation: OperationState): T
 export function selectedSpan(selection: Selection, operation: OperationState): [number, number] | null {
   if (selection.kind === "time") return [selection.time, selection.time];
   const node = selectedNode(selection, operation);
-  return node === null ? null : [node.startedAt, node.endedAt ?? operation.time];
+  return node === null || node.status === "pending" ? null : [node.startedAt, node.endedAt ?? operation.time];
 }
 
 /** Return the line of source that is selected. */

@@ -1,28 +1,27 @@
 // The files of a library: which one is open, what was changed in it, and breakpoints for the next operation.
 import { computed, signal } from "@preact/signals";
-import { api, ApiError } from "../api/client";
+import { api, ApiError, type SourceName } from "../api/client";
 import type { Position } from "../api/types";
 import { activeCalls } from "./operation";
-import { attempt } from "./actions";
-import { may, message, operation } from "./studio";
+import { attempt, command } from "./actions";
+import { allows, may, message, operation } from "./studio";
 
 /** An open file: its text on disk with its hash, and a draft that differs from it. */
 export interface OpenFile {
   library: string;
   path: string;
   text: string | null;
-  etag: string;
+  hash: string;
+  editable: boolean;
   draft: string | null;
   problem: string;
 }
 
-export const files = signal<readonly string[]>([]);
+export const files = signal<readonly SourceName[]>([]);
 export const source = signal<OpenFile | null>(null);
 /** FILE:LINE of each place where the next operation pauses. */
 export const breakpoints = signal<ReadonlySet<string>>(new Set());
-export const isWritable = computed(
-  () => may("edit") && source.value !== null && !source.value.path.startsWith("std/"),
-);
+export const isWritable = computed(() => may("edit") && (source.value?.editable ?? false));
 
 /** The lines of the calls that run now. */
 export const activePlaces = computed<Position[]>(() =>
@@ -40,11 +39,10 @@ export async function readFiles(library: string): Promise<void> {
 
 /** Open a file that an event names; without one, the first of the library. A file with a draft stays open. */
 export async function openPath(library: string, path: string | null): Promise<void> {
+  const names = files.value.map((each) => each.path);
   const wanted =
-    path === null
-      ? files.value.find((each) => each.endsWith(".skill"))
-      : files.value.find((each) => each === path);
-  if (wanted === undefined || source.peek()?.path === wanted) return;
+    path ?? files.value.find((each) => each.editable && each.path.endsWith(".skill"))?.path ?? names[0];
+  if (wanted === undefined || !names.includes(wanted) || source.peek()?.path === wanted) return;
   await openFile(library, wanted);
 }
 
@@ -55,38 +53,60 @@ export async function openFile(library: string, path: string): Promise<void> {
     return;
   }
   await attempt(async () => {
-    const { text, etag } = await api.readFile(library, path);
-    source.value = { library, path, text, etag, draft: null, problem: "" };
+    const { text, hash, editable } = await api.file(library, path);
+    source.value = { library, path, text, hash, editable, draft: null, problem: "" };
   });
 }
 
-/** Write the draft, unless the file on disk is not the one that was read. */
+/** Write the draft, unless the file on disk is not the one that was read; then say what the check of it says. */
 export async function saveFile(): Promise<void> {
   const current = source.peek();
   if (current?.draft == null) return;
-  const { library, path, draft, etag } = current;
+  const { library, path, draft, hash } = current;
   try {
-    const written = await api.writeFile(library, path, draft, etag);
-    source.value = { ...current, text: draft, etag: written, draft: null, problem: "" };
-    message.value = {
-      kind: "done",
-      text: `${path} is saved. It is checked, and the next operation runs it if it has no errors.`,
-    };
+    const written = await api.writeFile(library, path, draft, hash);
+    source.value = { ...current, text: draft, hash: written.hash, draft: null, problem: "" };
+    message.value = { kind: "done", text: `${path} is saved, and the library is checked …` };
+    await reportCheck(library);
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
-    const conflict = error.status === 412;
-    source.value = {
-      ...current,
-      problem: conflict
+    const text =
+      error.status === 412
         ? "The file on disk has changed meanwhile. Nothing was overwritten; your text is still here."
-        : error.message,
-    };
+        : error.message;
+    source.value = { ...current, problem: text };
   }
 }
 
+const CHECK_MS = 1000;
+
+async function reportCheck(library: string): Promise<void> {
+  let found = (await api.libraries()).find((each) => each.name === library);
+  while (found?.pending === true) {
+    await new Promise((resolve) => window.setTimeout(resolve, CHECK_MS));
+    found = (await api.libraries()).find((each) => each.name === library);
+  }
+  if (found === undefined) return;
+  message.value =
+    found.problem === ""
+      ? { kind: "done", text: "The library has no errors. The next operation runs it." }
+      : { kind: "error", text: `The next operation still runs the library as it was: ${found.problem}` };
+}
+
+/** Throw the draft away, and read the file on disk again. */
+export async function revertFile(): Promise<void> {
+  const current = source.peek();
+  if (current === null) return;
+  source.value = { ...current, draft: null };
+  await openFile(current.library, current.path);
+}
+
+/** Set or remove a breakpoint: for the next operation, and for the one that goes on. */
 export function toggleBreakpoint(path: string, line: number): void {
   const wanted = `${path}:${line}`;
   const next = new Set(breakpoints.value);
   if (!next.delete(wanted)) next.add(wanted);
   breakpoints.value = next;
+  if (allows("set-breakpoints") && may("operate"))
+    void command({ type: "set-breakpoints", breakpoints: [...next].sort() });
 }

@@ -5,11 +5,13 @@ import type {
   CellStatus,
   LibraryDescription,
   OperationStatus,
+  OperationTree,
   Sample,
   Session,
   WorldFact,
 } from "../api/types";
 import { EMPTY, type OperationState } from "./operation";
+import { withPlanned } from "./planned";
 import { NOTHING, selectedPlace, selectedSpan, selectedThings, type Selection } from "./selection";
 
 /** Who is logged in: null for nobody, undefined while that is not known yet. */
@@ -25,7 +27,6 @@ export const library = signal<LibraryDescription | null>(null);
 export const facts = signal<readonly WorldFact[]>([]);
 /** The number of the last write that `facts` has. */
 export const worldSequence = signal(0);
-export const worldError = signal("");
 
 /** The operation that is shown, and what its events tell. */
 export const operationId = signal<string | null>(null);
@@ -44,7 +45,10 @@ export interface Replay {
   speed: number;
 }
 export const replay = signal<Replay | null>(null);
-export const operation = computed(() => replay.value?.state ?? live.value);
+
+/** The tree that the server has made of the plans of the operation; null while it is not known. */
+export const planned = signal<OperationTree | null>(null);
+export const operation = computed(() => replay.value?.state ?? withPlanned(live.value, planned.value));
 
 export const sample = signal<Sample | null>(null);
 export const shownSample = computed(() => (replay.value === null ? sample.value : replay.value.sample));

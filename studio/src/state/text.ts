@@ -24,8 +24,11 @@ function withUnit(text: string, unit: string): string {
   return unit === "" ? text : `${text} ${unit}`;
 }
 
+/** Smaller components of vectors come from rounding. */
+const NEGLIGIBLE = 1e-9;
+
 function formatVector(components: readonly number[]): string {
-  return `(${components.map((each) => formatNumber(each + 0, 4)).join(", ")})`;
+  return `(${components.map((each) => formatNumber(Math.abs(each) < NEGLIGIBLE ? 0 : each, 4)).join(", ")})`;
 }
 
 /** Return a value as an author would write it; a long list as its length. */

@@ -61,9 +61,14 @@ function Offers({ onChoose }: { onChoose: (wish: Wish) => void }) {
     () => new Set(facts.value.flatMap((each) => individualsOf(each.fact)).map((each) => each.label)),
     [facts.value],
   );
-  const offers = (library.value?.tasks ?? [])
-    .map((task) => ({ task, missing: missingIn(task.goal, known) }))
-    .sort((one, other) => one.missing.length - other.missing.length);
+  // The order stays while a person reads, also if the world arrives after the library.
+  const tasks = useMemo(() => {
+    const all = library.value?.tasks ?? [];
+    return [...all].sort(
+      (one, other) => missingIn(one.goal, known).length - missingIn(other.goal, known).length,
+    );
+  }, [library.value]);
+  const offers = tasks.map((task) => ({ task, missing: missingIn(task.goal, known) }));
   return (
     <>
       <h3>What shall be done?</h3>
@@ -72,6 +77,9 @@ function Offers({ onChoose }: { onChoose: (wish: Wish) => void }) {
           <li key={task.name}>
             <button
               class="offer"
+              title={
+                missing.length > 0 ? `The world of this cell does not have ${missing.join(", ")}` : undefined
+              }
               data-focus={index === 0 ? "" : undefined}
               onClick={() => onChoose({ kind: "task", task, values: {} })}
             >

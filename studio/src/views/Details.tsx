@@ -144,7 +144,8 @@ function NodeDetails({ node }: { node: TreeNode }) {
       </p>
       <p class="small muted">
         <CallPath node={node} />
-        {` · ${node.kind} · starts at ${formatTime(node.startedAt)} (event ${node.startEvent})`}
+        {` · ${node.kind}`}
+        {node.status !== "pending" && ` · starts at ${formatTime(node.startedAt)} (event ${node.startEvent})`}
         {node.endedAt !== null &&
           `, takes ${formatTime(node.endedAt - node.startedAt)}${node.endEvent === null ? "" : ` (event ${node.endEvent})`}`}
       </p>

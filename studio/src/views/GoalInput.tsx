@@ -28,6 +28,7 @@ export function GoalInput({
       ? []
       : words
           .filter((each) => each.toLowerCase().includes(word.toLowerCase()) && each !== word)
+          .sort((one, other) => rank(one, word) - rank(other, word))
           .slice(0, MOST);
   const isOpen = open && offers.length > 0;
   const take = (chosen: string): void => {
@@ -54,7 +55,7 @@ export function GoalInput({
         role="combobox"
         aria-label={label}
         aria-expanded={isOpen}
-        aria-controls={list}
+        aria-controls={isOpen ? list : undefined}
         aria-autocomplete="list"
         aria-activedescendant={isOpen ? `${list}-${at}` : undefined}
         autocomplete="off"
@@ -88,6 +89,11 @@ export function GoalInput({
       </ul>
     </div>
   );
+}
+
+/** Return how late a completion comes: those that begin with the word first, then the short ones. */
+function rank(offer: string, word: string): number {
+  return (offer.toLowerCase().startsWith(word.toLowerCase()) ? 0 : 1000) + offer.length;
 }
 
 /** Return the individuals, properties and relations that the facts have, and `individual.property` of each. */

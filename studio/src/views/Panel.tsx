@@ -54,6 +54,7 @@ export function TabbedPanel({ name, title, tabs, active, onChoose }: TabbedPanel
   return (
     <section class="panel" data-panel={name} aria-label={title} tabIndex={-1}>
       <header class="panel-head">
+        <h2 class="visually-hidden">{title}</h2>
         <div class="tabs" role="tablist" aria-label={title} onKeyDown={move}>
           {tabs.map((each) => (
             <button

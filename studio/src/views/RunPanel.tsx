@@ -1,5 +1,5 @@
 // Run: choose what to do, see the plan first, start; then how far it is, and how it ended.
-import { command, select } from "../state/actions";
+import { command, select, start } from "../state/actions";
 import { allows, cell, isOngoing, may, operation, status } from "../state/studio";
 import { describeFailure, describeRequest, formatTime, formatValue } from "../state/text";
 import { Choose } from "./Choose";
@@ -36,6 +36,7 @@ function Progress() {
       </div>
       <Prompts />
       <Decisions />
+      <Continue />
       <Plan />
       {!isOngoing.value && (
         <button class="primary" onClick={() => (choosing.value = true)}>
@@ -83,6 +84,28 @@ const DECISIONS = [
   { name: "replan", label: "Plan again", why: "Make another plan for the world as it is" },
 ];
 
+/** How an operation that was interrupted can be continued; nothing goes on by itself. */
+function Continue() {
+  const current = status.value;
+  if (current?.state !== "interrupted" || current.continued_by !== "") return null;
+  const go = (decision: "replan" | "retry" | "skip"): void => {
+    const why = decision === "skip" ? "counted as done in the studio" : "";
+    void start({ continues: current.id, decision, why }, crypto.randomUUID());
+  };
+  return (
+    <div class="row decisions">
+      {current.decisions.map((name) => {
+        const known = DECISIONS.find((each) => each.name === name);
+        return (
+          <button key={name} disabled={!may("operate")} title={known?.why} onClick={() => go(name)}>
+            {known?.label ?? name}
+          </button>
+        );
+      })}
+    </div>
+  );
+}
+
 /** What a person can decide now: about a plan, or after a failure. */
 function Decisions() {
   const possible = DECISIONS.filter((each) => allows(each.name));
@@ -97,7 +120,7 @@ function Decisions() {
       {possible.map((each, index) => (
         <button
           key={each.name}
-          class={index === 0 ? "primary" : ""}
+          class={index === 0 && each.name !== "replan" ? "primary" : ""}
           disabled={!may("operate")}
           title={each.why}
           onClick={() => give(each.name)}

@@ -6,6 +6,7 @@ import { attempt, showOperation } from "../state/actions";
 import { openRecording, replayOperation } from "../state/replay";
 import { cellName, operationId, operations, replay } from "../state/studio";
 import { describeFailure, describeRequest } from "../state/text";
+import { compare, Comparison } from "./Comparison";
 import { RunBadge } from "./status";
 import { choosing, runTab } from "./layout";
 
@@ -22,7 +23,6 @@ export function RunsView() {
       <div class="view-tools row">
         <input
           type="search"
-          data-focus
           placeholder={`Search in ${all.length} runs`}
           aria-label="Search in the runs"
           value={search.value}
@@ -99,10 +99,16 @@ function Run({ run }: { run: OperationStatus }) {
         <button class="plain small" onClick={() => void attempt(() => replayOperation(run.id))}>
           Replay
         </button>
+        {!isShown && (
+          <button class="plain small" onClick={() => void compare(run.id)}>
+            Compare
+          </button>
+        )}
         <button class="plain small" onClick={() => void attempt(() => download(run.id))}>
           Download
         </button>
       </div>
+      <Comparison run={run.id} />
     </li>
   );
 }

@@ -1,8 +1,6 @@
 // The 3-D view, which is loaded after the rest of the page.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { select } from "../state/actions";
-import { cellName, things } from "../state/studio";
-import type { SceneHandle } from "../scene3d";
+import { cellName } from "../state/studio";
 
 export function SceneView() {
   const box = useRef<HTMLDivElement>(null);
@@ -11,18 +9,18 @@ export function SceneView() {
   useEffect(() => {
     const element = box.current;
     if (element === null || name === null) return;
-    let handle: SceneHandle | null = null;
+    let end: (() => void) | null = null;
     let isOver = false;
     void mountInto(element, name).then(
-      (made) => {
-        if (isOver) made.dispose();
-        else handle = made;
+      (dispose) => {
+        if (isOver) dispose();
+        else end = dispose;
       },
       (error: unknown) => setProblem(error instanceof Error ? error.message : String(error)),
     );
     return () => {
       isOver = true;
-      handle?.dispose();
+      end?.();
     };
   }, [name]);
   return (
@@ -33,10 +31,13 @@ export function SceneView() {
   );
 }
 
-async function mountInto(element: HTMLElement, cell: string): Promise<SceneHandle> {
-  const { followScene, mountScene, sceneSources } = await import("../scene3d");
-  void [followScene, cell, sceneSources, things];
-  return mountScene(element, sceneSources, {
-    select: (iri) => select(iri === null ? { kind: "nothing" } : { kind: "thing", iri }),
-  });
+/** Show a cell in an element; the function that is returned ends that. */
+async function mountInto(element: HTMLElement, cell: string): Promise<() => void> {
+  const { followScene, mountScene, sceneActions, sceneSources } = await import("../scene3d");
+  const handle = mountScene(element, sceneSources, sceneActions(cell));
+  const unfollow = followScene(cell);
+  return () => {
+    unfollow();
+    handle.dispose();
+  };
 }

@@ -6,7 +6,7 @@ import { plotColumns, plotLines } from "../state/signals";
 import { select } from "../state/actions";
 import { span } from "../state/studio";
 import { Panel } from "./Panel";
-import { theme } from "./layout";
+import { isDark } from "./layout";
 import { drawPlot } from "./plot";
 
 const pausedAt = signal(false);
@@ -31,7 +31,7 @@ function Tools() {
 function Plots() {
   const box = useRef<HTMLDivElement>(null);
   const lines = plotLines.value;
-  const key = `${lines.map((each) => each.name).join("|")} ${theme.value}`;
+  const key = `${lines.map((each) => each.name).join("|")} ${isDark.value}`;
   useEffect(() => {
     const element = box.current;
     if (element === null || lines.length === 0) return;

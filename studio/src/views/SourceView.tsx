@@ -8,13 +8,12 @@ import {
   openFile,
   openPath,
   readFiles,
+  revertFile,
   saveFile,
   source,
-  toggleBreakpoint,
 } from "../state/source";
 import type { Editor } from "../editor/editor";
 import { isWritable } from "../state/source";
-import { theme } from "./layout";
 
 export function SourceView() {
   const name = cell.value?.library;
@@ -35,7 +34,7 @@ export function SourceView() {
           {files.value.length === 0 ? "The files of this library cannot be read." : "Choose a file."}
         </div>
       ) : (
-        <EditorBox key={`${source.value.path} ${theme.value}`} />
+        <EditorBox key={`${source.value.path} ${source.value.hash}`} />
       )}
     </div>
   );
@@ -56,18 +55,23 @@ function SourceTools({ library }: { library: string }) {
         >
           {current === null && <option value="">choose a file</option>}
           {files.value.map((each) => (
-            <option key={each} value={each}>
-              {each}
+            <option key={each.path} value={each.path}>
+              {each.path}
+              {each.editable ? "" : " (read only)"}
             </option>
           ))}
         </select>
       </label>
-      <span class="small muted">{isChanged ? "changed" : ""}</span>
+      <button disabled={!isChanged} title="Go back to the file on disk" onClick={() => void revertFile()}>
+        Revert
+      </button>
       <button
         class="primary"
         disabled={!isChanged || !isWritable.value}
         title={
-          isWritable.value ? "Save and check (Ctrl-S)" : "This needs the role edit, and a file of your own"
+          isWritable.value
+            ? "Save and check (Ctrl-S)"
+            : "This needs the role edit, and a file of this library"
         }
         onClick={() => void saveFile()}
       >
@@ -81,27 +85,18 @@ function EditorBox() {
   const box = useRef<HTMLDivElement>(null);
   const [editor, setEditor] = useState<Editor | null>(null);
   useEffect(() => {
-    let made: Editor | null = null;
+    let end = (): void => undefined;
     let isOver = false;
-    void import("../editor/editor").then(({ makeEditor }) => {
+    void import("../editor/opening").then(({ openEditor }) => {
       const current = source.peek();
       if (isOver || box.current === null || current === null) return;
-      made = makeEditor(box.current, {
-        text: current.draft ?? current.text ?? "",
-        path: current.path,
-        readOnly: !isWritable.peek(),
-        onChange: (text) => {
-          const now = source.peek();
-          if (now !== null) source.value = { ...now, draft: text === now.text ? null : text };
-        },
-        onSave: () => void saveFile(),
-        onBreakpoint: (line) => toggleBreakpoint(current.path, line),
-      });
+      const made = openEditor(box.current, current);
+      end = () => made.destroy();
       setEditor(made);
     });
     return () => {
       isOver = true;
-      made?.destroy();
+      end();
     };
   }, []);
   const path = source.value?.path ?? "";

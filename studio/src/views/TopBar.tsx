@@ -21,11 +21,10 @@ import { CellBadge, RunBadge } from "./status";
 export function TopBar() {
   return (
     <header class="topbar">
-      <strong class="product">skillc studio</strong>
+      <h1 class="product">skillc studio</h1>
       <CellChoice />
       <OperationTitle />
       <Transport />
-      <div class="grow" />
       <Connection />
       <button
         class="plain icon"

@@ -83,7 +83,9 @@ function TreeView() {
       aria-label="Tree of the operation"
       tabIndex={0}
       data-focus
-      aria-activedescendant={all.some((each) => each.key === current) ? `node-${current}` : undefined}
+      aria-activedescendant={
+        all.slice(first, end).some((each) => each.key === current) ? `node-${current}` : undefined
+      }
       onKeyDown={(event) => onKey(event, box.current)}
     >
       {all.length === 0 ? (
@@ -116,6 +118,7 @@ function TreeEmpty() {
         No step has started yet. The tree appears with the first one.
       </div>
     );
+  if (operation.value.ended !== null) return <div class="empty">It ended before any step was started.</div>;
   return (
     <div class="empty">
       Choose a task in the panel Run, and start it. Its tree is shown here while it runs.
@@ -163,13 +166,16 @@ function Row({ row, isSelected, position, total }: RowProps) {
       {choice !== null && <span class="node-choice">{choice.implementation}</span>}
       {node.runs > 1 && <span class="node-choice">× {node.runs}</span>}
       <span class="node-values truncate">{describeNode(row)}</span>
-      <span class="node-time mono">{formatSpan(node.startedAt, node.endedAt)}</span>
+      <span class="node-time mono">
+        {node.status === "pending" ? "" : formatSpan(node.startedAt, node.endedAt)}
+      </span>
     </div>
   );
 }
 
 function describeNode({ node }: TreeRow): string {
   if (node.status === "failure" && node.failure !== null) return describeFailure(node.failure);
+  if (node.status === "pending") return node.values.join(", ");
   return node.choice === null ? "" : Object.values(node.choice.bindings).map(formatValue).join(", ");
 }
 

@@ -5,7 +5,7 @@ import { api } from "../api/client";
 import type { WorldFact, WorldWrite } from "../api/types";
 import { attempt } from "../state/actions";
 import { readWorld } from "../state/live";
-import { cellName, facts, may, selection, things, worldError, worldSequence } from "../state/studio";
+import { cellName, facts, may, selection, things, worldSequence } from "../state/studio";
 import { formatChange, formatFact, individualsOf } from "../state/text";
 import { Fact } from "./links";
 
@@ -19,7 +19,6 @@ export function WorldView() {
       <div class="view-tools row">
         <input
           type="search"
-          data-focus
           placeholder={`Search in ${facts.value.length} facts`}
           aria-label="Search in the facts"
           value={search.value}
@@ -45,7 +44,6 @@ export function WorldView() {
         </button>
       </div>
       {editing.value && <EditForm />}
-      {worldError.value !== "" && <p class="notice bad">{worldError.value}</p>}
       <div class="scroll">{view.value === "facts" ? <FactTable /> : <History />}</div>
     </div>
   );
@@ -140,8 +138,9 @@ function EditForm() {
     <form class="edit-form stack" onSubmit={(event) => void submit(event)}>
       <label class="stack">
         <span class="small muted">
-          One change a line: <code>lab:Part-1 at lab:Tray-2</code>, <code>not lab:Part-1 at lab:Tray-1</code>,
-          or <code>not lab:Part-1</code>. All are made together, or none.
+          One change a line: <code>lab:Tray-1 skiros:contain lab:Part-1</code>, the same with <code>not</code>{" "}
+          before it, <code>lab:Board-1 wiping:isClean false</code>, or <code>not lab:Part-1</code> for a thing
+          that is gone. All are made together, or none.
         </span>
         <textarea
           class="mono"

@@ -65,6 +65,7 @@ function search(): void {
 }
 
 export function handleKey(event: KeyboardEvent): void {
+  if (event.key === "Escape" && isWriting(event)) return focusPanel(focusedPanel() ?? "tree");
   if (event.ctrlKey || event.metaKey || event.altKey || isWriting(event)) return;
   const panel = PANELS[Number(event.key) - 1];
   const act = panel === undefined ? ACTIONS[event.key] : () => focusPanel(panel);

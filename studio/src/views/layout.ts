@@ -1,5 +1,5 @@
 // How the page is divided: sizes of the panels, the one that is enlarged, the tabs, and the theme; kept in the browser.
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 
 export const PANELS = ["run", "tree", "details", "scene", "signals"] as const;
 export type PanelName = (typeof PANELS)[number];
@@ -49,6 +49,15 @@ effect(() => {
   else document.documentElement.dataset["theme"] = theme.value;
 });
 
+const prefersDark = matchMedia("(prefers-color-scheme: dark)");
+const systemIsDark = signal(prefersDark.matches);
+prefersDark.addEventListener("change", (event) => (systemIsDark.value = event.matches));
+
+/** Whether the page is dark now, for what is drawn and knows no variables. */
+export const isDark = computed(() =>
+  theme.value === "system" ? systemIsDark.value : theme.value === "dark",
+);
+
 export function toggleMaximised(name: PanelName): void {
   maximised.value = maximised.value === name ? null : name;
 }
@@ -62,5 +71,5 @@ export function nextTheme(): void {
 export function focusPanel(name: PanelName): void {
   if (maximised.value !== null && maximised.value !== name) maximised.value = name;
   const panel = document.querySelector<HTMLElement>(`[data-panel="${name}"]`);
-  (panel?.querySelector<HTMLElement>("[data-focus]") ?? panel)?.focus();
+  (panel?.querySelector<HTMLElement>("[data-focus]") ?? panel)?.focus({ preventScroll: true });
 }

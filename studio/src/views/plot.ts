@@ -2,6 +2,8 @@
 import type uPlot from "uplot";
 import type { Line } from "../state/series";
 
+const FONT = "11px system-ui";
+
 /** Return a colour of the theme as the browser resolves it; canvas knows no variables. */
 export function themeColour(name: string): string {
   const probe = document.createElement("span");
@@ -26,7 +28,7 @@ export async function drawPlot(
     stroke: ink,
     grid: { stroke: line, width: 1 },
     ticks: { stroke: line, width: 1 },
-    font: "11px system-ui",
+    font: FONT,
   };
   const options: uPlot.Options = {
     width: element.clientWidth,
@@ -39,14 +41,14 @@ export async function drawPlot(
     },
     axes: [
       { ...axis, values: (_, ticks) => ticks.map((each) => `${each} s`), size: 28 },
+      // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment -- the enum exists in types only
       ...units.map((unit, index) => ({
         ...axis,
         scale: unit,
-        // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment -- the enum exists in types only
         side: index === 0 ? 3 : 1,
         grid: { show: index === 0, stroke: line, width: 1 },
         values: (_: uPlot, ticks: number[]) => ticks.map((each) => `${each} ${unit}`),
-        size: 64,
+        size: labelWidth,
       })),
     ],
     series: [
@@ -65,8 +67,18 @@ export async function drawPlot(
   return new UPlot(options, [[], ...lines.map(() => [])] as uPlot.AlignedData, element);
 }
 
+/** The least height of an axis: noise around zero is not blown up. */
+const LEAST = 0.1;
+
+/** Return how wide an axis has to be for its labels. */
+function labelWidth(plot: uPlot, values: string[] | null): number {
+  if (values === null) return 40;
+  plot.ctx.font = FONT;
+  return 16 + Math.max(...values.map((each) => plot.ctx.measureText(each).width / devicePixelRatio));
+}
+
 function fromZero(_: uPlot, least: number | null, most: number | null): [number, number] {
-  return [Math.min(0, least ?? 0), Math.max(most ?? 1, 1e-3) * 1.08];
+  return [Math.min(0, least ?? 0), Math.max(most ?? 0, LEAST) * 1.08];
 }
 
 function format(value: number | null, unit: string): string {

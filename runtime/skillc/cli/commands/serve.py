@@ -6,7 +6,6 @@ before anything moves, so it survives both.
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,12 +13,12 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.options import FOLDER, PATH, grouped_option
+from skillc.cli.serving import DEFAULT_BIND, parse_address, require_server
 
 if TYPE_CHECKING:
     from skillc.services.backends import BackendName
 
 NETWORK = "Network"
-DEFAULT_BIND = "127.0.0.1:8421"
 EXAMPLES = """
 skillc serve my_project --cell cell.ttl
 skillc serve wiping --cell iiwa_table.ttl --backend kinematic
@@ -68,13 +67,8 @@ def command(
 
     A cell has the skills of the library in whose folder its scene is, otherwise those of the first one.
     """
-    if find_spec("uvicorn") is None:
-        raise click.UsageError("the server needs uvicorn and starlette: pip install 'skillc[server]'")
+    require_server()
     from skillc.cli.console import Terminal
-    from skillc_runtime.platforms.processes import INHERITS_SOCKETS
-
-    if not INHERITS_SOCKETS:
-        raise click.UsageError("`skillc serve` needs Linux or macOS: processes of Windows inherit no sockets")
     from skillc.server.cells import choose_cells
     from skillc.server.listening import Certificate, Listening
     from skillc.server.log import logging_to
@@ -84,15 +78,7 @@ def command(
     if (tls_cert is None) != (tls_key is None):
         raise click.UsageError("give both --tls-cert and --tls-key")
     certificate = Certificate(tls_cert, tls_key) if tls_cert is not None and tls_key is not None else None
-    listening = Listening(*_parse_address(bind), names, certificate, proxy)
+    listening = Listening(*parse_address(bind), names, certificate, proxy)
     served = choose_cells(libraries or (Path(),), scenes, state, backend, seed)
     with logging_to(log_file):
         serve(served, listening, open_state(state, token_file), Terminal())
-
-
-def _parse_address(bind: str) -> tuple[str, int]:
-    """Return host and port; UsageError if a text is no address."""
-    host, _, port = bind.rpartition(":")
-    if not host or not port.isdecimal() or int(port) > 65535:
-        raise click.UsageError(f"--bind {bind}: write HOST:PORT, such as {DEFAULT_BIND}")
-    return host.strip("[]"), int(port)

@@ -27,6 +27,7 @@ async def list_libraries(call: ApiCall) -> tuple[LibraryStatus, ...]:
             each.checked.hash,
             each.refused,
             tuple(cell.settings.name for cell in call.server.find_users(each)),
+            each.pending,
         )
         for each in call.server.libraries
     )

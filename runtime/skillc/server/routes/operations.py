@@ -36,6 +36,7 @@ Command = (
     | commands.Skip
     | commands.Replan
     | commands.Answer
+    | commands.SetBreakpoints
 )
 """The commands that need the role `operate`; who gives one is its client, whatever it says."""
 

@@ -26,13 +26,13 @@ async def read_recording(call: ApiCall) -> Response:
     cell, operation = call.server.find_operation(call.path["operation"])
     path = recording_file(Path(cell.settings.folder), operation.id)
     if operation.state in ENDS:
-        await _wait_until_complete(path)
+        await wait_until_complete(path)
     if not path.exists():
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of {operation.id}")
     return send_file(path, MEDIA_TYPE, f"{operation.id}.mcap")
 
 
-async def _wait_until_complete(path: Path) -> None:
+async def wait_until_complete(path: Path) -> None:
     """Wait a little for the end of a file whose operation has just ended; that of a dead process never comes."""
     for _ in range(LOOKS):
         if not await asyncio.to_thread(_is_being_completed, path):

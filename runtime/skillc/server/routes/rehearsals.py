@@ -15,7 +15,7 @@ from skillc.server.rehearsals import Rehearsal
 from skillc.server.simulation_jobs import MAX_WAITING
 from skillc.workers.jobs import RehearsalRequest
 
-VIDEO = "video/mp4"
+MCAP, VIDEO = "application/octet-stream", "video/mp4"
 
 
 async def rehearse(call: ApiCall) -> Rehearsal:
@@ -49,6 +49,14 @@ async def read_film(call: ApiCall) -> Response:
     return send_file(film, VIDEO)
 
 
+async def read_rehearsal_recording(call: ApiCall) -> Response:
+    found = await show_rehearsal(call)
+    recording = call.server.rehearsals.find_recording(found.id)
+    if recording is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of {found.id}")
+    return send_file(recording, MCAP, f"{found.id}.mcap")
+
+
 NOT_FOUND = (HTTPStatus.NOT_FOUND,)
 PATH = "/rehearsals/{rehearsal}"
 ENDPOINTS = (
@@ -70,5 +78,9 @@ ENDPOINTS = (
     ),
     ApiEndpoint(
         "GET", f"{PATH}/film", "view", "Read the film of a rehearsal", read_film, refusals=NOT_FOUND, media_type=VIDEO,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/recording", "view", "Read the recording of a rehearsal, an MCAP file", read_rehearsal_recording,
+        refusals=NOT_FOUND, media_type=MCAP,
     ),
 )  # fmt: skip

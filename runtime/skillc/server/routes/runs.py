@@ -11,6 +11,7 @@ import msgspec
 from skillc.cells.recordings import recording_file
 from skillc.server.asking import ask_about_run
 from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.routes.recordings import wait_until_complete
 from skillc.services.operation_tree import OperationTree
 from skillc.services.run_diff.difference import RunDiff
 from skillc.workers.run_jobs import (
@@ -22,6 +23,7 @@ from skillc.workers.run_jobs import (
     ShowTree,
     SignalRows,
 )
+from skillc_runtime.execution.task_state import ENDS
 
 READ_S = 20.0
 """How long reading a run may take, in s."""
@@ -64,14 +66,23 @@ async def explain_run(call: ApiCall) -> RunExplanation:
 async def read_signals(call: ApiCall) -> SignalRows:
     page: SignalPage = call.query
     match = tuple(filter(None, page.match.split(",")))
-    files = _find_files(call, call.path["operation"])
+    files = await _find_recorded(call, call.path["operation"])
     job = ReadSignals(files, match, page.after_s, page.until_s, page.every_s)
     return await ask_about_run(call, job, SignalRows, READ_S)
 
 
 async def compare_runs(call: ApiCall) -> RunDiff:
-    job = CompareRuns(_find_files(call, call.path["operation"]), _find_files(call, call.query.other))
+    first = await _find_recorded(call, call.path["operation"])
+    job = CompareRuns(first, await _find_recorded(call, call.query.other))
     return await ask_about_run(call, job, RunDiff, READ_S)
+
+
+async def _find_recorded(call: ApiCall, name: str) -> RunFiles:
+    """Return where an operation is recorded, once the recording of one that has ended is complete; ApiRefusal (404)."""
+    files = _find_files(call, name)
+    if call.server.find_operation(name)[1].state in ENDS:
+        await wait_until_complete(Path(files.recording))
+    return files
 
 
 def _find_files(call: ApiCall, name: str) -> RunFiles:

@@ -21,6 +21,7 @@ async def show_session(call: ApiCall) -> SessionInfo:
 async def log_in(call: ApiCall) -> Response:
     response = Response(status_code=HTTPStatus.NO_CONTENT)
     call.cookie.set(response, call.server.state.sessions.begin(call.client.token))
+    call.server.run_readers.warm()  # a page asks for a tree next
     return response
 
 

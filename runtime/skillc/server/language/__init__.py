@@ -1,0 +1,1 @@
+"""Language servers for pages: one process for each WebSocket, which sees the texts of one library and nothing else."""

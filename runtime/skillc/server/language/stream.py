@@ -1,0 +1,128 @@
+"""The WebSocket of a language server: each frame is a message of the Language Server Protocol, without its header."""
+
+from __future__ import annotations
+
+import asyncio
+from http import HTTPStatus
+from importlib.util import find_spec
+from typing import Annotated, Any
+
+import msgspec
+from starlette.websockets import WebSocket
+
+from skillc.server.authentication import make_credential
+from skillc.server.context import ServerContext
+from skillc.server.event_stream import BROKEN, HELLO_S, SILENCE_S, ClientSocket
+from skillc.server.language.process import LanguageServer, LanguageServerEnded, language_server
+from skillc.server.language.uris import TextUris, UnknownText
+from skillc.server.problems import ApiRefusal
+from skillc.server.sample_stream import closing_refused
+
+INVALID_PARAMS, METHOD_NOT_FOUND = -32602, -32601
+OTHER_METHODS = frozenset(
+    {"initialized", "shutdown", "exit", "$/cancelRequest", "workspace/symbol", "workspace/didChangeWatchedFiles"}
+)
+
+
+class LanguageHello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The first message of a client, as JSON: its token, and the library whose texts it edits.
+
+    A page has the cookie of a session instead of a token.
+    """
+
+    library: Annotated[str, msgspec.Meta(max_length=200)]
+    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None
+
+
+async def stream_language(server: ServerContext, socket: WebSocket) -> None:
+    """Let a client talk with a language server of its own until it is gone, or its token is revoked."""
+    await socket.accept()  # wait ends: at once, since the request is there
+    async with closing_refused(socket):
+        with server.watchers.introducing():
+            content = await asyncio.wait_for(socket.receive_text(), HELLO_S)
+            hello = msgspec.json.decode(content, type=LanguageHello)
+            client = ClientSocket(server, socket, make_credential(server, socket, hello.token))
+            name = client.check_client().name
+        library = server.find_library(hello.library)
+        if find_spec("pygls") is None:
+            raise ApiRefusal(
+                HTTPStatus.NOT_IMPLEMENTED, "the language server needs pygls: pip install 'skillc[editor]'"
+            )
+        with server.watchers.watching(name), server.language_servers.watching(name):
+            folder = library.checked.basis.folders[0]
+            async with language_server(library.environment, folder) as running:
+                await _connect(client, running, TextUris(library))
+
+
+async def _connect(client: ClientSocket, running: LanguageServer, uris: TextUris) -> None:
+    """Pass messages on in both directions until one side ends."""
+    passing = [
+        asyncio.create_task(_pass_on(client, running, uris)),
+        asyncio.create_task(_pass_back(client, running, uris)),
+    ]
+    try:
+        done: set[asyncio.Task[None]] = set()
+        while not done:
+            done, _ = await asyncio.wait(passing, timeout=SILENCE_S, return_when=asyncio.FIRST_COMPLETED)
+            client.check_client()
+        for each in done:
+            each.result()
+    except LanguageServerEnded as ended:
+        await client.socket.close(BROKEN, str(ended))
+    finally:
+        for each in passing:
+            each.cancel()
+        await asyncio.gather(*passing, return_exceptions=True)
+
+
+async def _pass_on(client: ClientSocket, running: LanguageServer, uris: TextUris) -> None:
+    while True:
+        message = await _receive(client)
+        try:
+            await running.send(await asyncio.to_thread(_prepare, message, uris))
+        except UnknownText as error:
+            await _refuse(client, message, INVALID_PARAMS, str(error))
+        except NotImplementedError as error:
+            await _refuse(client, message, METHOD_NOT_FOUND, str(error))
+
+
+async def _receive(client: ClientSocket) -> dict[str, Any]:
+    """Return the next message of a client; ApiRefusal if it is none."""
+    try:
+        content = await client.socket.receive_text()
+        client.check_client()
+        return msgspec.json.decode(content, type=dict[str, Any])
+    except (msgspec.DecodeError, RecursionError, KeyError) as error:
+        raise ApiRefusal(HTTPStatus.BAD_REQUEST, "a message is no JSON object") from error
+
+
+async def _pass_back(client: ClientSocket, running: LanguageServer, uris: TextUris) -> None:
+    while True:
+        message = await running.receive()
+        client.check_client()
+        shown = await asyncio.to_thread(uris.to_page, message)
+        await client.socket.send_text(msgspec.json.encode(shown).decode())
+
+
+def _prepare(message: dict[str, Any], uris: TextUris) -> Any:
+    """Return a message for the language server, which sees the folder of the library alone.
+
+    UnknownText if the message names anything else, NotImplementedError for a method that pages do not have.
+    """
+    method = message.get("method", "")
+    if method == "initialize":
+        params = message.get("params")
+        capabilities = params.get("capabilities", {}) if isinstance(params, dict) else {}
+        folders = [{"uri": uris.root, "name": uris.library.checked.name}]
+        opened = {"processId": None, "rootUri": uris.root, "workspaceFolders": folders}
+        return {**message, "params": {"capabilities": capabilities, **opened}}
+    if method and not (isinstance(method, str) and (method.startswith("textDocument/") or method in OTHER_METHODS)):
+        raise NotImplementedError(f"pages do not have the method {str(method)[:100]}")
+    return uris.from_page(message)
+
+
+async def _refuse(client: ClientSocket, message: dict[str, Any], code: int, why: str) -> None:
+    """Answer a request with an error; a notification has no answer."""
+    if "id" in message:
+        answer = {"jsonrpc": "2.0", "id": message["id"], "error": {"code": code, "message": why}}
+        await client.socket.send_text(msgspec.json.encode(answer).decode())

@@ -1,0 +1,30 @@
+"""The process of a language server for a page in a browser: `python -m skillc.workers.language_server`."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from skillc.lsp.server import serve
+from skillc.services.errors import OutputError, ServiceError
+from skillc_runtime.platforms.memory import limit_memory
+
+MEMORY_BYTES = 2 * 2**30
+"""The largest address space of the process."""
+NICENESS = 10
+"""Cells come first."""
+
+
+def main() -> int:
+    """Serve on stdin and stdout until the input ends; return the exit code."""
+    limit_memory(MEMORY_BYTES)
+    os.nice(NICENESS)
+    try:
+        return 0 if serve() else 1
+    except (ServiceError, OutputError) as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,169 @@
+// The language server over a WebSocket: a message of JSON-RPC a frame; it comes back after a loss.
+import type { Position } from "../api/types";
+
+export interface LspPosition {
+  line: number;
+  character: number;
+}
+export interface LspRange {
+  start: LspPosition;
+  end: LspPosition;
+}
+export interface LspDiagnostic {
+  range: LspRange;
+  message: string;
+  severity?: 1 | 2 | 3 | 4;
+  code?: string;
+}
+export interface LspEdit {
+  range: LspRange;
+  newText: string;
+}
+export interface LspCompletion {
+  label: string;
+  kind?: number;
+  detail?: string;
+  documentation?: string | { value: string };
+  insertText?: string;
+  textEdit?: LspEdit;
+}
+
+interface Message {
+  id?: number;
+  method?: string;
+  params?: unknown;
+  result?: unknown;
+}
+
+const REFUSED = 1008;
+const AGAIN_MS = 2000;
+const ANSWER_MS = 8000;
+
+/** A client for the texts of one library; `onDiagnostics` gets what is wrong with a text. */
+export class LanguageServer {
+  private socket: WebSocket | null = null;
+  private number = 0;
+  private version = 0;
+  private isReady = false;
+  private isOver = false;
+  private open: { path: string; text: string } | null = null;
+  private readonly answers = new Map<number, (result: unknown) => void>();
+
+  constructor(
+    private readonly library: string,
+    private readonly onDiagnostics: (path: string, found: LspDiagnostic[]) => void,
+  ) {
+    this.connect();
+  }
+
+  /** Tell the text that is edited now. */
+  show(path: string, text: string): void {
+    const before = this.open;
+    this.open = { path, text };
+    if (!this.isReady) return;
+    if (before?.path === path) {
+      const textDocument = { uri: this.uri(path), version: ++this.version };
+      this.notify("textDocument/didChange", { textDocument, contentChanges: [{ text }] });
+      return;
+    }
+    if (before !== null)
+      this.notify("textDocument/didClose", { textDocument: { uri: this.uri(before.path) } });
+    this.tellOpen();
+  }
+
+  /** Ask something about the open text, at a position if there is one; null if there is no answer. */
+  async ask<T>(method: string, more: Record<string, unknown>): Promise<T | null> {
+    if (!this.isReady || this.open === null) return null;
+    return this.request<T>(method, { textDocument: { uri: this.uri(this.open.path) }, ...more });
+  }
+
+  close(): void {
+    this.isOver = true;
+    this.socket?.close();
+  }
+
+  private connect(): void {
+    const socket = new WebSocket(`${location.origin.replace(/^http/, "ws")}/api/v1/lsp`);
+    this.socket = socket;
+    socket.onopen = () => void this.initialize(socket);
+    socket.onmessage = (event: MessageEvent<string>) => this.receive(JSON.parse(event.data) as Message);
+    socket.onclose = (event) => {
+      this.isReady = false;
+      for (const answer of this.answers.values()) answer(null);
+      this.answers.clear();
+      if (!this.isOver && event.code !== REFUSED)
+        window.setTimeout(() => !this.isOver && this.connect(), AGAIN_MS);
+    };
+  }
+
+  private async initialize(socket: WebSocket): Promise<void> {
+    socket.send(JSON.stringify({ library: this.library }));
+    const textDocument = { hover: { contentFormat: ["plaintext"] }, publishDiagnostics: {} };
+    await this.request(
+      "initialize",
+      { processId: null, rootUri: null, capabilities: { textDocument } },
+      60_000,
+    );
+    this.notify("initialized", {});
+    this.isReady = true;
+    this.tellOpen();
+  }
+
+  private tellOpen(): void {
+    if (this.open === null) return;
+    const { path, text } = this.open;
+    const textDocument = { uri: this.uri(path), languageId: "skill", version: ++this.version, text };
+    this.notify("textDocument/didOpen", { textDocument });
+  }
+
+  private receive(message: Message): void {
+    if (message.method === "textDocument/publishDiagnostics") {
+      const { uri, diagnostics } = message.params as { uri: string; diagnostics: LspDiagnostic[] };
+      this.onDiagnostics(this.pathOf(uri), diagnostics);
+    } else if (message.id !== undefined && message.method !== undefined) {
+      this.send({ id: message.id, result: null });
+    } else if (message.id !== undefined) {
+      this.answers.get(message.id)?.(message.result ?? null);
+      this.answers.delete(message.id);
+    }
+  }
+
+  private request<T>(method: string, params: unknown, patience = ANSWER_MS): Promise<T | null> {
+    const id = ++this.number;
+    this.send({ id, method, params });
+    return new Promise((resolve) => {
+      const timer = window.setTimeout(() => resolve(null), patience);
+      this.answers.set(id, (result) => {
+        window.clearTimeout(timer);
+        resolve(result as T | null);
+      });
+    });
+  }
+
+  private notify(method: string, params: unknown): void {
+    this.send({ method, params });
+  }
+
+  private send(message: Message): void {
+    if (this.socket?.readyState === WebSocket.OPEN)
+      this.socket.send(JSON.stringify({ jsonrpc: "2.0", ...message }));
+  }
+
+  private uri(path: string): string {
+    return `skill:///${[this.library, ...path.split("/")].map(encodeURIComponent).join("/")}`;
+  }
+
+  private pathOf(uri: string): string {
+    return uri
+      .replace(/^skill:\/\/\/[^/]*\//, "")
+      .split("/")
+      .map(decodeURIComponent)
+      .join("/");
+  }
+
+  /** Return the place that a location of the server means. */
+  placeOf(location: { uri: string; range: LspRange }): Position {
+    const { line, character } = location.range.start;
+    return { path: this.pathOf(location.uri), line: line + 1, column: character + 1 };
+  }
+}

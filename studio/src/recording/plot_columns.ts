@@ -1,0 +1,42 @@
+// Which recorded signals are plotted: the length of the force at each arm, and contact forces.
+import type { Line } from "../state/series";
+
+type Columns = readonly (ArrayLike<number | null> | undefined)[];
+
+export class PlotColumns {
+  readonly lines: Line[] = [];
+  /** The time in s, then a column for each line; null where a value is not known. */
+  readonly columns: (number | null)[][] = [[]];
+  /** The numbers of the signals that each line is the length of. */
+  private readonly sources: number[][] = [];
+
+  constructor(signals: readonly { column: string }[]) {
+    signals.forEach(({ column }, at) => {
+      const [device = "", , quantity = ""] = column.split("/");
+      if (quantity === "contact_force_n") this.take(`contact of ${device}`, [at]);
+      if (quantity === "force_x_n") this.take(`force at ${device}`, [at, at + 1, at + 2]);
+    });
+  }
+
+  /** The numbers of all signals that are needed. */
+  get needed(): ReadonlySet<number> {
+    return new Set(this.sources.flat());
+  }
+
+  /** Add rows at times in s, every `step`-th of them. */
+  add(times: ArrayLike<number>, columns: Columns, step = 1): void {
+    for (let row = 0; row < times.length; row += step) {
+      this.columns[0]?.push(times[row] ?? null);
+      this.sources.forEach((source, line) => {
+        const value = Math.hypot(...source.map((at) => columns[at]?.[row] ?? NaN));
+        this.columns[line + 1]?.push(Number.isNaN(value) ? null : value);
+      });
+    }
+  }
+
+  private take(name: string, source: number[]): void {
+    this.lines.push({ name, unit: "N" });
+    this.sources.push(source);
+    this.columns.push([]);
+  }
+}

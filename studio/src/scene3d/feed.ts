@@ -1,0 +1,108 @@
+// Brings what the 3-D view shows: the model of a cell, believed poses and coverage from the server, the rest from the page.
+import { computed, effect, signal } from "@preact/signals";
+import { ApiError, part, read, request } from "../api/client";
+import { attempt, select } from "../state/actions";
+import { cells, may, replay, shownSample, things, worldSequence } from "../state/studio";
+import type {
+  BelievedPoses,
+  CellModel,
+  Displacement,
+  PlannedPath,
+  SceneActions,
+  SceneSources,
+  SurfaceCoverage,
+} from "./types";
+
+type Coverage = Readonly<Record<string, SurfaceCoverage>>;
+
+const COVERAGE_MS = 400;
+const RETRY_MS = 2000;
+
+const model = signal<CellModel | null>(null);
+const believed = signal<BelievedPoses>({});
+const coverage = signal<Coverage>({});
+const paths = signal<readonly PlannedPath[]>([]);
+
+export const sceneSources: SceneSources = {
+  model,
+  believed,
+  sample: shownSample,
+  selected: things,
+  coverage: computed(() => (replay.value === null ? coverage.value : {})),
+  paths,
+};
+
+/** Follow a cell until the function that is returned is called. */
+export function followScene(cell: string): () => void {
+  const isOn = computed(() => !["off", undefined].includes(cells.value.get(cell)?.state));
+  model.value = null;
+  believed.value = coverage.value = {};
+  const ends = [
+    effect(() =>
+      isOn.value ? keepReading(() => read<CellModel>(`/cells/${part(cell)}/model`), model) : undefined,
+    ),
+    effect(() => {
+      return isOn.value && worldSequence.value >= 0
+        ? keepReading(() => read<BelievedPoses>(`/cells/${part(cell)}/poses`), believed)
+        : undefined;
+    }),
+    followCoverage(cell),
+  ];
+  return () => ends.forEach((end) => end());
+}
+
+/** Read something into a signal, again until it is there; the function that is returned gives up. */
+function keepReading<T>(ask: () => Promise<T>, into: { value: T | null }): () => void {
+  let isOver = false;
+  let timer = 0;
+  const run = (): void => {
+    ask().then(
+      (found) => {
+        if (!isOver) into.value = found;
+      },
+      (error: unknown) => {
+        if (!(error instanceof ApiError)) throw error;
+        if (!isOver && error.status !== 401) timer = window.setTimeout(run, RETRY_MS);
+      },
+    );
+  };
+  run();
+  return () => {
+    isOver = true;
+    window.clearTimeout(timer);
+  };
+}
+
+/** Read the coverage again and again while time passes in the cell. */
+function followCoverage(cell: string): () => void {
+  let time = -1;
+  let isReading = false;
+  const timer = window.setInterval(() => {
+    const now = shownSample.peek()?.time_s ?? -1;
+    if (isReading || replay.peek() !== null || now === time || document.hidden) return;
+    isReading = true;
+    read<Coverage>(`/cells/${part(cell)}/coverage`).then(
+      (found) => {
+        [time, isReading, coverage.value] = [now, false, found];
+      },
+      () => (isReading = false),
+    );
+  }, COVERAGE_MS);
+  return () => window.clearInterval(timer);
+}
+
+/** What a person may do in the view of a cell, by the role. */
+export function sceneActions(cell: string): SceneActions {
+  return {
+    select: (iri) => select(iri === null ? { kind: "nothing" } : { kind: "thing", iri }),
+    disturb: may("operate") ? (displacement) => disturb(cell, displacement) : undefined,
+  };
+}
+
+function disturb(cell: string, { individual, label, by_m }: Displacement): Promise<boolean> {
+  const body = { type: "move", thing: individual, by_m };
+  return attempt(
+    () => request("POST", `/api/v1/cells/${part(cell)}/disturbances`, body),
+    `${label} was moved in the simulated reality; the cell does not know it`,
+  );
+}

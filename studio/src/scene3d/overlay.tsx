@@ -1,0 +1,95 @@
+// What lies over the canvas: labels, controls, and what is said when there is nothing to see.
+import { render } from "preact";
+import { MoveForm } from "./MoveForm";
+import type { Mover } from "./mover";
+import "./scene.css";
+import { Toolbar, type ToolbarProps } from "./Toolbar";
+import type { SceneActions, SceneHandle } from "./types";
+
+export interface Overlay {
+  root: HTMLElement;
+  labels: HTMLElement;
+  /** Say why there is nothing to see; nothing with an empty text. */
+  say(text: string): void;
+  setHalves(areBeside: boolean): void;
+  /** Call a function with each new size in pixels, until what is returned is called. */
+  onResize(changed: (width: number, height: number) => void): () => void;
+  dispose(): void;
+}
+
+/** Put a canvas and what lies over it into an element. */
+export function makeOverlay(element: HTMLElement, canvas: HTMLElement): Overlay {
+  const root = make("scene-view");
+  const [labels, controls, empty, note] = [
+    make("scene-labels"),
+    make(""),
+    make("scene-empty"),
+    make("scene-note"),
+  ];
+  const halves = [make("scene-half is-true", "Really"), make("scene-half is-believed", "As believed")];
+  note.textContent = "Grid 10 cm and 1 m";
+  root.append(canvas, labels, ...halves, empty, note, controls);
+  element.append(root);
+  return {
+    root,
+    labels,
+    say: (text) => {
+      empty.textContent = text;
+      empty.hidden = text === "";
+    },
+    setHalves: (areBeside) => halves.forEach((each) => (each.hidden = !areBeside)),
+    onResize: (changed) => {
+      const observer = new ResizeObserver(() => changed(root.clientWidth, root.clientHeight));
+      observer.observe(root);
+      return () => observer.disconnect();
+    },
+    dispose: () => {
+      render(null, controls);
+      root.remove();
+    },
+  };
+}
+
+/** Show the controls of a view in an overlay; `onApply` moves what is chosen, with a reason. */
+export function showControls(
+  overlay: Overlay,
+  handle: SceneHandle,
+  {
+    options,
+    tool,
+    follows,
+    actions,
+  }: Pick<ToolbarProps, "options" | "tool" | "follows"> & { actions: SceneActions },
+  mover: Mover,
+  onApply: (why: string) => Promise<void>,
+): void {
+  const controls = overlay.root.lastElementChild;
+  if (controls === null) return;
+  render(
+    <>
+      <Toolbar
+        options={options}
+        tool={tool}
+        follows={follows}
+        can={{ disturb: actions.disturb !== undefined, correct: actions.correct !== undefined }}
+        onCamera={(preset) => handle.setCamera(preset === "follow" && follows.value ? "fit" : preset)}
+        onOptions={(changed) => handle.setOptions(changed)}
+        onTool={(chosen) => handle.setTool(chosen)}
+      />
+      <MoveForm
+        move={mover.move}
+        onChange={(by_m) => mover.shift(by_m)}
+        onApply={onApply}
+        onCancel={() => handle.setTool("select")}
+      />
+    </>,
+    controls,
+  );
+}
+
+function make(name: string, text = ""): HTMLElement {
+  const made = document.createElement("div");
+  made.className = name;
+  made.textContent = text;
+  return made;
+}

@@ -1,0 +1,60 @@
+import { readFileSync } from "node:fs";
+import { expect, test } from "vitest";
+import { PlotColumns } from "../src/recording/plot_columns";
+import { decodeColumn } from "../src/recording/signal_block";
+
+// Columns that `encode_columns` of the runtime has made of `values`; each is stored in another form.
+const fixture = JSON.parse(readFileSync(new URL("fixtures/signal_block.json", import.meta.url), "utf8")) as {
+  rows: number;
+  columns: [number, number, number, number[], string][];
+  values: (number | null)[][];
+};
+
+test.each(fixture.columns.map((column, at) => [at, column] as const))(
+  "column %d is decoded",
+  (at, column) => {
+    const [quantum, width, order, first, data] = column;
+    const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+    const found = decodeColumn([quantum, width, order, first, bytes], fixture.rows);
+    const expected = fixture.values[at] ?? [];
+    expect(found.length).toBe(expected.length);
+    expected.forEach((value, row) => {
+      if (value === null) expect(found[row]).toBeNaN();
+      else expect(Math.abs((found[row] ?? NaN) - value)).toBeLessThanOrEqual(quantum);
+    });
+  },
+);
+
+test("a damaged column is refused", () => {
+  expect(() => decodeColumn([1, 1, 1, [0], new Uint8Array(3)], 10)).toThrow();
+  expect(() => decodeColumn([1, 0, 0, [], new Uint8Array(3)], 10)).toThrow();
+});
+
+test("the length of a force and contact forces are plotted", () => {
+  const plot = new PlotColumns(
+    [
+      "Arm/sensor/force_x_n",
+      "Arm/sensor/force_y_n",
+      "Arm/sensor/force_z_n",
+      "Tool/truth/contact_force_n",
+      "Tool/truth/face_x_m",
+    ].map((column) => ({ column })),
+  );
+  plot.add(
+    [0, 1, 2],
+    [
+      [3, 0, 0],
+      [4, 0, 0],
+      [0, 0, 2],
+      [7, null, 9],
+      [0, 0, 0],
+    ],
+    2,
+  );
+  expect(plot.lines.map((each) => each.name)).toEqual(["force at Arm", "contact of Tool"]);
+  expect(plot.columns).toEqual([
+    [0, 2],
+    [5, 2],
+    [7, 9],
+  ]);
+});

@@ -1,0 +1,122 @@
+"""A run from its choice to its end, with the mouse and with the keyboard alone."""
+
+from __future__ import annotations
+
+from playwright.sync_api import Page, expect
+
+from server.running import RunningServer
+from studio.opening import FINISHED, choose, start, wait_for_state
+
+
+def test_three_clicks_run_a_task(page: Page) -> None:
+    page.keyboard.press("r")
+    page.get_by_role("button", name="carry_all").click()
+    expect(page.locator(".preview-step")).to_have_count(12)
+    planned = page.locator(".preview-step .plan-text > span:first-child").all_inner_texts()
+    page.get_by_role("button", name="Start", exact=True).click()
+    wait_for_state(page, FINISHED)
+    expect(page.locator(".plan-step .is-good")).to_have_count(12)
+    page.get_by_role("button", name="Enlarge Tree").click()
+    page.keyboard.press("2")
+    page.keyboard.press("Home")
+    names = page.locator(".tree-row[aria-level='1'] .node-name").all_inner_texts()
+    assert len(names) > 4
+    assert names == planned[: len(names)]
+
+
+def test_a_step_is_one_selection_in_all_views(page: Page) -> None:
+    start(page, "carry_all")
+    wait_for_state(page, FINISHED)
+    page.locator(".plan-step", has_text="Unload").first.click()
+    expect(page.locator(".tree-row[aria-selected=true] .node-name")).to_have_text("Unload")
+    details = page.get_by_role("region", name="Details")
+    expect(details).to_contain_text("Unload[by_hand]")
+    expect(details).to_contain_text("Why by_hand")
+    expect(details.get_by_role("button", name="yard.skill:").first).to_be_visible()
+    details.get_by_role("button", name="lab:Cart-1").first.click()
+    expect(details).to_contain_text("lab:Cart-1 is lab:Cart")
+    page.keyboard.press("f")
+    expect(details.locator("tr.is-selected").first).to_contain_text("lab:Cart-1")
+
+
+def test_the_keyboard_alone_does_a_whole_run(page: Page) -> None:
+    page.locator("body").click(position={"x": 2, "y": 400})
+    page.keyboard.press("r")
+    tasks = page.get_by_role("list", name="Tasks")
+    tasks.wait_for()
+    for _ in range(20):
+        if page.evaluate("document.activeElement.textContent.startsWith('carry_all')"):
+            break
+        page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    page.locator(".preview-step").first.wait_for()
+    for _ in range(30):
+        if page.evaluate("document.activeElement.textContent === 'Start'"):
+            break
+        page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    wait_for_state(page, FINISHED)
+    page.keyboard.press("2")
+    page.keyboard.press("Home")
+    page.keyboard.press("ArrowDown")
+    expect(page.locator(".tree-row[aria-selected=true]")).to_have_count(1)
+    page.keyboard.press("?")
+    expect(page.get_by_role("dialog")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_be_hidden()
+
+
+def test_pause_step_resume_and_stop(page: Page, server: RunningServer) -> None:
+    server.client.put("/cells/yard/pace", json={"factor": 0.2})
+    start(page, "carry_all")
+    wait_for_state(page, "running")
+    page.keyboard.press("p")
+    wait_for_state(page, "paused")
+    before = page.locator(".tree-row[aria-level='1']").count()
+    page.get_by_role("button", name="Step over").click()
+    expect(page.locator(".tree-row[aria-level='1']")).to_have_count(before + 1)
+    wait_for_state(page, "paused")
+    page.get_by_role("button", name="Resume").click()
+    wait_for_state(page, "running")
+    page.get_by_role("button", name="Stop", exact=True).click()
+    wait_for_state(page, "stopped")
+
+
+def test_a_goal_with_completion_and_one_that_is_impossible(page: Page) -> None:
+    page.keyboard.press("r")
+    goal = page.get_by_role("combobox", name="Goal")
+    goal.click()
+    goal.fill("lab:Goal contain lab:crate-")
+    page.get_by_role("option", name="lab:crate-3").wait_for()
+    goal.press("ArrowDown")
+    goal.press("Enter")
+    expect(goal).to_have_value("lab:Goal contain lab:crate-1")
+    page.get_by_role("button", name="Plan for this goal").click()
+    expect(page.locator(".preview-step")).to_have_count(2)
+    page.get_by_role("button", name="all tasks").click()
+    page.get_by_role("combobox", name="Goal").fill("lab:Start contain lab:Start")
+    page.get_by_role("button", name="Plan for this goal").click()
+    expect(page.locator(".run .notice").first).to_be_visible()
+
+
+def test_a_task_with_parameters_asks_for_them(page: Page) -> None:
+    choose(page, "carry")
+    page.get_by_role("list", name="Tasks").get_by_role("button", name="carry(", exact=False)
+    crate = page.get_by_role("combobox", name="crate")
+    crate.fill("lab:crate-2")
+    crate.press("Escape")
+    page.get_by_role("combobox", name="to", exact=True).fill("lab:Goal")
+    expect(page.locator(".preview-step")).to_have_count(2)
+    page.get_by_role("button", name="Rehearse").click()
+    expect(page.locator(".rehearsed")).to_contain_text(FINISHED, timeout=30_000)
+    page.get_by_role("button", name="Start", exact=True).click()
+    wait_for_state(page, FINISHED)
+
+
+def test_the_plan_waits_for_approval(page: Page) -> None:
+    choose(page, "carry_all")
+    page.get_by_label("ask before each plan runs").check()
+    page.get_by_role("button", name="Start", exact=True).click()
+    wait_for_state(page, "waits for approval")
+    page.get_by_role("button", name="Approve the plan").click()
+    wait_for_state(page, FINISHED)
