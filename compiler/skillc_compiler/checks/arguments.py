@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.labels import label_declaration
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
 from skillc_compiler.program.walk import all_calls, all_nodes, all_values
 from skillc_dsl import syntax as s
@@ -11,6 +13,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Invoke
 
 NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-scoped")
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -43,8 +46,8 @@ def _check_duplicates(call: Call) -> Iterator[Diagnostic]:
 
 def _check_missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
     passed = {argument.name.text for argument in call.written.arguments}
-    if any(skill.parameter(name) is None for name in passed):
-        return  # a misspelt argument is reported as such
+    if any(skill.parameter(name) is None for name in passed) or len(passed) < len(call.written.arguments):
+        return  # a misspelt or repeated argument is reported as such
     missing = [p for p in skill.parameters if p.direction == "in" and p.name not in passed]
     if missing:
         names = " and ".join(f"`{p.name}`" for p in missing)
@@ -77,4 +80,5 @@ def _check_count(program: Program, value: TypedExpression, meaning: Invoke) -> I
             value.span,
             f"`{function.name}` takes {len(function.parameters)} values, not {len(meaning.arguments)}",
             help=f"write `{function.name}({names})`",
+            labels=label_declaration(function),
         )

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from skillc_compiler.program.labels import label_values
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import (
     INT,
@@ -30,6 +32,7 @@ from skillc_model.conditions import Individual, Invoke, Literal, Variable
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("wrong-type", "wrong-dimension", "missing-unit")
+NEEDS = Need.NAMES
 _QUANTITY = re.compile(r"\s*(-?\d+(?:\.\d+)?)\s*([A-Za-z/0-9]*)\s*$")
 
 
@@ -44,7 +47,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 place.value.span,
                 f"{has}, where {describe_type(place.wanted)} is expected {place.by}",
                 help=help_,
-                labels=(Label(place.cause, "declared here"),) if place.cause else (),
+                labels=(*((Label(place.cause, "declared here"),) if place.cause else ()), *label_values(place.value)),
             )
 
 
@@ -164,4 +167,4 @@ def _function_constraints(program: Program, value: TypedExpression, meaning: Inv
     if function is None:
         return
     for argument, (name, kind) in zip(value.parts, function.parameters, strict=False):
-        yield TypeConstraint(argument, type_of(kind), f"by `{name}` of the function `{function.name}`")
+        yield TypeConstraint(argument, type_of(kind), f"by `{name}` of the function `{function.name}`", value.declared)

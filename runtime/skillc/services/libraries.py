@@ -20,10 +20,11 @@ from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
-from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
+from skillc_dsl.spelling import did_you_mean
 from skillc_model.skills import SkillLibrary, Task
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
