@@ -28,13 +28,19 @@ def close_names(wrong: str, candidates: Iterable[str]) -> tuple[str, ...]:
     same words in another order, as `ArmDevice` has the word of `Arm`.
     """
     names = sorted({*candidates} - {wrong})
+    near = alike_names(wrong, names)
+    if near:
+        return near
+    words = set(split_words(wrong))
+    shared = [name for name in names if words and len(wrong) >= 3 and _share_words(words, set(split_words(name)))]
+    return tuple(sorted(shared, key=lambda name: (not _begins_alike(wrong, name), len(name), name))[:MOST])
+
+
+def alike_names(wrong: str, candidates: Iterable[str]) -> tuple[str, ...]:
+    """Return up to MOST names that are spelt like `wrong`, with equally few changes."""
+    names = sorted({*candidates} - {wrong})
     near = [(distance, name) for name in names if (distance := _distance(wrong, name)) is not None]
-    if not near:
-        words = set(split_words(wrong))
-        shared = [name for name in names if words and len(wrong) >= 3 and _share_words(words, set(split_words(name)))]
-        return tuple(sorted(shared, key=lambda name: (not _begins_alike(wrong, name), len(name), name))[:MOST])
-    least = min(near)[0]
-    return tuple(name for distance, name in sorted(near) if distance == least)[:MOST]
+    return tuple(name for distance, name in sorted(near) if distance == min(near)[0])[:MOST]
 
 
 def split_words(name: str) -> tuple[str, ...]:

@@ -48,6 +48,7 @@ def run_checks(
     for need in Need:
         checks = [one for one in load_checks() if need == one.NEEDS]
         allowed = [problem for one in checks for problem in one.check(program) if marks.allow(need, problem)]
-        found = group_by_cause((*resolving, *allowed), program) if need == Need.NAMES else allowed
+        earlier = resolving if need == Need.NAMES else ()
+        found = group_by_cause((*earlier, *allowed), program) if need in (Need.NAMES, Need.BODY) else allowed
         yield from found
         marks.add(found)

@@ -20,14 +20,26 @@ _COMMENT = re.compile(r"#[^\n]*")
 
 
 def report_unknown_names(program: Program) -> Iterator[Diagnostic]:
-    """Yield the diagnostics of the names that the program lacks, except those that other errors explain."""
+    """Yield the diagnostics of the names that the program lacks, except those that other errors explain.
+
+    Of several arguments that a skill does not take on a line, the first is reported: they may be for another skill.
+    """
     groups: dict[Key, list[UnknownName]] = defaultdict(list)
     for unknown in program.unknown:
         if not program.lost.explains(unknown):
             groups[_key(unknown)].append(unknown)
     times = _count_words(program.files) if any(len(group) > 1 for group in groups.values()) else {}
-    for group in groups.values():
-        yield _report(sorted(group, key=lambda each: each.written.span), program.files, times)
+    calls: set[Key] = set()
+    for group in sorted((sorted(each, key=lambda one: one.written.span) for each in groups.values()), key=_first_place):
+        first = group[0]
+        call = (first.owner, first.written.span.path, first.written.span.line)
+        if not first.passed or call not in calls:
+            yield _report(group, program.files, times)
+        calls |= {call} if first.passed else set()
+
+
+def _first_place(group: Sequence[UnknownName]) -> Span:
+    return group[0].written.span
 
 
 def render_unknown_name(unknown: UnknownName) -> Diagnostic:

@@ -24,7 +24,7 @@ _TERMS = (s.ClassDeclaration, s.RelationDeclaration, s.PropertyDeclaration, s.Fu
 
 
 class Need(IntEnum):
-    """What has to be free of errors for a check to be right, each including the ones before.
+    """What has to be free of errors for a check to be right, in the order in which checks run.
 
     TEXT: the syntax of the line. NAMES: the lines that the problem is about, and the declarations of terms in them;
     the declarations there are complete. TYPES: also the types in those lines. DECLARATION: all of the declarations.
@@ -69,11 +69,15 @@ class Marks:
             return True
         if problem.span in self._meant or any(self._is_unclear(place) for place in places):
             return False
-        if need >= Need.DECLARATION and any(self._enclosing.enclosing(place) in self._erroneous for place in places):
-            return False
-        if need >= Need.BODY and any(self._is_tainted(place) for place in places):
-            return False
-        return need < Need.PROGRAM or self._is_whole
+        declarations = {self._enclosing.enclosing(place) for place in places}
+        match need:
+            case Need.DECLARATION:
+                return declarations.isdisjoint(self._erroneous)
+            case Need.BODY:
+                return not any(self._is_tainted(place) for place in places)
+            case Need.PROGRAM:
+                return self._is_whole
+        return True
 
     def _is_unclear(self, place: Span) -> bool:
         """Whether a place has an error itself, is in an incomplete declaration, or mentions what has an error."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from skillc_compiler.program.spans import is_within_lines
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
-from skillc_dsl.spelling import close_names, did_you_mean
+from skillc_dsl.spelling import alike_names, close_names, did_you_mean
 
 LIBRARY = ""
 """The owner of names that a library declares outside of skills."""
@@ -48,6 +48,11 @@ class UnknownName:
         return () if self.line else close_names(self.written.text, self.candidates)
 
     @property
+    def is_misspelt(self) -> bool:
+        """Whether a candidate is spelt almost like it, so that nothing else has to be missing."""
+        return bool(not self.line and alike_names(self.written.text, self.candidates))
+
+    @property
     def help(self) -> str:
         """What to write instead."""
         return self.otherwise if self.line else did_you_mean(self.written.text, self.candidates) or self.otherwise
@@ -76,11 +81,11 @@ class LostNames:
         if text in lost or unknown.written.text in lost:
             return True
         if unknown.owner != LIBRARY:
-            return unknown.owner in self.names and not unknown.close
-        if unknown.written.span.path in self.headers and not unknown.close:
+            return unknown.owner in self.names and not unknown.is_misspelt
+        if unknown.written.span.path in self.headers and not unknown.is_misspelt:
             return True
         missing = self.declarations or bool(self.twice)
-        return missing and unknown.line is None and not unknown.close
+        return missing and unknown.line is None and not unknown.is_misspelt
 
 
 def find_lost(files: Iterable[s.File]) -> LostNames:
