@@ -1,4 +1,4 @@
-"""Missing or duplicate arguments, and `with` on a skill that is not scoped."""
+"""Missing or duplicate arguments."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
-from skillc_compiler.program.walk import all_calls, all_nodes, all_values
+from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Invoke
 
-NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-scoped")
+NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count")
 NEEDS = Need.TYPES
 
 
@@ -22,9 +22,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from _check_duplicates(call)
         if call.skill:
             yield from _check_missing(call, call.skill)
-    for node in all_nodes(program):
-        if isinstance(node.written, s.With) and node.call and node.call.skill:
-            yield from _check_scoped(node.call, node.call.skill)
     for value in all_values(program):
         if isinstance(value.meaning, Invoke):
             yield from _check_count(program, value, value.meaning)
@@ -57,17 +54,6 @@ def _check_missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
             f"`{skill.name}` needs {names}",
             help=f"pass {', '.join(f'`{p.name}: ..`' for p in missing)}",
             labels=tuple(Label(p.span, "declared here") for p in missing),
-        )
-
-
-def _check_scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
-    if "scoped" not in skill.flags:
-        yield Diagnostic(
-            "not-scoped",
-            call.written.skill.span,
-            f"`{skill.name}` is not declared `scoped`, so `with` cannot undo it",
-            help="call it as a node of its own, or declare it `scoped`",
-            labels=(Label(skill.name_span, "declared here"),),
         )
 
 

@@ -53,7 +53,7 @@ def _key(unknown: UnknownName) -> Key:
     """Return what names that lack the same declaration or line have in common."""
     text, span = unknown.written.text, unknown.written.span
     if unknown.line is not None:
-        return span.path, unknown.line
+        return (span.path, unknown.line.keyword, unknown.line.name if unknown.line.keyword == "import" else "")
     if unknown.owner is None:
         return (span,)
     local = unknown.diagnostic in ("unknown-prefix",)

@@ -155,6 +155,8 @@ class Marks:
         todo = [self._skills[span] for span in self._erroneous & self._described]
         todo += [self._skills[span] for span in self._described if self._mentions_terms(span)]
         todo += [name for unknown in self._program.unknown if unknown.owner == LIBRARY for name in unknown.close]
+        if self._program.lost.declarations:
+            todo += [name for name, known in self._program.implementations_of.items() if not known]
         found = set(todo)
         while todo:
             more = {*callers[todo.pop()]} - found

@@ -27,9 +27,9 @@ class HeaderLine:
 class UnknownName:
     """A name without a declaration; `diagnostic` is what it is reported as.
 
-    `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill that should
-    declare it, LIBRARY, or None if there is nothing to declare. `line` is what its file lacks, if that is known.
-    `passed` if it is the name of an argument.
+    `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill or `task NAME`
+    that should declare it, LIBRARY, or None if there is nothing to declare. `line` is what its file lacks, if that is
+    known. `passed` if it is the name of an argument.
     """
 
     diagnostic: str
@@ -99,6 +99,8 @@ def find_lost(files: Iterable[s.File]) -> LostNames:
             match owner:
                 case s.SkillDeclaration(name=name) | s.ImplementationDeclaration(skill=name):
                     names[name.text] |= error.names
+                case s.TaskDeclaration(name=name):
+                    names[f"task {name.text}"] |= error.names
                 case None if _is_in_header(error, file.declarations):
                     headers.add(file.path)
                 case _:

@@ -9,6 +9,7 @@ from dataclasses import replace
 from skillc_compiler.program.spans import is_within_lines
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations
+from skillc_compiler.resolve.names import KINDS
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
 from skillc_dsl.source import Span
@@ -56,6 +57,7 @@ def _first_declarations(
         if isinstance(declaration, s.ImplementationDeclaration) and declaration.skill.text in second_skills:
             continue
         key, name = _identity(declaration, declared), declaration.name
+        problems += _other_kinds(key, name, first)
         if first.setdefault(key, name.span) == name.span:
             yield declaration
             continue
@@ -67,6 +69,20 @@ def _first_declarations(
                 pass
             case _:
                 yield declaration
+
+
+def _other_kinds(key: tuple[str, ...], name: s.Name, first: dict[tuple[str, ...], Span]) -> Iterator[Diagnostic]:
+    """Yield a problem if a term has the name of a term of another kind."""
+    kind, iri = key[0], key[1]
+    if kind not in KINDS:
+        return
+    first.setdefault(("term", kind, iri), name.span)
+    for other in KINDS:
+        former = first.get(("term", other, iri))
+        if other != kind and former is not None:
+            message = f"`{name.text}` is already a {other}, so it cannot be a {kind}"
+            labels = (Label(former, "first declared here"),)
+            yield Diagnostic("duplicate-declaration", name.span, message, "choose another name", labels=labels)
 
 
 def _problem(kind: str, name: s.Name, first: Span) -> Diagnostic:

@@ -32,7 +32,7 @@ class LocalName:
 class Scope:
     """Local names; `owner` is what they belong to, as shown in messages: "skill `Pick`".
 
-    `skill` is the skill that declares the parameters among them, None if there is none.
+    `skill` is the skill that declares the parameters among them, `task NAME` for a task; None if nothing does.
     """
 
     owner: str
