@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from skillc_compiler.checks import run_checks
-from skillc_compiler.diagnostics.consequences import without_consequences
-from skillc_compiler.diagnostics.followers import without_followers
 from skillc_compiler.diagnostics.prefixes import with_prefix
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
+from skillc_compiler.diagnostics.unknown_names import report_unknown_names
 from skillc_compiler.diagnostics.unplannable import report_unplannable
 from skillc_compiler.lower.library import lower_program
+from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
@@ -60,11 +60,13 @@ def analyse(
 
 
 def find_problems(files: Outcome[tuple[ParsedFile, ...]], program: Outcome[Program]) -> tuple[Diagnostic, ...]:
-    """Check a program; return all diagnostics except those that only follow from others."""
-    found = (*program.diagnostics, *run_checks(program.value))
-    own_faults = without_followers(found, files.diagnostics, files.value)
-    syntax = (with_prefix(problem, program.value) for problem in files.diagnostics)
-    return (*syntax, *without_consequences(own_faults, (*files.diagnostics, *found), files.value))
+    """Check a program; return the diagnostics of all errors, and nothing that may only follow from them."""
+    syntax = tuple(with_prefix(problem, program.value) for problem in files.diagnostics)
+    marks = Marks(program.value, ())
+    unknown = (problem for problem in report_unknown_names(program.value) if marks.allow(Need.TEXT, problem))
+    known = (*syntax, *unknown)
+    resolving = [problem for problem in program.diagnostics if marks.allow(Need.TEXT, problem)]
+    return (*known, *run_checks(program.value, known, resolving))
 
 
 def lower_and_report(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:

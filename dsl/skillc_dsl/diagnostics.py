@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
@@ -56,6 +54,14 @@ class Diagnostic:
 
 
 @dataclass(frozen=True, slots=True)
+class Misfit(Diagnostic):
+    """A token that does not fit: `found` is the message without what would fit; `could_end` if a block could."""
+
+    found: str = ""
+    could_end: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Outcome(Generic[T_co]):
     """The result of a pass, with the diagnostics about what it had to leave out."""
 
@@ -66,24 +72,3 @@ class Outcome(Generic[T_co]):
     def ok(self) -> bool:
         """Whether there is no error among the diagnostics."""
         return not any(d.severity == "error" for d in self.diagnostics)
-
-
-def did_you_mean(wrong: str, candidates: Iterable[str]) -> str:
-    """Return a help line with the candidates closest to `wrong`, or with all of them if they are few and none is close.
-
-    Close candidates are spelt alike, or else contain `wrong`, as `ArmDevice` contains `Arm`.
-    """
-    names = sorted(set(candidates))
-    near = difflib.get_close_matches(wrong, names, n=3, cutoff=0.6) or _holding(wrong, names)
-    if near:
-        return f"did you mean {' or '.join(f'`{name}`' for name in near)}?"
-    if 0 < len(names) <= 8:
-        return f"there is {', '.join(f'`{name}`' for name in names)}"
-    return ""
-
-
-def _holding(word: str, names: Iterable[str]) -> list[str]:
-    """Return up to three names that contain `word`, of three letters or more; those that begin with it first."""
-    small = word.lower()
-    holding = [name for name in names if len(small) >= 3 and small in name.lower()]
-    return sorted(holding, key=lambda name: (not name.lower().startswith(small), len(name), name))[:3]

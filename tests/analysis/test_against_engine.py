@@ -17,20 +17,22 @@ from analysis.plays import Writer
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     BrokenHold,
-    TooManyStates,
     UndecidedProperty,
     UnprovedPost,
     ViolatedProperty,
 )
-from skillc_compiler.analysis.initial_state import initial_state, requirements_of
+from skillc_compiler.analysis.initial_state import can_start, initial_state, requirements_of
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.analysis.proof import Prover
 from skillc_compiler.analysis.state import State
+from skillc_compiler.checks import load_checks
 from skillc_compiler.lower.library import lower_program
+from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.typed import Implementation, Program, TypedNode, start_position
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 from skillc_model import tree
 from skillc_model.conditions import Condition, Holds, Individual, Variable
@@ -84,13 +86,21 @@ def understood(text: str) -> Program:
     return program.value
 
 
+def is_sound(program: Program, implementation: Implementation, run: Exploration) -> bool:
+    """Whether what is proved of an implementation is reported: there is no error in it nor in what it calls."""
+    below = (problem for one in load_checks() if one.NEEDS < Need.BODY for problem in one.check(program))
+    marks = Marks(program, below)
+    about = Diagnostic("a-claim", implementation.name_span, "something is proved")
+    return marks.allow(Need.BODY, about) and can_start(run.types, implementation)
+
+
 def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -> Claims:
     """Explore a body and return everything that is claimed of it."""
     run = prover.new_exploration(implementation, body)
     prover.leaks(implementation)
     ends = run.explore(run, body, {initial_state(run.types, implementation): None}, EvalContext())
     findings = prover.proofs[implementation.key].findings
-    if not list(prover.understood.sound(implementation, [TooManyStates(implementation.span)], True)):
+    if not is_sound(prover.program, implementation, run):
         return Claims(implementation, run, ends, set(), set(), set(), set(), [])
     unproved = {f.post.span for f in findings if isinstance(f, UnprovedPost)}
     broken = {f.hold.span for f in findings if isinstance(f, BrokenHold)}

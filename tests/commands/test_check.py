@@ -51,7 +51,7 @@ def test_without_a_path_the_current_folder_is_checked(library: Path) -> None:
         "fetch.skill:3:7: warning[no-implementation]: the skill `Fetch` has no implementation, so it cannot run",
         "fetch.skill:5:17: error[unknown-type]: there is no type `Nubmer`",
     ]
-    assert result.stderr == "1 error, 1 warning in 1 file\n"
+    assert result.stderr == "1 error, 1 warning in 1 file; 1 guessed with --fix --unsafe-fixes\n"
 
 
 def test_sarif_describes_the_rules_with_their_pages(library: Path) -> None:

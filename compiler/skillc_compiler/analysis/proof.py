@@ -15,6 +15,8 @@ from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
     TooManyStates,
+    UnassignedOutput,
+    UnassignedRead,
     UndecidedProperty,
     UnreachableNode,
     ViolatedProperty,
@@ -25,7 +27,6 @@ from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.analysis.understood import Understood
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.analysis.writes import NO_WRITES, Write
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
@@ -71,7 +72,6 @@ class Prover:
     def __post_init__(self) -> None:
         self._axioms: CanonicalAxioms = build_axioms(self.program.vocabulary)
         self.summaries = WriteSummaries(self.program, self._axioms)
-        self.understood = Understood(self.program, self._axioms)
         self._busy: set[str] = set()
 
     def leaks(self, implementation: Implementation) -> frozenset[Write]:
@@ -148,8 +148,9 @@ class Prover:
         ]
         if run.widened_at is not None:
             found.append(TooManyStates(run.widened_at))
-        clear = not isinstance(of, Implementation) or can_start(run.types, of)
-        return tuple(self.understood.sound(of, found, clear))
+        if isinstance(of, Implementation) and not can_start(run.types, of):
+            return tuple(each for each in found if isinstance(each, UnassignedRead | UnassignedOutput))
+        return tuple(found)
 
 
 def unreachable_nodes(run: Exploration, node: TypedNode, start: State) -> Iterator[UnreachableNode]:

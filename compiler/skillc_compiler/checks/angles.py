@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.types import Measure
 from skillc_compiler.program.walk import all_values
@@ -13,6 +14,7 @@ from skillc_dsl.units import ANGLE
 from skillc_model.conditions import Literal
 
 NAMES = ("suspicious-angle",)
+NEEDS = Need.TEXT
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, Requirement, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.spelling import did_you_mean
 
 NAMES = ("unknown-label", "sensed-post-applied")
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -1,16 +1,19 @@
-"""Missing or duplicate arguments, and `with` on a skill that is not scoped."""
+"""Missing or duplicate arguments."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.labels import label_declaration
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
-from skillc_compiler.program.walk import all_calls, all_nodes, all_values
+from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Invoke
 
-NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count", "not-scoped")
+NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count")
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -19,9 +22,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from _check_duplicates(call)
         if call.skill:
             yield from _check_missing(call, call.skill)
-    for node in all_nodes(program):
-        if isinstance(node.written, s.With) and node.call and node.call.skill:
-            yield from _check_scoped(node.call, node.call.skill)
     for value in all_values(program):
         if isinstance(value.meaning, Invoke):
             yield from _check_count(program, value, value.meaning)
@@ -43,8 +43,8 @@ def _check_duplicates(call: Call) -> Iterator[Diagnostic]:
 
 def _check_missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
     passed = {argument.name.text for argument in call.written.arguments}
-    if any(skill.parameter(name) is None for name in passed):
-        return  # a misspelt argument is reported as such
+    if any(skill.parameter(name) is None for name in passed) or len(passed) < len(call.written.arguments):
+        return  # a misspelt or repeated argument is reported as such
     missing = [p for p in skill.parameters if p.direction == "in" and p.name not in passed]
     if missing:
         names = " and ".join(f"`{p.name}`" for p in missing)
@@ -57,17 +57,6 @@ def _check_missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
         )
 
 
-def _check_scoped(call: Call, skill: Skill) -> Iterator[Diagnostic]:
-    if "scoped" not in skill.flags:
-        yield Diagnostic(
-            "not-scoped",
-            call.written.skill.span,
-            f"`{skill.name}` is not declared `scoped`, so `with` cannot undo it",
-            help="call it as a node of its own, or declare it `scoped`",
-            labels=(Label(skill.name_span, "declared here"),),
-        )
-
-
 def _check_count(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[Diagnostic]:
     function = program.vocabulary.functions.get(meaning.function)
     if function and len(function.parameters) != len(meaning.arguments):
@@ -77,4 +66,5 @@ def _check_count(program: Program, value: TypedExpression, meaning: Invoke) -> I
             value.span,
             f"`{function.name}` takes {len(function.parameters)} values, not {len(meaning.arguments)}",
             help=f"write `{function.name}({names})`",
+            labels=label_declaration(function),
         )

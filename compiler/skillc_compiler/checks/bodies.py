@@ -1,17 +1,19 @@
-"""Implementations, skills and tasks without a body."""
+"""Implementations and tasks without a body."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, Task
 from skillc_dsl.diagnostics import Diagnostic
 
-NAMES = ("missing-body", "no-implementation")
+NAMES = ("missing-body",)
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each missing body or implementation."""
+    """Yield a problem for each missing body."""
     for implementation in program.implementations:
         if implementation.body is None:
             yield Diagnostic(
@@ -19,16 +21,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 implementation.name_span,
                 f"the implementation `{implementation.name}` has no body",
                 help='add `do seq { .. }` or `run python "module:Class"`',
-            )
-    implemented = {implementation.skill.name for implementation in program.implementations}
-    for skill in program.skills.values():
-        if skill.name not in implemented:
-            yield Diagnostic(
-                "no-implementation",
-                skill.name_span,
-                f"the skill `{skill.name}` has no implementation, so it cannot run",
-                help=f"add `impl NAME of {skill.name} {{ .. }}`",
-                severity="warning",
             )
     for task in program.tasks:
         yield from _task(task)

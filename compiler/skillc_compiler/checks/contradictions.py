@@ -12,10 +12,12 @@ from skillc_compiler.logic.conjunctions import (
     equal_names_in,
     rename_fact,
 )
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("contradicting-conditions",)
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("impossible-class", "class-cycle", "impossible-relation")
+NEEDS = Need.TEXT
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

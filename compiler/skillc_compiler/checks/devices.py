@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.labels import label_declaration
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Parameter, Program, Skill
 from skillc_compiler.program.types import UNKNOWN, Thing, describe_type, fits
 from skillc_dsl import syntax as s
@@ -11,6 +13,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 NAMES = ("not-a-device",)
+NEEDS = Need.NAMES
 DEVICE = "http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#Device"
 
 
@@ -36,8 +39,13 @@ def _check_device(
         device.parameter.span,
         f"`{parameter.name}` {what}, and `{device.kind}` is for devices",
         help=f"write {names}" if names else "remove the line",
-        labels=(Label(parameter.span, "declared here"),),
+        labels=(Label(parameter.span, "declared here"), *_label_class(vocabulary, parameter)),
     )
+
+
+def _label_class(vocabulary: Vocabulary, parameter: Parameter) -> tuple[Label, ...]:
+    term = vocabulary.classes.get(parameter.type.cls or THING) if isinstance(parameter.type, Thing) else None
+    return label_declaration(term) if term is not None else ()
 
 
 def _reason(vocabulary: Vocabulary, parameter: Parameter) -> str | None:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from skillc_compiler.logic.conjunctions import TypedFact, facts_in
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, Requirement, TypedCondition
 from skillc_compiler.program.walk import all_nodes
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Condition
 
 NAMES = ("duplicate-condition",)
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

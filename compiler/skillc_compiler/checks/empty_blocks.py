@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.walk import all_nodes
 from skillc_dsl import syntax as s
@@ -11,6 +12,7 @@ from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
 
 NAMES = ("empty-block",)
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.python.targets import method_returns
@@ -12,6 +13,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("never-ends", "not-endless")
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

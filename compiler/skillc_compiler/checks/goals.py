@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.logic.effects import NoEffect, effects_of
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, TypedCondition
 from skillc_compiler.program.walk import conditions_in
 from skillc_dsl.diagnostics import Diagnostic
@@ -13,6 +14,7 @@ from skillc_model.read_write import may_change, terms_written_by
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unachievable-goal",)
+NEEDS = Need.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, Skill, TypedCondition
+from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_model.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same
+from skillc_model.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same, Variable
 from skillc_model.traversal import free_variables
 
 NAMES = ("unlinked-inference",)
+NEEDS = Need.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each inferred parameter that no precondition determines."""
     for skill in program.skills.values():
         linked = {name for r in skill.requirements if r.kind == "pre" for name in _constrained_variables(r.condition)}
-        asked = {name for r in skill.requirements if r.kind == "pre" for name in free_variables(r.condition.meaning)}
+        pre = [r.condition for r in skill.requirements if r.kind == "pre"]
+        written = {name for whole in pre for part in conditions_in(whole) for name in _names_in(part)}
+        asked = written.union(*(free_variables(condition.meaning) for condition in pre))
         for parameter in skill.parameters:
             if parameter.direction == "infer" and parameter.name not in (asked if parameter.any_ else linked):
                 yield _problem(skill, parameter.name, linked)
@@ -33,6 +38,12 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     )
 
 
+def _names_in(condition: TypedCondition) -> set[str]:
+    """Return the names in a condition as it is written, also where they have no meaning because of an error."""
+    read = (part.meaning for value in condition.values for part in values_in(value))
+    return {meaning.name for meaning in read if isinstance(meaning, Variable)}
+
+
 def _constrained_variables(condition: TypedCondition) -> set[str]:
     """Return the variables that a condition, if it holds, constrains."""
     match condition.meaning:
@@ -41,6 +52,6 @@ def _constrained_variables(condition: TypedCondition) -> set[str]:
         case Or():
             return set.intersection(*(_constrained_variables(part) for part in condition.parts))
         case Holds() | Same() | Compare() | HasProperty() | IsA():
-            return set(free_variables(condition.meaning))
+            return set(free_variables(condition.meaning)) | _names_in(condition)
         case _:
             return set()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from skillc_compiler.program.labels import label_values
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
@@ -13,6 +15,7 @@ from skillc_dsl.source import Span
 from skillc_model.conditions import Arithmetic, Compare
 
 NAMES = ("unlike-dimensions", "wrong-operands")
+NEEDS = Need.TEXT
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -28,7 +31,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _check_arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[Diagnostic]:
     left, right = (part.type for part in value.parts)
     if arithmetic_type(meaning.operator, left, right) is None:
-        yield _problem(value.span, meaning.operator, left, right)
+        yield _problem(value.span, meaning.operator, left, right, value.parts)
 
 
 def _check_comparison(program: Program, condition: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:
@@ -39,7 +42,7 @@ def _check_comparison(program: Program, condition: TypedCondition, meaning: Comp
         return
     alike = fits(program.vocabulary, left, right) or fits(program.vocabulary, right, left)
     if not alike:
-        yield _problem(condition.span, meaning.operator, left, right)
+        yield _problem(condition.span, meaning.operator, left, right, condition.values)
     elif meaning.operator not in ("==", "!=") and not (left == INT or isinstance(left, Measure)):
         yield Diagnostic(
             "wrong-operands",
@@ -49,13 +52,14 @@ def _check_comparison(program: Program, condition: TypedCondition, meaning: Comp
         )
 
 
-def _problem(span: Span, operator: str, left: Type, right: Type) -> Diagnostic:
+def _problem(span: Span, operator: str, left: Type, right: Type, sides: Sequence[TypedExpression]) -> Diagnostic:
     unlike = _is_number(left) and _is_number(right)
     return Diagnostic(
         "unlike-dimensions" if unlike else "wrong-operands",
         span,
         f"`{operator}` cannot combine {describe_type(left)} and {describe_type(right)}",
         help=_suggest(left, right) if unlike else "use values of one type",
+        labels=label_values(*sides),
     )
 
 

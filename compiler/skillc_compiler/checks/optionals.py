@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import (
     Implementation,
     Parameter,
@@ -19,6 +20,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import And, Given, Not, Or, Variable
 
 NAMES = ("unset-optional",)
+NEEDS = Need.NAMES
 Guards = frozenset[str]
 NONE: Guards = frozenset()
 

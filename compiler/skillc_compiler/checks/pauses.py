@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Fix
 
 NAMES = ("keep-without-pause",)
+NEEDS = Need.TEXT
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.logic.effects import effects_of
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -13,16 +14,22 @@ from skillc_model.pddl.names import to_kebab
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield warnings about planned skills, and an error for names that collide in PDDL."""
     for skill in program.skills.values():
-        if "noplan" not in skill.flags:
-            yield from _check_effect(skill)
-            yield from _check_parameters(skill)
-            yield from _check_numbers(program, skill)
+        yield from check_skill(program, skill)
     yield from _check_names(program)
+
+
+def check_skill(program: Program, skill: Skill) -> Iterator[Diagnostic]:
+    """Yield the reasons in a planned skill's description why planners leave it out."""
+    if "noplan" not in skill.flags:
+        yield from _check_effect(skill)
+        yield from _check_parameters(skill)
+        yield from _check_numbers(program, skill)
 
 
 def _check_effect(skill: Skill) -> Iterator[Diagnostic]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
@@ -14,6 +15,7 @@ from skillc_model.format_condition import format_condition
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("breaks-axiom",)
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

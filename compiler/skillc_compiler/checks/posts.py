@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
 from skillc_compiler.logic.effects import NoEffect, effects_of
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assert, Assign, Compare, Effect, Expression, HasProperty, Holds, Literal, Retract
@@ -14,6 +15,7 @@ from skillc_model.rewriting import substitute
 from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, local_name
 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")
+NEEDS = Need.NAMES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.labels import label_declaration
+from skillc_compiler.program.labels import label_declaration, label_values
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, TypedExpression
 from skillc_compiler.program.types import Thing, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
@@ -13,6 +14,7 @@ from skillc_model.conditions import HasProperty, PropertyOf
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("property-domain",)
+NEEDS = Need.NAMES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -27,7 +29,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _check_domain(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnostic]:
     term = program.vocabulary.properties.get(iri)
-    if term is None or any(fits(program.vocabulary, of.type, Thing(domain)) for domain in term.domains):
+    if term is None or not term.domains:
+        return
+    if any(fits(program.vocabulary, of.type, Thing(domain)) for domain in term.domains):
         return
     domains = " or ".join(local_name(domain) for domain in term.domains)
     yield Diagnostic(
@@ -35,5 +39,5 @@ def _check_domain(program: Program, iri: str, of: TypedExpression) -> Iterator[D
         of.span,
         f"`{local_name(iri)}` is a property of {domains}, and this is {describe_type(of.type)}",
         help="read it of another individual, or narrow the class of the parameter",
-        labels=label_declaration(term),
+        labels=(*label_declaration(term), *label_values(of)),
     )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import TypeAlias
 
+from skillc_compiler.checks.bad_targets import split_target
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Implementation, Program
 from skillc_compiler.python.info import (
     BrokenModule,
@@ -21,14 +22,15 @@ from skillc_compiler.python.info import (
 )
 from skillc_compiler.python.targets import read_target
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.spelling import did_you_mean
 
-NAMES = ("bad-python-target", "missing-python", "wrong-python-parameters", "not-a-primitive")
+NAMES = ("missing-python", "wrong-python-parameters", "not-a-primitive")
+NEEDS = Need.BODY
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "withdraw": 0, "approach": 0, "resume": 0, "release": 0}
 """The methods of a primitive that are called, with the number of arguments."""
 _Reader: TypeAlias = Callable[[str, str], TargetInfo]
-_TARGET = re.compile(r"([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*):([A-Za-z_]\w*)")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -143,11 +145,10 @@ def _in_order(taken: PythonSignature, given: Sequence[str]) -> str | None:
 
 def _found(written: s.Text, reader: _Reader) -> ClassInfo | FunctionInfo | Other | Unclear | Diagnostic:
     """Return what the target is, or a diagnostic."""
-    target = _TARGET.fullmatch(written.value)
+    target = split_target(written.value)
     if target is None:
-        message = f'"{written.value}" does not name something in a Python module'
-        return Diagnostic("bad-python-target", written.span, message, 'write "package.module:Name"')
-    module, name = target.groups()
+        return Unclear()
+    module, name = target
     found = reader(module, name)
     match found:
         case NoModule(installed=True):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isfinite
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Parameter, Program, TypedExpression
 from skillc_compiler.program.types import INT, Measure, Type
 from skillc_compiler.program.walk import all_calls
@@ -14,6 +15,7 @@ from skillc_dsl.units import NUMBER, UNITS
 from skillc_model.rewriting import constant_number
 
 NAMES = ("out-of-range", "empty-range")
+NEEDS = Need.NAMES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

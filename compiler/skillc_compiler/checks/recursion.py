@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("recursion",)
+NEEDS = Need.BODY
 Edges = Mapping[str, Sequence[tuple[str, Call]]]
 
 

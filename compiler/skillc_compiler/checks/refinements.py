@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import describe_type, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.rewriting import constant_number
 
 NAMES = ("not-narrower",)
+NEEDS = Need.TYPES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

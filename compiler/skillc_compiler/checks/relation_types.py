@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.labels import label_declaration
+from skillc_compiler.program.labels import label_declaration, label_values
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program, TypedExpression
 from skillc_compiler.program.types import Thing, UnknownType, describe_type, fits
 from skillc_compiler.program.walk import all_conditions
@@ -13,6 +14,7 @@ from skillc_model.conditions import Holds
 from skillc_rdf.vocabulary.types import RelationTerm, local_name
 
 NAMES = ("relation-domain", "relation-range")
+NEEDS = Need.NAMES
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -42,5 +44,5 @@ def _problem(name: str, relation: RelationTerm, side: TypedExpression, where: st
         side.span,
         f"`{local_name(relation.iri)}` goes from {ways}, but {where} stands {describe_type(side.type)}",
         help="swap the sides, narrow the class of the parameter, or use another relation",
-        labels=label_declaration(relation),
+        labels=(*label_declaration(relation), *label_values(side)),
     )

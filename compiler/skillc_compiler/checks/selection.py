@@ -12,11 +12,13 @@ from skillc_compiler.logic.selection import (
     rank_implementations,
     subsumes,
 )
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Implementation, Program
 from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("ambiguous-selection", "never-selected")
+NEEDS = Need.BODY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

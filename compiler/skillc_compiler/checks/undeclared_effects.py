@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UndeclaredEffect
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("undeclared-effect",)
+NEEDS = Need.BODY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each effect of a call that lasts beyond the skill and that no `post` declares."""
+    """Yield a problem for each body with effects of calls that last beyond the skill and that no `post` declares."""
+    groups: dict[str, list[UndeclaredEffect]] = defaultdict(list)
     for one in findings_of(program, UndeclaredEffect):
+        groups[one.implementation.key].append(one)
+    for one, *others in groups.values():
         skill = one.implementation.skill
         yield Diagnostic(
             "undeclared-effect",
@@ -25,6 +31,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             labels=(
                 Label(one.post.span, "the effect"),
                 Label(skill.name_span, "whose posts do not declare it"),
+                *(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
                 *path_labels(one.path),
             ),
         )

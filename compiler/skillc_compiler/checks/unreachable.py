@@ -6,10 +6,12 @@ from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UnreachableNode
 from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unreachable-node",)
+NEEDS = Need.BODY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

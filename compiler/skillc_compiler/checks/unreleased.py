@@ -7,10 +7,12 @@ from collections.abc import Iterator
 from skillc_compiler.analysis.findings import LeakedChange
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("not-released",)
+NEEDS = Need.BODY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

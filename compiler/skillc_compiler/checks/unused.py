@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import (
     Implementation,
     ParsedFile,
@@ -29,6 +30,7 @@ from skillc_model.conditions import Given, Variable
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter")
+NEEDS = Need.BODY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from skillc_compiler.logic.bounds import Bound, are_disjoint, compare_constants, constant_bound
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import facts_in
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
 from skillc_compiler.program.types import Thing, describe_type
 from skillc_compiler.program.walk import conditions_in, nodes_in
@@ -15,6 +16,7 @@ from skillc_model.conditions import Compare, Given, Holds, IsA, Literal, Or, Sam
 from skillc_model.rewriting import constant_number, fold
 
 NAMES = ("always-true", "always-false")
+NEEDS = Need.TYPES
 _Parameters = Mapping[str, Parameter]
 
 

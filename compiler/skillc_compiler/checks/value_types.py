@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain
+from typing import TypeAlias
 
+from skillc_compiler.program.labels import label_values
+from skillc_compiler.program.marks import Need
 from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import (
     INT,
@@ -23,29 +28,69 @@ from skillc_compiler.program.types import (
 )
 from skillc_compiler.program.walk import all_calls, all_nodes, all_values
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, TIME, UNITS, Dimension
 from skillc_model.conditions import Individual, Invoke, Literal, Variable
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("wrong-type", "wrong-dimension", "missing-unit")
+NEEDS = Need.NAMES
 _QUANTITY = re.compile(r"\s*(-?\d+(?:\.\d+)?)\s*([A-Za-z/0-9]*)\s*$")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each value that does not fit the expected type."""
-    for place in type_constraints(program):
-        if not fits(program.vocabulary, place.value.type, place.wanted):
-            name, help_ = _problem(program.vocabulary, place)
-            has = "this number has no unit" if name == "missing-unit" else f"this is {describe_type(place.value.type)}"
-            yield Diagnostic(
-                name,
-                place.value.span,
-                f"{has}, where {describe_type(place.wanted)} is expected {place.by}",
-                help=help_,
-                labels=(Label(place.cause, "declared here"),) if place.cause else (),
-            )
+    vocabulary = program.vocabulary
+    wrong = [(place,) for place in type_constraints(program) if not fits(vocabulary, place.value.type, place.wanted)]
+    for group in _by_cause(_by_cause(wrong, _reading, 2), _stating, 3):
+        yield _report(vocabulary, group)
+
+
+def _by_cause(groups: Iterable[Group], cause: Callable[[TypeConstraint], Span | None], least: int) -> Iterator[Group]:
+    """Join groups with one cause, a declaration that gives or expects one type instead of another, if they are many.
+
+    From `least` groups on, the declaration is more likely wrong than all of them.
+    """
+    joined: dict[object, list[Group]] = defaultdict(list)
+    for group in groups:
+        value, declared = group[0].value, cause(group[0])
+        joined[value.span if declared is None else (declared, value.type, group[0].wanted)].append(group)
+    for alike in joined.values():
+        yield from [tuple(chain.from_iterable(alike))] if len(alike) >= least else alike
+
+
+def _reading(place: TypeConstraint) -> Span | None:
+    return place.value.declared
+
+
+def _stating(place: TypeConstraint) -> Span | None:
+    return place.cause
+
+
+def _report(vocabulary: Vocabulary, group: Group) -> Diagnostic:
+    place, *others = sorted(group, key=lambda each: each.value.span)
+    name, help_ = _problem(vocabulary, place)
+    has = "this number has no unit" if name == "missing-unit" else f"this is {describe_type(place.value.type)}"
+    stated = (Label(place.cause, "declared here"),) if place.cause else ()
+    also = (Label(other.value.span, "also here") for other in others)
+    return Diagnostic(
+        name,
+        place.value.span,
+        f"{has}, where {describe_type(place.wanted)} is expected {place.by}",
+        help=help_,
+        labels=(*stated, *label_values(place.value), *also),
+        fix=_fix(place) if name == "missing-unit" and not others else None,
+    )
+
+
+def _fix(place: TypeConstraint) -> Fix | None:
+    """Return the edit that writes a number in the SI unit that is expected; another unit may be meant."""
+    match place.wanted, place.value.meaning:
+        case Measure(dimension=dimension), Literal(value=number):
+            text = f"{number} {units_of(dimension)[0]}"
+            return Fix(place.value.span, text, f"write `{text}`", safe=False)
+    return None
 
 
 def _problem(vocabulary: Vocabulary, place: TypeConstraint) -> tuple[str, str]:
@@ -111,6 +156,9 @@ class TypeConstraint:
     cause: Span | None = None
 
 
+Group: TypeAlias = tuple[TypeConstraint, ...]
+
+
 def type_constraints(program: Program) -> Iterator[TypeConstraint]:
     """Yield every value for which a type is expected."""
     for skill in program.skills.values():
@@ -164,4 +212,4 @@ def _function_constraints(program: Program, value: TypedExpression, meaning: Inv
     if function is None:
         return
     for argument, (name, kind) in zip(value.parts, function.parameters, strict=False):
-        yield TypeConstraint(argument, type_of(kind), f"by `{name}` of the function `{function.name}`")
+        yield TypeConstraint(argument, type_of(kind), f"by `{name}` of the function `{function.name}`", value.declared)

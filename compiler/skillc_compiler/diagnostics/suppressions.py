@@ -10,8 +10,9 @@ from skillc_compiler.manual import load_page, page_names
 from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
 from skillc_dsl.comments import Comment, find_comments
-from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Source, Span
+from skillc_dsl.spelling import did_you_mean
 
 _SUPPRESSION = re.compile(r"#\s*allow\s+(?P<name>[\w-]+)\s*(?P<colon>:?)\s*(?P<reason>.*)")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.program.spans import is_within_lines
+from skillc_compiler.checks.planning import check_skill
 from skillc_compiler.program.typed import Program, Skill
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.pddl.domain import Excluded
@@ -12,22 +12,19 @@ from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 
-EXPLAINED_BY = frozenset({"no-effect", "no-implementation", "numeric-effect", "unplannable-parameter"})
 COUNTING = ("compares", "no finite", "known only at run time")
 
 
 def report_unplannable(library: SkillLibrary, program: Program, problems: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Yield a warning for each skill that no plan can contain, unless one of the problems already explains it.
+    """Yield a warning for each skill that no plan can contain, unless its description alone already shows why.
 
     If there is an error, nothing is planned, so nothing is reported.
     """
-    problems = tuple(problems)
     if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
         return
-    explained = [problem.span for problem in problems if problem.name in EXPLAINED_BY]
     for excluded in make_planning_domain(library).excluded:
         skill = program.skills[excluded.skill]
-        if not any(is_within_lines(span, skill.span) for span in explained):
+        if program.implementations_of[skill.name] and not any(check_skill(program, skill)):
             yield _problem(skill, excluded)
 
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import Literal
 
-from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.diagnostics import Diagnostic, Fix, Misfit
 from skillc_dsl.source import Span
 
 InputKind = Literal["goal", "call"]
@@ -37,9 +37,8 @@ def find_mistakes(
 
 def reword(problem: Diagnostic, what: InputKind) -> tuple[str, str]:
     """Return the message and help of a syntax error for a goal or call, without mentioning the task that wraps it."""
-    found, _, expected = problem.message.partition(": expected ")
-    if "a member of a task" in expected or "`}`" in expected:
-        return found, EXAMPLES[what]
+    if isinstance(problem, Misfit) and problem.could_end:
+        return problem.found, EXAMPLES[what]
     return problem.message, problem.help
 
 

@@ -9,6 +9,7 @@ from typing import TypeVar
 import msgspec
 
 from skillc_compiler.checks import run_checks
+from skillc_compiler.diagnostics.unknown_names import render_unknown_name
 from skillc_compiler.goals.context import make_context
 from skillc_compiler.goals.json_text import JsonGoalError, is_json, write_goal
 from skillc_compiler.goals.mistakes import EXAMPLES, InputKind, find_mistakes, reword
@@ -178,7 +179,8 @@ def _resolve(asked: FileContext, written: Outcome[s.TaskDeclaration | None]) -> 
         return Outcome(None, written.diagnostics)
     resolved = resolve_task(asked, written.value)
     program = Program("", asked.vocabulary, (), {}, (), (resolved,), {})
-    outcome: Outcome[Task | None] = Outcome(resolved, (*asked.names.problems, *run_checks(program)))
+    known = (*asked.names.problems, *(render_unknown_name(each) for each in asked.names.unknown))
+    outcome: Outcome[Task | None] = Outcome(resolved, (*known, *run_checks(program, known)))
     return outcome if outcome.ok else Outcome(None, outcome.diagnostics)
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal as OneOf
 from typing import TypeAlias
 
 from skillc_compiler.program.types import Type
+from skillc_compiler.program.unknown import LostNames, UnknownName
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 from skillc_model.conditions import Condition, Expression, Operator
@@ -17,12 +18,16 @@ from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
 @dataclass(frozen=True, slots=True)
 class TypedExpression:
-    """An expression: its meaning, its type, its place and its operands. `_` is a variable of that name."""
+    """An expression: its meaning, its type, its place and its operands. `_` is a variable of that name.
+
+    `declared` is the place of the name that it refers to, if it is one.
+    """
 
     meaning: Expression
     type: Type
     span: Span
     parts: tuple[TypedExpression, ...] = ()
+    declared: Span | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +244,10 @@ class ParsedFile:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """A resolved library. `used` holds for each file the bare and qualified names that were looked up in it."""
+    """A resolved library. `used` holds for each file the bare and qualified names that were looked up in it.
+
+    `unknown` are the names that could not be resolved, `lost` is what may be missing because of other errors.
+    """
 
     name: str
     vocabulary: Vocabulary
@@ -248,6 +256,8 @@ class Program:
     implementations: tuple[Implementation, ...]
     tasks: tuple[Task, ...]
     used: Mapping[str, frozenset[str]]
+    unknown: tuple[UnknownName, ...] = ()
+    lost: LostNames = field(default_factory=LostNames)
 
     @cached_property
     def implementations_of(self) -> Mapping[str, tuple[Implementation, ...]]:

@@ -16,8 +16,11 @@ def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tu
     """Return the call, and the scope after it, in which its output has a value."""
     name = context.names.look_up_skill(written.skill)
     skill = context.skills.get(name) if name else None
-    arguments = tuple(_arguments(context, scope, written, skill))
-    typed = Call(skill, _implementation(context, written, skill), arguments, written.out, written)
+    implementation = _implementation(context, written, skill)
+    known = context.implementations.get(skill.name, ()) if skill else ()
+    is_known = implementation is None or implementation in known
+    arguments = tuple(_arguments(context, scope, written, skill if is_known else None))
+    typed = Call(skill, implementation, arguments, written.out, written)
     return typed, _scope_after(context, scope, written, skill)
 
 
@@ -64,6 +67,8 @@ def _report_argument(
         _free_parameters(context, skill, written, kind),
         f"it takes {_format_parameters(skill)}",
         Label(skill.name_span, "declared here"),
+        owner=skill.name,
+        passed=True,
     )
 
 
@@ -85,7 +90,7 @@ def _implementation(context: FileContext, written: s.CallSkill, skill: Skill | N
     known = context.implementations.get(skill.name, ())
     if name.text not in known:
         message = f"the skill `{skill.name}` has no implementation `{name.text}`"
-        context.report_unknown("unknown-implementation", name, message, known)
+        context.report_unknown("unknown-implementation", name, message, known, owner=skill.name)
     return name.text
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
+from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.typed import TypedCondition, TypedExpression
-from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, fits
+from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
 from skillc_dsl import syntax as s
@@ -79,7 +80,7 @@ def _or(parts: Sequence[TypedCondition], span: Span) -> TypedCondition:
 def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -> TypedCondition:
     subject = _resolve_side(context, scope, written.subject)
     object_ = _resolve_side(context, scope, written.object)
-    iri = _look_up_relation(context, written.relation, subject.type, object_.type)
+    iri = _look_up_relation(context, written.relation, subject, object_)
     meaning = Holds(_to_term(context, subject), iri or written.relation.text, _to_term(context, object_))
     return TypedCondition(meaning, written.span, (subject, object_))
 
@@ -90,8 +91,13 @@ def _resolve_side(context: FileContext, scope: Scope, written: s.Value | s.Anyth
     return resolve_value(context, scope, written, ExpectedType(Thing(None)))
 
 
-def _look_up_relation(context: FileContext, name: s.Name, subject: Type, object_: Type) -> str | None:
+def _look_up_relation(
+    context: FileContext, name: s.Name, subject: TypedExpression, object_: TypedExpression
+) -> str | None:
+    """Return the IRI of a relation; nothing is said of it if a side is erroneous, as the words may be swapped."""
     names, vocabulary = context.names, context.vocabulary
+    if not names.is_term("relation", name.text) and (_is_erroneous(subject) or _is_erroneous(object_)):
+        return None
     if names.is_term("property", name.text) and not names.is_term("relation", name.text):
         context.report(
             "unknown-relation",
@@ -104,10 +110,15 @@ def _look_up_relation(context: FileContext, name: s.Name, subject: Type, object_
         "relation",
         name,
         lambda iri: any(
-            fits(vocabulary, subject, Thing(signature.domain)) and fits(vocabulary, object_, Thing(signature.range))
+            fits(vocabulary, subject.type, Thing(signature.domain))
+            and fits(vocabulary, object_.type, Thing(signature.range))
             for signature in vocabulary.relations[iri].signatures
         ),
     )
+
+
+def _is_erroneous(side: TypedExpression) -> bool:
+    return side.type == UNKNOWN and side.meaning != VariableTerm("_")
 
 
 def _to_term(context: FileContext, of: TypedExpression) -> Term:
@@ -123,6 +134,7 @@ def _to_term(context: FileContext, of: TypedExpression) -> Term:
             of.span,
             "a relation, `has` or `is` is about individuals, and this is a value",
             "write a parameter of an ontology class, or an individual; values are compared with `==`, `<`, ..",
+            *label_values(of),
         )
     return Anything()
 
@@ -180,7 +192,9 @@ def _resolve_given(context: FileContext, scope: Scope, name: s.Name, span: Span)
     if known is None or known.origin != "parameter":
         parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
         message = f"{scope.owner} has no parameter `{name.text}`"
-        context.report_unknown("unknown-parameter", name, message, parameters, "declare it with `opt`")
+        context.report_unknown(
+            "unknown-parameter", name, message, parameters, "declare it with `opt`", owner=scope.skill
+        )
     return TypedCondition(Given(name.text), span)
 
 

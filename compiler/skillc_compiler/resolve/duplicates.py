@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from skillc_compiler.program.spans import is_within_lines
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations
+from skillc_compiler.resolve.names import KINDS
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
 from skillc_dsl.source import Span
@@ -17,16 +20,32 @@ def remove_duplicates(
 ) -> Outcome[tuple[ParsedFile, ...]]:
     """Return the files with the first skill, implementation and task of each name; report the others.
 
+    Nothing is reported of a declaration with a syntax error, as a line that was typed twice may be all there is of it.
     Implementations that follow a second skill of a name in its file were written for it, so they are removed with it.
     Second declarations of terms and functions stay, as they add to the first.
     """
     first: dict[tuple[str, ...], Span] = {}
     problems: list[Diagnostic] = []
+    broken = {name for unit in files for name in _incomplete(unit.file)}
     kept = []
     for unit in files:
         declarations = tuple(_first_declarations(unit.file, declared[unit.file.path], first, problems))
         kept.append(replace(unit, file=replace(unit.file, declarations=declarations)))
-    return Outcome(tuple(kept), tuple(problems))
+    whole = (each for each in problems if broken.isdisjoint({each.span, *(label.span for label in each.labels)}))
+    return Outcome(tuple(kept), tuple(whole))
+
+
+def _incomplete(file: s.File) -> Iterator[Span]:
+    """Yield the names of the declarations with a syntax error."""
+    for declaration in file.declarations if file.errors else ():
+        if any(is_within_lines(error.span, declaration.span) for error in file.errors):
+            yield declaration.name.span
+
+
+def find_twice(files: Sequence[ParsedFile]) -> frozenset[str]:
+    """Return the skills that are declared more than once: it is not clear which one a call or implementation means."""
+    names = [d.name.text for unit in files for d in unit.file.declarations if isinstance(d, s.SkillDeclaration)]
+    return frozenset(name for name, times in Counter(names).items() if times > 1)
 
 
 def _first_declarations(
@@ -38,6 +57,7 @@ def _first_declarations(
         if isinstance(declaration, s.ImplementationDeclaration) and declaration.skill.text in second_skills:
             continue
         key, name = _identity(declaration, declared), declaration.name
+        problems += _other_kinds(key, name, first)
         if first.setdefault(key, name.span) == name.span:
             yield declaration
             continue
@@ -49,6 +69,20 @@ def _first_declarations(
                 pass
             case _:
                 yield declaration
+
+
+def _other_kinds(key: tuple[str, ...], name: s.Name, first: dict[tuple[str, ...], Span]) -> Iterator[Diagnostic]:
+    """Yield a problem if a term has the name of a term of another kind."""
+    kind, iri = key[0], key[1]
+    if kind not in KINDS:
+        return
+    first.setdefault(("term", kind, iri), name.span)
+    for other in KINDS:
+        former = first.get(("term", other, iri))
+        if other != kind and former is not None:
+            message = f"`{name.text}` is already a {other}, so it cannot be a {kind}"
+            labels = (Label(former, "first declared here"),)
+            yield Diagnostic("duplicate-declaration", name.span, message, "choose another name", labels=labels)
 
 
 def _problem(kind: str, name: s.Name, first: Span) -> Diagnostic:

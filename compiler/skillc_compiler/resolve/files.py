@@ -11,9 +11,10 @@ from typing import TypeAlias
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
+from skillc_dsl.spelling import did_you_mean
 
 STANDARD_LIBRARY = "std"
 LIBRARY_NAMESPACE = "https://w3id.org/skillc/library/"

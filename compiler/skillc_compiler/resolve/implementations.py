@@ -26,7 +26,7 @@ def resolve_implementation(
     refinements = tuple(_resolve_refinements(context, written, skill))
     parameters = tuple(_merge_refinement(p, refinements) for p in skill.parameters)
     owner = f"the implementation `{written.name.text}` of `{skill.name}`"
-    before, after = build_scopes(owner, parameters)
+    before, after = build_scopes(owner, skill.name, parameters)
     lets, inner = _resolve_lets(context, before, written)
     labels = {r.label.text: r.label for r in skill.requirements if r.label}
     prefer = single_member(context, written.members, s.Prefer, "prefer")
@@ -86,6 +86,7 @@ def _find_parameter(context: FileContext, member: s.Refinement, skill: Skill) ->
             [p.name for p in skill.parameters],
             "",
             Label(skill.name_span, "declared here"),
+            owner=skill.name,
         )
     return parameter
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from skillc_compiler.program.labels import label_declaration
-from skillc_compiler.resolve.spelling import suggest_fix
+from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownName
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
@@ -40,6 +40,7 @@ class Names:
     skills: Set[str]
     elsewhere: Mapping[str, str]
     problems: list[Diagnostic] = field(default_factory=list)
+    unknown: list[UnknownName] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
 
     def look_up_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True) -> str | None:
@@ -62,12 +63,17 @@ class Names:
         prefix, _, local = name.text.partition(":")
         if prefix in self.prefixes:
             return self.prefixes[prefix] + local
-        self.problems.append(
-            Diagnostic(
+        span = name.span
+        self.unknown.append(
+            UnknownName(
                 "unknown-prefix",
-                name.span,
+                s.Name(
+                    prefix, replace(span, end_column=span.column + len(prefix)) if span.line == span.end_line else span
+                ),
                 f"the prefix `{prefix}` is not declared",
-                help=did_you_mean(prefix, self.prefixes) or f"add `prefix {prefix}: <..>` at the top of the file",
+                tuple(self.prefixes),
+                f"add `prefix {prefix}: <..>` at the top of the file",
+                owner=LIBRARY,
             )
         )
         return None
@@ -166,30 +172,23 @@ class Names:
             if base + name.text in self.known[kind] or base + name.text in self.vocabulary.aliases
         )
         if homes and name.text not in self.elsewhere:
-            self.problems.append(
-                Diagnostic(
-                    f"unknown-{kind}",
-                    name.span,
-                    f"there is no {kind} `{name.text}` in the vocabularies this file uses",
-                    help=f"it is in `{homes[0]}`: write `use {homes[0]}` at the top, or `{homes[0]}:{name.text}` here",
-                )
-            )
+            message = f"there is no {kind} `{name.text}` in the vocabularies this file uses"
+            help_ = f"it is in `{homes[0]}`: write `use {homes[0]}` at the top, or `{homes[0]}:{name.text}` here"
+            line = HeaderLine("use", homes[0])
+            self.unknown.append(UnknownName(f"unknown-{kind}", name, message, (), help_, owner=LIBRARY, line=line))
             return
         candidates = (text for text, iris in self.bare[kind].items() if fits(iris[0]))
         self._report_unknown(kind, name, candidates)
 
     def _report_unknown(self, what: str, name: s.Name, candidates: Iterable[str]) -> None:
-        home, near = self.elsewhere.get(name.text), tuple(candidates)
-        elsewhere = f'it is declared in {home}: write `import "{home.rpartition("/")[2]}"` at the top' if home else ""
-        otherwise = f"declare the {what}, or import the file that does"
-        self.problems.append(
-            Diagnostic(
-                f"unknown-{what}",
-                name.span,
-                f"there is no {what} `{name.text}`",
-                help=elsewhere or did_you_mean(name.text, near) or otherwise,
-                fix=None if home else suggest_fix(name, near),
-            )
+        home = self.elsewhere.get(name.text)
+        help_, line = f"declare the {what}, or import the file that does", None
+        if home:
+            line = HeaderLine("import", home.rpartition("/")[2])
+            help_ = f'it is declared in {home}: write `import "{line.name}"` at the top'
+        message = f"there is no {what} `{name.text}`"
+        self.unknown.append(
+            UnknownName(f"unknown-{what}", name, message, tuple(candidates), help_, owner=LIBRARY, line=line)
         )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
+from skillc_compiler.program.unknown import LostNames, find_lost
 from skillc_compiler.resolve.declarations import (
     FileDeclarations,
     bare_names_in,
@@ -13,7 +14,7 @@ from skillc_compiler.resolve.declarations import (
     merge_imported,
     prefixes_in,
 )
-from skillc_compiler.resolve.duplicates import remove_duplicates
+from skillc_compiler.resolve.duplicates import find_twice, remove_duplicates
 from skillc_compiler.resolve.implementations import resolve_implementation
 from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
 from skillc_compiler.resolve.names import KINDS, Kind, Names
@@ -23,7 +24,8 @@ from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_compiler.resolve.tasks import resolve_task
 from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
@@ -37,6 +39,7 @@ def resolve_program(
     declared = collect_declarations(read, base)
     repeats = remove_duplicates(read, declared)
     files = repeats.value
+    lost = replace(_find_lost(read, base), twice=find_twice(read))
     names = _names(files, declared, base)
     vocabulary = extend_vocabulary(base, files, declared, names)
     for visible_names in names.values():
@@ -54,9 +57,26 @@ def resolve_program(
         implementations=tuple(_implementations(files, settings)),
         tasks=tuple(_tasks(files, settings, scenes)),
         used={path: frozenset(visible_names.used) for path, visible_names in names.items()},
+        unknown=tuple(unknown for path in names for unknown in names[path].unknown),
+        lost=lost,
     )
     problems = (problem for path in names for problem in names[path].problems)
     return Outcome(program, (*_headers(files, base), *repeats.diagnostics, *problems))
+
+
+def _find_lost(files: Sequence[ParsedFile], base: Vocabulary) -> LostNames:
+    """Return what may be missing: because of syntax errors, and of files and vocabularies that do not exist."""
+    lost = find_lost(unit.file for unit in files)
+    return replace(lost, headers=lost.headers | {unit.file.path for unit in files if _lacks_a_file(unit, base)})
+
+
+def _lacks_a_file(unit: ParsedFile, base: Vocabulary) -> bool:
+    """Whether the header names a file or vocabulary that does not exist, and it is not clear which one is meant."""
+    found = {line for line, _ in unit.imports}
+    used = (name for line in unit.file.header if isinstance(line, s.Use) for name in line.vocabularies)
+    return any(isinstance(line, s.Import) and line not in found for line in unit.file.header) or any(
+        name.text not in base.prefixes and suggest_fix(name, base.prefixes) is None for name in used
+    )
 
 
 def _names(files: Sequence[ParsedFile], declared: Mapping[str, FileDeclarations], base: Vocabulary) -> dict[str, Names]:

@@ -8,10 +8,10 @@ from typing import Literal, TypeAlias
 
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.names import Names
-from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -30,10 +30,14 @@ class LocalName:
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """Local names; `owner` is what they belong to, as shown in messages: "skill `Pick`"."""
+    """Local names; `owner` is what they belong to, as shown in messages: "skill `Pick`".
+
+    `skill` is the skill that declares the parameters among them, `task NAME` for a task; None if nothing does.
+    """
 
     owner: str
     variables: Mapping[str, LocalName] = field(default_factory=dict)
+    skill: str | None = None
 
     def with_name(self, name: str, variable: LocalName) -> Scope:
         """Return the scope with one more name."""
@@ -58,12 +62,20 @@ class FileContext:
         self.names.problems.append(Diagnostic(name, span, message, help, labels=labels))
 
     def report_unknown(
-        self, name: str, wrong: s.Name, message: str, candidates: Sequence[str], otherwise: str = "", *labels: Label
+        self,
+        name: str,
+        wrong: s.Name,
+        message: str,
+        candidates: Sequence[str],
+        otherwise: str = "",
+        *labels: Label,
+        owner: str | None = None,
+        passed: bool = False,
     ) -> None:
-        """Record that a name is unknown; the help lists close names, or is `otherwise`."""
-        help_ = did_you_mean(wrong.text, candidates) or otherwise
-        fix = suggest_fix(wrong, candidates)
-        self.names.problems.append(Diagnostic(name, wrong.span, message, help_, labels=labels, fix=fix))
+        """Record that a name is unknown; `owner` is the skill that should declare it, `passed` if it is an argument."""
+        self.names.unknown.append(
+            UnknownName(name, wrong, message, tuple(candidates), otherwise, labels, owner, passed=passed)
+        )
 
     def bind(self, scope: Scope, name: s.Name, variable: LocalName) -> Scope:
         """Return the scope with a new name; a name that is taken is reported."""

@@ -22,7 +22,7 @@ from skillc_dsl.units import TIME
 def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
     """Return the resolved description."""
     parameters = tuple(_parameters(context, written))
-    before, after = build_scopes(f"the skill `{written.name.text}`", parameters)
+    before, after = build_scopes(f"the skill `{written.name.text}`", written.name.text, parameters)
     return Skill(
         name=written.name.text,
         doc=written.doc,
@@ -37,15 +37,13 @@ def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
     )
 
 
-def build_scopes(owner: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]:
+def build_scopes(owner: str, skill: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]:
     """Return the scope before a skill has run, in which outputs have no values, and the scope after it."""
     inputs = {p.name: LocalName(p.type, "parameter", p.span) for p in parameters if p.direction != "out"}
     outputs = {p.name: p for p in parameters if p.direction == "out"}
-    before = Scope(
-        owner, {**inputs, **{n: LocalName(p.type, "out", p.span, is_assigned=False) for n, p in outputs.items()}}
-    )
-    after = Scope(owner, {**inputs, **{n: LocalName(p.type, "out", p.span) for n, p in outputs.items()}})
-    return before, after
+    unassigned = {n: LocalName(p.type, "out", p.span, is_assigned=False) for n, p in outputs.items()}
+    assigned = {n: LocalName(p.type, "out", p.span) for n, p in outputs.items()}
+    return Scope(owner, {**inputs, **unassigned}, skill), Scope(owner, {**inputs, **assigned}, skill)
 
 
 def _parameters(context: FileContext, written: s.SkillDeclaration) -> Iterator[Parameter]:
@@ -99,4 +97,4 @@ def _devices(
                 yield member
                 continue
             message = f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`"
-            context.report_unknown("unknown-parameter", member.parameter, message, names)
+            context.report_unknown("unknown-parameter", member.parameter, message, names, owner=written.name.text)

@@ -15,7 +15,7 @@ from skillc_dsl import syntax as s
 
 def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
     """Return the resolved task."""
-    scope = Scope(f"the task `{written.name.text}`")
+    scope = Scope(f"the task `{written.name.text}`", skill=f"task {written.name.text}")
     parameters = tuple(_parameters(context, written))
     for parameter, each in zip(written.parameters, parameters, strict=True):
         scope = context.bind(scope, parameter.name, LocalName(each.type, "parameter", each.span))

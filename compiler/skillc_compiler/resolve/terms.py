@@ -153,6 +153,7 @@ def _contradiction(written: s.PropertyDeclaration, old: PropertyTerm, names: Nam
 
 
 def _function(written: s.FunctionDeclaration, names: Names) -> FunctionTerm:
+    report_repeated(written.parameters, names)
     return FunctionTerm(
         name=written.name.text,
         parameters=tuple((p.name.text, resolve_type(names, p.type)) for p in written.parameters),
@@ -161,6 +162,18 @@ def _function(written: s.FunctionDeclaration, names: Names) -> FunctionTerm:
         comment=written.doc,
         source=start_position(written.span),
     )
+
+
+def report_repeated(parameters: Sequence[s.HeadParameter], names: Names) -> None:
+    """Report the parameters of a function or task that have the name of an earlier one."""
+    first: dict[str, s.Name] = {}
+    for name in (parameter.name for parameter in parameters):
+        former = first.setdefault(name.text, name)
+        if former is not name:
+            message = f"the parameter `{name.text}` is declared twice"
+            labels = (Label(former.span, "first declared here"),)
+            help_ = "give it another name, or remove one"
+            names.problems.append(Diagnostic("duplicate-parameter", name.span, message, help_, labels=labels))
 
 
 def _complete_inverses(relations: Mapping[str, RelationTerm]) -> dict[str, RelationTerm]:

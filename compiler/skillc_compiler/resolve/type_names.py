@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.names import Names
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.spelling import close_names, did_you_mean
 from skillc_dsl.units import DIMENSIONS
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 
@@ -58,10 +60,8 @@ def _class(names: Names, written: s.Name) -> ValueType:
 
 def _unknown(names: Names, written: s.Name) -> ValueType:
     """Report an unknown type; suggestions are classes and built-in types."""
-    close = did_you_mean(written.text, BUILT_IN)
-    if close.startswith("did you mean"):
-        names.problems.append(
-            Diagnostic("unknown-type", written.span, f"there is no type `{written.text}`", help=close)
-        )
+    if close_names(written.text, BUILT_IN):
+        message = f"there is no type `{written.text}`"
+        names.unknown.append(UnknownName("unknown-type", written, message, tuple(BUILT_IN)))
         return UNRESOLVED_TYPE
     return _class(names, written)

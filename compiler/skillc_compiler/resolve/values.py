@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import assert_never
 
+from skillc_compiler.program.labels import declaration_place
 from skillc_compiler.program.typed import TypedExpression
 from skillc_compiler.program.types import (
     BOOL,
@@ -80,7 +81,7 @@ def _resolve_reference(
                 f"`{text}` has no value here on every path",
                 f"assign it before, with `-> {text}` on a call that always runs",
             )
-        return TypedExpression(Variable(text), known.type, span)
+        return TypedExpression(Variable(text), known.type, span, declared=known.span)
     if text in wanted.values:
         return TypedExpression(Literal(text), TEXT, span)
     if wanted.values:
@@ -103,6 +104,7 @@ def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, 
         f"{scope.owner} has no parameter or other name `{written.name.text}`",
         fitting,
         "an individual is written with its prefix: `lab:Board-1`",
+        owner=scope.skill,
     )
 
 
@@ -172,7 +174,8 @@ def _resolve_apply(context: FileContext, scope: Scope, written: s.Invoke) -> Typ
     )
     result = type_of(function.result) if function else UNKNOWN
     meaning = Invoke(written.function.text, tuple(a.meaning for a in arguments))
-    return TypedExpression(meaning, result, written.span, arguments)
+    declared = declaration_place(function) if function else None
+    return TypedExpression(meaning, result, written.span, arguments, declared)
 
 
 def _resolve_arithmetic(context: FileContext, scope: Scope, written: s.Arithmetic) -> TypedExpression:

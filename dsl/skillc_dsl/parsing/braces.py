@@ -29,6 +29,13 @@ def close_braces(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, .
     return Outcome((*closed, tokens[-1]), tuple(problems))
 
 
+def region_lines(tokens: tuple[Token, ...]) -> Iterator[range]:
+    """Yield the lines of each declaration, up to the first line of the next."""
+    for start, end in _regions(tokens):
+        first, last = tokens[start].line or 1, tokens[end].line or 1
+        yield range(first if start else 1, last + (tokens[end].type == END))
+
+
 def _regions(tokens: tuple[Token, ...]) -> Iterator[tuple[int, int]]:
     """Yield the range of tokens of each declaration, which begins with a keyword at the beginning of a line."""
     start = 0

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import report_not_text, report_too_large, report_wrong_bytes
-from skillc_dsl.parsing.braces import close_braces
+from skillc_dsl.parsing.braces import close_braces, region_lines
 from skillc_dsl.parsing.building.declarations import FileBuilder
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.nesting import drop_too_deep
@@ -37,9 +40,24 @@ def parse(source: Source) -> Outcome[s.File]:
     if wrong is not None:
         return Outcome(file, (wrong,))
     unread = {problem.span.line for problem in lexed.diagnostics}
-    misfits = (problem for problem in recovery.problems if problem.span.line not in unread)
-    problems = (*lexed.diagnostics, *repaired.diagnostics, *closed.diagnostics, *misfits, *too_deep, *builder.problems)
-    return Outcome(file, _first(sorted(problems, key=lambda problem: problem.span)))
+    misfits = [problem for problem in recovery.problems if problem.span.line not in unread]
+    parsing = _one_kind_each(closed.diagnostics, misfits, region_lines(lexed.value))
+    found = (*lexed.diagnostics, *repaired.diagnostics, *parsing, *too_deep, *builder.problems)
+    problems = sorted(found, key=lambda problem: problem.span)
+    places = (s.ErrorNode(problem.span) for problem in problems)
+    return Outcome(replace(file, errors=(*places, *recovery.errors)), _first(problems))
+
+
+def _one_kind_each(
+    braces: Iterable[Diagnostic], misfits: Iterable[Diagnostic], regions: Iterable[range]
+) -> Iterator[Diagnostic]:
+    """Yield for each declaration the problems with braces or those with other tokens, whichever come first.
+
+    A missing brace makes tokens misfit, and a line that was dropped unbalances braces.
+    """
+    for lines in regions:
+        both = [[each for each in problems if each.span.line in lines] for problems in (braces, misfits)]
+        yield from min((found for found in both if found), key=lambda found: found[0].span, default=[])
 
 
 def _first(problems: list[Diagnostic]) -> tuple[Diagnostic, ...]:

@@ -8,7 +8,8 @@ from lark import Token, Tree
 from lark.exceptions import UnexpectedToken
 from lark.parsers.lalr_parser_state import ParserState
 
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Misfit
 from skillc_dsl.parsing.expectations import (
     advise_on_foreign_word,
     describe_terminals,
@@ -32,13 +33,18 @@ _CALM = 2
 
 
 class Recovery:
-    """One run over a copy of a file's tokens, which repairs change; lines in `reported` already have a problem."""
+    """One run over a copy of a file's tokens, which repairs change; lines in `reported` already have a problem.
+
+    `errors` are the places where tokens were dropped.
+    """
 
     def __init__(self, tokens: Sequence[Token], path: str, reported: Collection[int]) -> None:
         self.tokens = list(tokens)
         self.path = path
         self.reported = reported
         self.problems: list[Diagnostic] = []
+        self.errors: list[s.ErrorNode] = []
+        self._dropped: list[Token] = []
         self._state: ParserState[int] = load_parser().parse_interactive("").parser_state
         self._since = _CALM
         self._faults = 0
@@ -69,6 +75,7 @@ class Recovery:
         found = repair(Fault(self._state.state_stack, self.tokens, index, self.path))
         if found is not None:
             self._report(found.problem)
+            self._leave_error(index, [] if self.tokens[index] in found.tokens else [self.tokens[index]])
             self.tokens[index : index + 1] = found.tokens
             self._since = 0
             return index
@@ -76,6 +83,7 @@ class Recovery:
         if misfit.span.line not in self.reported:
             self._report(misfit)
         position = self._resume(index)
+        self._leave_error(index, self.tokens[index:position])
         self._since = _CALM if begins_line(self.tokens, position) else 0
         return position
 
@@ -95,6 +103,7 @@ class Recovery:
         position = next((at for at in begins if begins_line(self.tokens, at)), last)
         self._drop_member(self._level(self.tokens[position].type) or 0)
         self._close(self.tokens[position].type)
+        self._leave_error(index, self.tokens[index:position])
         return position
 
     def _drop_member(self, outer: int) -> None:
@@ -131,7 +140,8 @@ class Recovery:
             span, found = token_span(last, self.path), f"something is missing after {describe_token(last)}"
         left = self.tokens[index - 1] if index else None
         help_ = advise_on_foreign_word(token, left) or (explain_where_it_belongs(token) if "RBRACE" in expected else "")
-        return Diagnostic("syntax", span, f"{found}: expected {describe_terminals(expected)}", help_)
+        message = f"{found}: expected {describe_terminals(expected)}"
+        return Misfit("syntax", span, message, help_, found=found, could_end="RBRACE" in expected)
 
     def _resume(self, index: int) -> int:
         """Drop the incomplete part; return the index of the next start or end of a member, node or declaration."""
@@ -189,7 +199,16 @@ class Recovery:
                 return level
         return None
 
+    def _leave_error(self, index: int, skipped: Sequence[Token]) -> None:
+        """Record the error at `index`, with the names in the tokens that were dropped or skipped."""
+        words = (str(token).rstrip(":") for token in (*self._dropped, *skipped))
+        names = frozenset(word for word in words if word.replace(":", "_").isidentifier())
+        self.errors.append(s.ErrorNode(token_span(self.tokens[index], self.path), names))
+        self._dropped.clear()
+
     def _drop(self, level: int) -> None:
+        for value in self._state.value_stack[level:]:
+            self._dropped += [value] if isinstance(value, Token) else value.scan_values(lambda _: True)
         del self._state.state_stack[level + 1 :]
         del self._state.value_stack[level:]
 

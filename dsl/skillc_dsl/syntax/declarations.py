@@ -163,9 +163,18 @@ Declaration: TypeAlias = (
 
 
 @dataclass(frozen=True, slots=True)
+class ErrorNode:
+    """A place with a syntax error, and the names in what was dropped there: whatever declares them may be missing."""
+
+    span: Span
+    names: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
 class File:
-    """One parsed file. Comments that allow a diagnostic stay in the text; nothing else is lost."""
+    """One parsed file. Comments that allow a diagnostic stay in the text; `errors` are where something was dropped."""
 
     path: str
     header: tuple[Use | Prefix | Import, ...]
     declarations: tuple[Declaration, ...]
+    errors: tuple[ErrorNode, ...] = ()

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 import pyoxigraph as ox
 
-from skillc_dsl.diagnostics import Diagnostic, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_dsl.spelling import did_you_mean
 from skillc_dsl.units import DIMENSIONS
 from skillc_rdf.vocabulary.graph import Graph, Node
 from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, RANGE, RDFS, SKILLC, XSD

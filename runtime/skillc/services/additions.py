@@ -12,7 +12,7 @@ from skillc.services.files import inspect_path, rewrite_file
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import MANIFEST, Project
 from skillc.services.project_templates import open_templates
-from skillc_dsl.diagnostics import did_you_mean
+from skillc_dsl.spelling import did_you_mean
 from skillc_ontology import catalogue
 
 Kind = Literal["skill", "robot", "gripper", "tool"]

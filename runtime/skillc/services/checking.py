@@ -70,11 +70,13 @@ def check_with_cache(request: CheckRequest, library: LibraryFiles) -> tuple[Diag
     known = entry.load() if entry else None
     if known is not None:
         return known
-    from skillc.services import library_checks
+    from skillc.services import library_checks, parse_cache
 
-    found = library_checks.check_library(library, request.scene)
-    if entry:
-        entry.store(found)
+    if entry is None:
+        return library_checks.check_library(library, request.scene)
+    found = library_checks.check_library(library, request.scene, parse_cache.parse_cached)
+    entry.store(found)
+    parse_cache.delete_oldest_entries()
     return found
 
 

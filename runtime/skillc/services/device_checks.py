@@ -9,8 +9,9 @@ import pyoxigraph as ox
 
 from skillc.services.project.project import Project
 from skillc.services.scene_diagnostics import with_shown_path
-from skillc_dsl.diagnostics import Diagnostic, Fix, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
+from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
 from skillc_runtime.control.gains import CONTROLLERS, UnknownController, read_gains, read_law

@@ -17,13 +17,14 @@ from skillc.services.library_files import (
 from skillc.services.task_list import list_tasks
 from skillc_compiler import pipeline
 from skillc_compiler.program.typed import Program
-from skillc_compiler.resolve.files import read_sources
+from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
-from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
+from skillc_dsl.spelling import did_you_mean
 from skillc_model.skills import SkillLibrary, Task
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
@@ -35,14 +36,17 @@ _MOST_FILES = 2000
 _MOST_VOCABULARIES = 4
 
 
-def compile_library(library: LibraryFiles, find_individuals: IndividualsByTask | None = None) -> Outcome[SkillLibrary]:
+def compile_library(
+    library: LibraryFiles, find_individuals: IndividualsByTask | None = None, parsed_by: Parser | None = None
+) -> Outcome[SkillLibrary]:
     """Compile, with the shipped and the library's own ontology as vocabulary; diagnostics have displayable paths.
 
     `find_individuals` returns the individuals that each task may name; the names in other tasks are not checked.
+    `parsed_by` is the parser, which may cache its results; without it they are kept in memory.
     """
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
-        files = read_sources(library.sources, library.importable, library.name, _parse, library.namespaces)
+        files = read_sources(library.sources, library.importable, library.name, parsed_by or _parse, library.namespaces)
         program = resolve_program(files.value, known.value, library.name, pipeline.NO_SCENES)
         individuals = find_individuals(program.value) if find_individuals else {}
         if individuals:

@@ -12,6 +12,7 @@ from skillc.services.reporting import sort_diagnostics
 from skillc.services.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
 from skillc_compiler.program.typed import Program
+from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary
@@ -20,10 +21,13 @@ if TYPE_CHECKING:
     from skillc.services.task_scenes import TaskScenes
 
 
-def check_library(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a library, of its tasks' scenes and of `scene`, with displayable paths."""
+def check_library(library: LibraryFiles, scene: Path | None, parsed_by: Parser | None = None) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of a library, of its tasks' scenes and of `scene`, with displayable paths.
+
+    `parsed_by` is the parser, which may cache its results.
+    """
     found = _SceneReader(library, () if scene is None else (scene,))
-    outcome = libraries.compile_library(library, found.individuals)
+    outcome = libraries.compile_library(library, found.individuals, parsed_by)
     assert found.program is not None, "a compiled library has a program"
     sources = [Source(library.display_path(each.path), each.text) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources)

@@ -16,8 +16,8 @@ from skillc.services.library_files import find_library
 from skillc.services.project.manifest import NAME
 from skillc.services.project_templates import DEFAULT, TEMPLATES, Template, open_templates
 from skillc_compiler import pipeline
-from skillc_dsl.diagnostics import did_you_mean
 from skillc_dsl.source import Source
+from skillc_dsl.spelling import did_you_mean
 
 FILES = (
     ("skillc.toml", "common/skillc.toml.j2"),

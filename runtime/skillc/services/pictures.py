@@ -14,7 +14,7 @@ from skillc.services.reporting import Reporter
 from skillc.services.task_loading import TaskRequest, load_task
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
-from skillc_dsl.diagnostics import did_you_mean
+from skillc_dsl.spelling import did_you_mean
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
 from skillc_runtime.planning.solve import solve

@@ -17,8 +17,9 @@ from skillc.services.cell_checks.report import CellProblem, cell_problems, used_
 from skillc.services.device_checks import check_controllers, check_sheets
 from skillc.services.task_scenes import TaskScenes
 from skillc_compiler.program.typed import Program
-from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity
 from skillc_dsl.source import Span
+from skillc_dsl.spelling import did_you_mean
 from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Position

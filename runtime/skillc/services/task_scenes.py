@@ -13,7 +13,8 @@ from skillc.services.library_files import LibraryFiles
 from skillc.services.project.project import Project
 from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.spelling import did_you_mean
 from skillc_model.skills import Task
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from skillc_compiler.program import walk
 from skillc_compiler.program.typed import Implementation, Program, TypedExpression, start_position
-from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity
 from skillc_dsl.source import Span
+from skillc_dsl.spelling import did_you_mean
 from skillc_model.conditions import Literal
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_rdf.vocabulary.types import Position

@@ -21,7 +21,7 @@ def command(name: str | None, as_json: bool) -> None:
     """Explain the diagnostic NAME, such as `unknown-class`; without NAME, list all diagnostics."""
     from skillc.cli.manual_pages import format_contents, format_page
     from skillc_compiler.manual import load_page, load_pages, page_names
-    from skillc_dsl.diagnostics import did_you_mean
+    from skillc_dsl.spelling import did_you_mean
 
     if name is not None and name not in page_names():
         hint = did_you_mean(name, page_names()) or "`skillc explain` lists all diagnostics"

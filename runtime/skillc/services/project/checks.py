@@ -9,7 +9,8 @@ from skillc.services.project.lock import check_lock
 from skillc.services.project.project import Project
 from skillc.services.task_list import task_names
 from skillc.services.task_scenes import default_scene
-from skillc_dsl.diagnostics import Diagnostic, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.spelling import did_you_mean
 from skillc_ontology import catalogue
 
 

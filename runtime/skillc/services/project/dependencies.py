@@ -11,8 +11,9 @@ from pathlib import Path
 from skillc.services.errors import DiagnosticsError
 from skillc.services.project.manifest import Dependency, read_manifest
 from skillc.services.project.project import MANIFEST, SHIPPED, Project, is_nested_project
-from skillc_dsl.diagnostics import Diagnostic, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import decode, read_file
+from skillc_dsl.spelling import did_you_mean
 
 GROUP = "skillc.libraries"
 """The group of entry points whose values are the import names of packages with a `skillc.toml`."""

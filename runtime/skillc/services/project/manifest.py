@@ -10,8 +10,9 @@ from typing import Any, Literal
 import msgspec
 
 from skillc.services.project.toml_places import TomlPlaces
-from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome, did_you_mean
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.source import Source, Span
+from skillc_dsl.spelling import did_you_mean
 
 NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 _NAMESPACE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:[^\s<>\"{}|\\^`]*[#/]")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from skillc.services.errors import RequestError
 from skillc.services.robot_import.urdf_tree import UrdfJoint, UrdfTree
-from skillc_dsl.diagnostics import did_you_mean
+from skillc_dsl.spelling import did_you_mean
 
 FEWEST_JOINTS, MOST_JOINTS = 6, 10
 FLANGES = ("tool0", "flange")

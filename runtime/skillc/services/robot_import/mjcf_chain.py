@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 
 from skillc.services.errors import RequestError
-from skillc_dsl.diagnostics import did_you_mean
+from skillc_dsl.spelling import did_you_mean
 
 FLANGES = ("flange", "attachment_site", "ee_site", "tool0", "attachment")
 """Names of the site or body on which tools are mounted, the best first."""

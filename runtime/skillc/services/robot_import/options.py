@@ -11,7 +11,7 @@ from skillc.services.errors import RequestError
 from skillc.services.robot_import.mjcf_writer import ControlKind
 from skillc.services.robot_import.robot_model import RobotModel
 from skillc.services.robot_import.sheet_writer import TEXTS, settable
-from skillc_dsl.diagnostics import did_you_mean
+from skillc_dsl.spelling import did_you_mean
 from skillc_runtime.motion.pose import Array
 
 MAY_BE_ZERO = ("armature", "servoDamping", "forceTorqueTime", "dampingFloor", "rotationalDampingFloor", "commandTime")

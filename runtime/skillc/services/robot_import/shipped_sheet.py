@@ -9,7 +9,7 @@ import pyoxigraph as ox
 
 from skillc.services.errors import RequestError
 from skillc.services.robot_import.mjcf_writer import ControlKind
-from skillc_dsl.diagnostics import did_you_mean
+from skillc_dsl.spelling import did_you_mean
 from skillc_ontology import catalogue
 from skillc_runtime.world.state.terms import ARM_SHEET, SKILLC
 

@@ -1,0 +1,145 @@
+"""Reports names without a declaration: one diagnostic for each declaration or line that is missing or misspelt."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownName
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_dsl.source import Span
+
+Key: TypeAlias = tuple[object, ...]
+
+_WORD = re.compile(r"[\w-]+")
+_COMMENT = re.compile(r"#[^\n]*")
+
+
+def report_unknown_names(program: Program) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of the names that the program lacks, except those that other errors explain.
+
+    Of several arguments that a skill does not take on a line, the first is reported: they may be for another skill.
+    """
+    groups: dict[Key, list[UnknownName]] = defaultdict(list)
+    for unknown in program.unknown:
+        if not program.lost.explains(unknown):
+            groups[_key(unknown)].append(unknown)
+    times = _count_words(program.files) if any(len(group) > 1 for group in groups.values()) else {}
+    calls: set[Key] = set()
+    for group in sorted((sorted(each, key=lambda one: one.written.span) for each in groups.values()), key=_first_place):
+        first = group[0]
+        call = (first.owner, first.written.span.path, first.written.span.line)
+        if not first.passed or call not in calls:
+            yield _report(group, program.files, times)
+        calls |= {call} if first.passed else set()
+
+
+def _first_place(group: Sequence[UnknownName]) -> Span:
+    return group[0].written.span
+
+
+def render_unknown_name(unknown: UnknownName) -> Diagnostic:
+    """Return the diagnostic of one name; its fix is the only close candidate."""
+    close, written = unknown.close, unknown.written
+    fix = Fix(written.span, close[0], f"write `{close[0]}`", safe=False) if len(close) == 1 else None
+    return Diagnostic(unknown.diagnostic, written.span, unknown.message, unknown.help, labels=unknown.labels, fix=fix)
+
+
+def _key(unknown: UnknownName) -> Key:
+    """Return what names that lack the same declaration or line have in common."""
+    text, span = unknown.written.text, unknown.written.span
+    if unknown.line is not None:
+        return (span.path, unknown.line.keyword, unknown.line.name if unknown.line.keyword == "import" else "")
+    if unknown.owner is None:
+        return (span,)
+    local = unknown.diagnostic in ("unknown-prefix",)
+    return unknown.owner, text, span.path if local else ""
+
+
+def _report(group: Sequence[UnknownName], files: Sequence[ParsedFile], times: Mapping[str, int]) -> Diagnostic:
+    """Return the diagnostic of names with one cause: at the misspelt declaration if there is one, else at the first."""
+    first = group[0]
+    if first.line is not None:
+        return _report_line(group, first.line, files)
+    alone = render_unknown_name(first)
+    close = first.close
+    place = _declaration(first, close[0], files) if len(close) == 1 else None
+    if len(group) > 1 and place is not None and times.get(close[0]) == 1:
+        uses = tuple(Label(each.written.span, "used here") for each in group)
+        text = first.written.text
+        message = f"`{close[0]}` is never used, and `{text}`, which is used in {len(group)} places, is not declared"
+        fix = Fix(place, text, f"write `{text}`", safe=False)
+        return Diagnostic(first.diagnostic, place, message, f"did you mean `{text}`?", labels=uses, fix=fix)
+    labels = tuple(Label(each.written.span, "also here") for each in group[1:])
+    close_by = (Label(place, f"`{close[0]}` is declared here"),) if place is not None and not first.labels else ()
+    return _with_labels(alone, (*alone.labels, *close_by, *labels))
+
+
+def _report_line(group: Sequence[UnknownName], line: HeaderLine, files: Sequence[ParsedFile]) -> Diagnostic:
+    """Return the diagnostic of names that one missing line would make visible, with the edit that adds it."""
+    first = group[0]
+    unit = next(unit for unit in files if unit.file.path == first.written.span.path)
+    place, text = _insertion(unit, line)
+    shown = f"import {line.name}" if line.keyword == "import" else f"use {line.name}"
+    fix = Fix(
+        place,
+        text,
+        f"add `{shown.replace(line.name, f'{chr(34)}{line.name}{chr(34)}') if line.keyword == 'import' else shown}`",
+    )
+    labels = (
+        Label(place, "add it here"),
+        *(Label(each.written.span, "also here") for each in group[1:]),
+    )
+    return Diagnostic(
+        first.diagnostic, first.written.span, first.message, first.help, labels=(*first.labels, *labels), fix=fix
+    )
+
+
+def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:
+    """Return where a line is to be added to the header of a file, and the text."""
+    path, header = unit.file.path, unit.file.header
+    uses = [each for each in header if isinstance(each, s.Use)]
+    if line.keyword == "use" and uses:
+        span = uses[-1].span
+        return Span(path, span.end_line, span.end_column, span.end_line, span.end_column), f", {line.name}"
+    text = f'import "{line.name}"' if line.keyword == "import" else f"use {line.name}"
+    if header and line.keyword == "import":
+        span = header[-1].span
+        return Span(path, span.end_line, span.end_column, span.end_line, span.end_column), f"\n{text}"
+    number = header[0].span.line if header else next((d.span.line for d in unit.file.declarations), 1)
+    return Span(path, number, 1, number, 1), f"{text}\n" if header else f"{text}\n\n"
+
+
+def _with_labels(problem: Diagnostic, labels: tuple[Label, ...]) -> Diagnostic:
+    return Diagnostic(problem.name, problem.span, problem.message, problem.help, problem.severity, labels, problem.fix)
+
+
+def _declaration(unknown: UnknownName, name: str, files: Iterable[ParsedFile]) -> Span | None:
+    """Return the name in the declaration of a candidate, None if the owner of the unknown name does not declare it."""
+    for unit in files:
+        for declaration in unit.file.declarations:
+            if unknown.owner == LIBRARY:
+                if declaration.name.text == name and not isinstance(declaration, s.ImplementationDeclaration):
+                    return declaration.name.span
+                continue
+            match declaration:
+                case (
+                    s.SkillDeclaration(name=s.Name(text=owner)) | s.ImplementationDeclaration(skill=s.Name(text=owner))
+                ) if owner == unknown.owner:
+                    for member in declaration.members:
+                        if isinstance(member, s.Parameter | s.Let) and member.name.text == name:
+                            return member.name.span
+                    if isinstance(declaration, s.ImplementationDeclaration) and declaration.name.text == name:
+                        return declaration.name.span
+                case _:
+                    pass
+    return None
+
+
+def _count_words(files: Iterable[ParsedFile]) -> Mapping[str, int]:
+    """Return how often each word occurs in the files, without comments."""
+    return Counter(word for unit in files for word in _WORD.findall(_COMMENT.sub("", unit.text)))

@@ -1,0 +1,114 @@
+"""Names that could not be resolved, as data: the diagnostics are made later, one for each missing declaration."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from skillc_compiler.program.spans import is_within_lines
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Label
+from skillc_dsl.spelling import alike_names, close_names, did_you_mean
+
+LIBRARY = ""
+"""The owner of names that a library declares outside of skills."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeaderLine:
+    """A line that is missing at the top of a file: `use NAME` or `import "NAME"`."""
+
+    keyword: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownName:
+    """A name without a declaration; `diagnostic` is what it is reported as.
+
+    `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill or `task NAME`
+    that should declare it, LIBRARY, or None if there is nothing to declare. `line` is what its file lacks, if that is
+    known. `passed` if it is the name of an argument.
+    """
+
+    diagnostic: str
+    written: s.Name
+    message: str
+    candidates: tuple[str, ...] = ()
+    otherwise: str = ""
+    labels: tuple[Label, ...] = ()
+    owner: str | None = None
+    line: HeaderLine | None = None
+    passed: bool = False
+
+    @property
+    def close(self) -> tuple[str, ...]:
+        """The candidates that are probably meant, the closest first."""
+        return () if self.line else close_names(self.written.text, self.candidates)
+
+    @property
+    def is_misspelt(self) -> bool:
+        """Whether a candidate is spelt almost like it, so that nothing else has to be missing."""
+        return bool(not self.line and alike_names(self.written.text, self.candidates))
+
+    @property
+    def help(self) -> str:
+        """What to write instead."""
+        return self.otherwise if self.line else did_you_mean(self.written.text, self.candidates) or self.otherwise
+
+
+@dataclass(frozen=True, slots=True)
+class LostNames:
+    """What other errors may have removed: names by skill and of the library, and lines from the headers of files.
+
+    `declarations` if whole declarations may be missing; `twice` are the skills that are declared more than once.
+    """
+
+    names: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    headers: frozenset[str] = frozenset()
+    declarations: bool = False
+    twice: frozenset[str] = frozenset()
+
+    def explains(self, unknown: UnknownName) -> bool:
+        """Whether the declaration of a name, or the line that makes it visible, may be what is missing."""
+        if unknown.owner is None:
+            return False
+        if unknown.passed and unknown.owner in self.twice:
+            return True
+        text = unknown.written.text.rpartition(":")[2]
+        lost = self.names.get(unknown.owner, frozenset()) | self.names.get(LIBRARY, frozenset())
+        if text in lost or unknown.written.text in lost:
+            return True
+        if unknown.owner != LIBRARY:
+            return unknown.owner in self.names and not unknown.is_misspelt
+        if unknown.written.span.path in self.headers and not unknown.is_misspelt:
+            return True
+        missing = self.declarations or bool(self.twice)
+        return missing and unknown.line is None and not unknown.is_misspelt
+
+
+def find_lost(files: Iterable[s.File]) -> LostNames:
+    """Return what the syntax errors of the files may have removed."""
+    names: dict[str, set[str]] = defaultdict(set)
+    headers: set[str] = set()
+    outside = False
+    for file in files:
+        for error in file.errors:
+            owner = next((d for d in file.declarations if is_within_lines(error.span, d.span)), None)
+            match owner:
+                case s.SkillDeclaration(name=name) | s.ImplementationDeclaration(skill=name):
+                    names[name.text] |= error.names
+                case s.TaskDeclaration(name=name):
+                    names[f"task {name.text}"] |= error.names
+                case None if _is_in_header(error, file.declarations):
+                    headers.add(file.path)
+                case _:
+                    pass
+            outside = outside or owner is None
+            names[LIBRARY] |= error.names if owner is None else set()
+    return LostNames({owner: frozenset(found) for owner, found in names.items()}, frozenset(headers), outside)
+
+
+def _is_in_header(error: s.ErrorNode, declarations: Sequence[s.Declaration]) -> bool:
+    return all(error.span.line < declaration.span.line for declaration in declarations)

@@ -1,0 +1,117 @@
+"""What is said of a program depends on what is erroneous in it, not on the names or the words of diagnostics."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+from shipped import shelf, vocabulary
+
+import skillc_compiler
+import skillc_dsl
+from skillc_compiler.checks import load_checks
+from skillc_compiler.manual import page_names
+from skillc_compiler.pipeline import compile
+from skillc_compiler.program.marks import Need
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.edits import apply_fixes
+from skillc_dsl.source import Source
+
+PACKAGES = [Path(next(iter(package.__path__))) for package in (skillc_compiler, skillc_dsl)]
+READERS = {"startswith", "endswith", "match", "search", "fullmatch", "findall", "split", "partition", "find", "index"}
+
+
+HEADER = "use skiros, rparts, skillc\n"
+RUN = 'impl one of {} {{\n run python "skillc.primitives:StandIn"\n}}\n'
+
+
+def skill(name: str) -> str:
+    """Return a skill with an arm."""
+    return f"skill {name} {{\n in arm: ArmDevice\n noplan\n}}\n"
+
+
+MOVES = "use rparts\n" + skill("TakePosture") + RUN.format("TakePosture")
+
+
+def modules() -> Iterator[tuple[Path, ast.Module]]:
+    """Yield the modules of the compiler and of the parser."""
+    for package in PACKAGES:
+        for path in sorted(package.rglob("*.py")):
+            yield path, ast.parse(path.read_text())
+
+
+def problems(text: str) -> list[Diagnostic]:
+    """Compile a text; return its diagnostics."""
+    return list(compile([Source("m.skill", text)], vocabulary(), shelf(), "own").diagnostics)
+
+
+def test_only_a_check_itself_lists_names_of_diagnostics() -> None:
+    lists = []
+    for path, tree in modules():
+        own = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Assign) and _is_names(node)}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Set | ast.List | ast.Tuple | ast.Dict) and id(node) not in own:
+                parts = [*node.keys, *node.values] if isinstance(node, ast.Dict) else node.elts
+                named = [each.value for each in parts if isinstance(each, ast.Constant) and each.value in page_names()]
+                lists += [f"{path}:{node.lineno}: {', '.join(named)}"] if len(named) > 1 else []
+    assert lists == []
+    assert all(one.NAMES and isinstance(one.NEEDS, Need) for one in load_checks())
+
+
+def _is_names(node: ast.Assign) -> bool:
+    return [target.id for target in node.targets if isinstance(target, ast.Name)] == ["NAMES"]
+
+
+def test_no_diagnostic_is_read_as_text() -> None:
+    read = []
+    for path, tree in modules():
+        for node in ast.walk(tree):
+            match node:
+                case ast.Call(func=ast.Attribute(value=ast.Attribute(attr="help" | "message"), attr=reader)):
+                    read += [f"{path}:{node.lineno}"] if reader in READERS else []
+                case ast.Call(func=ast.Attribute(attr=reader), args=[ast.Attribute(attr="help" | "message"), *_]):
+                    read += [f"{path}:{node.lineno}"] if reader in READERS else []
+                case ast.Compare(comparators=[ast.Attribute(attr="help" | "message")]):
+                    read.append(f"{path}:{node.lineno}")
+                case _:
+                    pass
+    assert read == []
+
+
+def test_a_misspelt_skill_with_eight_callers_is_one_error_at_its_declaration() -> None:
+    called = (f"{skill(f'Go{number}')}impl one of Go{number} {{\n do Mov(arm)\n}}\n" for number in range(8))
+    (found,) = problems(HEADER + skill("Movv") + "".join(called))
+    assert (found.name, found.span.line, len(found.labels)) == ("unknown-skill", 2, 8)
+    assert found.fix is not None
+    assert found.fix.text == "Mov"
+
+
+def test_a_forgotten_import_is_one_error_with_the_line_to_add() -> None:
+    calls = " do seq {\n  TakePosture(arm)\n  TakePosture(arm)\n }\n"
+    own, other = Source("m.skill", f"use rparts\n{skill('Go')}impl one of Go {{\n{calls}}}\n"), Source("o.skill", MOVES)
+    (found,) = compile([own, other], vocabulary(), {}, "own").diagnostics
+    assert found.name == "unknown-skill"
+    assert found.fix is not None
+    mended = Source("m.skill", apply_fixes(own.text, [found.fix]))
+    assert compile([mended, other], vocabulary(), {}, "own").diagnostics == ()
+
+
+def test_a_parameter_of_the_wrong_type_is_one_error_however_often_it_is_used() -> None:
+    used = " pre arm hasA gripper\n pre gripper.deviceState == Idle\n pre not gripper contain _\n"
+    text = f"{HEADER}skill Hold {{\n in arm: ArmDevice\n in gripper: Bool\n{used} noplan\n}}\n{RUN.format('Hold')}"
+    (found,) = problems(text)
+    assert any(label.span.line == 4 for label in found.labels)
+
+
+def test_a_line_that_is_typed_twice_is_one_error() -> None:
+    text = f"{HEADER}skill Go {{\n{skill('Go')}{RUN.format('Go')}"
+    assert [d.name for d in problems(text)] == ["unclosed-brace"]
+
+
+def test_what_a_syntax_error_removed_is_not_unknown() -> None:
+    text = (
+        "use skiros\n"
+        'function height arm: ArmDevice) -> Length = python "skillc_runtime.world.places:across"\n'
+        "skill Go {\n in arm: ArmDevice\n pre height(arm) > 1 m\n noplan\n}\n"
+        'impl one of Go {\n run python "skillc.primitives:StandIn"\n}\n'
+    )
+    assert [(d.name, d.span.line) for d in problems(text)] == [("syntax", 2)]
