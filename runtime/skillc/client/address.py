@@ -8,7 +8,7 @@ from ipaddress import ip_address
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from skillc.server.state import ADMIN_TOKEN, read_token
+from skillc.server.state import ADMIN_TOKEN, read_address, read_token
 from skillc.services.errors import RequestError
 
 DEFAULT_URL = "http://127.0.0.1:8421"
@@ -27,19 +27,21 @@ class ServerAddress:
 
 
 def find_address(url: str | None, token: str | None, state: Path | None) -> ServerAddress:
-    """Return the address that is given, else that of SKILLC_SERVER, else the default one, and the token for it.
+    """Return the address that is given, else SKILLC_SERVER, the one in the folder `state`, or the default, with a token.
 
     Without a token that is given, and SKILLC_TOKEN, a server on this machine gets the one in the folder `state`.
     RequestError if there is none, or an address would get it in the clear.
     """
-    server = (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).rstrip("/").removesuffix(PREFIX)
+    folder = state or STATE
+    given = url or os.environ.get(URL_VARIABLE) or read_address(folder) or DEFAULT_URL
+    server = given.rstrip("/").removesuffix(PREFIX)
     parts = urlsplit(server)
     if parts.scheme not in ("http", "https") or not parts.hostname or parts.query or parts.fragment:
         raise RequestError(f"`{server}` is no address of a server; write one such as {DEFAULT_URL}")
     is_local = _is_local(parts.hostname)
     if parts.scheme == "http" and not is_local:
         raise RequestError(f"{server} would get a token in the clear; a server on another machine needs https")
-    return ServerAddress(server + PREFIX, is_local, token or _find_token(server, is_local, state or STATE))
+    return ServerAddress(server + PREFIX, is_local, token or _find_token(server, is_local, folder))
 
 
 def read_token_file(file: Path) -> str:

@@ -17,6 +17,7 @@ from skillc.server.app import Application
 from skillc.server.cells import ServedCells
 from skillc.server.connections import BoundedConnection
 from skillc.server.context import ServerContext
+from skillc.server.ending import EndingServer
 from skillc.server.endpoints import PREFIX
 from skillc.server.hub import EventHub, News
 from skillc.server.listening import Listening
@@ -42,7 +43,7 @@ def serve(
     reporter: Reporter,
     on_ready: Callable[[ServerContext, str], None] | None = None,
 ) -> None:
-    """Serve cells until SIGINT or SIGTERM, and let them come to rest then; say how the cells are.
+    """Serve cells until SIGINT, SIGTERM or SIGHUP, and let them come to rest then; say how the cells are.
 
     `on_ready` is called in a thread, with the address without a path, as soon as that takes connections.
 
@@ -78,7 +79,7 @@ async def _serve(
     cells = {each.name: CellSupervisor(each, publish, served.find_library(each).find_obstacle) for each in served.cells}
     context = ServerContext(state, cells, hub, served.libraries)
     application = Application(context, listening.find_hosts(port), listening.proxy)
-    server = uvicorn.Server(_configure(application.asgi, listening))
+    server = EndingServer(_configure(application.asgi, listening))
     address = listening.find_address(port)
     reporter.say(f"serving at {address}{PREFIX}; the token of the command line is in {state.token_file.resolve()}")
     going = [asyncio.create_task(each.keep_going()) for each in cells.values()]
@@ -100,6 +101,8 @@ async def _serve(
         for task in going:
             with suppress(asyncio.CancelledError):
                 await task
+        if server.ended_by:
+            reporter.say(f"ended by {server.ended_by}: all devices are at rest")
 
 
 def _configure(application: ASGIApp, listening: Listening) -> uvicorn.Config:
