@@ -27,7 +27,7 @@ class ServerAddress:
 
 
 def find_address(url: str | None, token: str | None, state: Path | None) -> ServerAddress:
-    """Return the address that is given, else SKILLC_SERVER, the one in the folder `state`, or the default, with a token.
+    """Return the address that is given, else SKILLC_SERVER, the one in the folder `state`, or the default one.
 
     Without a token that is given, and SKILLC_TOKEN, a server on this machine gets the one in the folder `state`.
     RequestError if there is none, or an address would get it in the clear.
