@@ -1,4 +1,4 @@
-// Writes src/api/schema.ts: the types of the OpenAPI document on standard input, without its paths.
+// Writes the types of the OpenAPI document on standard input, without its paths, to src/api/schema.ts or another file.
 import { writeFileSync } from "node:fs";
 import { text } from "node:stream/consumers";
 import openapiTS, { astToString } from "openapi-typescript";
@@ -8,4 +8,5 @@ const types = astToString(
   await openapiTS({ ...document, paths: {} }, { silent: true, defaultNonNullable: false }),
 );
 const comment = "// Made from the OpenAPI document of the server by `npm run types`; do not edit.\n\n";
-writeFileSync(new URL("src/api/schema.ts", import.meta.url), comment + types);
+const file = process.argv[2] ?? new URL("src/api/schema.ts", import.meta.url);
+writeFileSync(file, comment + types);
