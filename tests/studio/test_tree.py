@@ -20,7 +20,7 @@ def test_a_tree_of_3000_nodes(context: BrowserContext, tmp_path: Path) -> None:
         page = context.new_page()
         open_studio(page, server)
         start(page, "many")
-        wait_for_state(page, "succeeded")
+        wait_for_state(page, "succeeded", "many")
         rows = page.locator(".tree-row")
         expect(rows.first).to_have_attribute("aria-setsize", str(WAITS))
         assert rows.count() < 60
