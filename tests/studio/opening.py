@@ -64,6 +64,7 @@ def start(page: Page, task: str) -> None:
     page.get_by_role("button", name="Start", exact=True).click()
 
 
-def wait_for_state(page: Page, state: str) -> None:
-    """Wait until the bar on top says the state of the operation."""
-    page.locator(".topbar .operation .badge", has_text=state).wait_for()
+def wait_for_state(page: Page, state: str, task: str = "carry_all") -> None:
+    """Wait until the bar on top says the state of an operation of a task."""
+    shown = page.locator(".topbar .operation", has=page.locator("strong", has_text=task))
+    shown.locator(".badge", has_text=state).wait_for()

@@ -110,7 +110,7 @@ def test_a_task_with_parameters_asks_for_them(page: Page) -> None:
     page.get_by_role("button", name="Rehearse").click()
     expect(page.locator(".rehearsed")).to_contain_text(FINISHED, timeout=30_000)
     page.get_by_role("button", name="Start", exact=True).click()
-    wait_for_state(page, FINISHED)
+    wait_for_state(page, FINISHED, "carry")
 
 
 def test_the_plan_waits_for_approval(page: Page) -> None:

@@ -2,7 +2,7 @@
 import * as three from "three";
 import type { SceneTheme } from "./theme";
 
-const SHADOW_PIXELS = 1024;
+const SHADOW_PIXELS = 512;
 
 export class SceneLights {
   readonly group = new three.Group();
