@@ -36,7 +36,7 @@ STEPS: tuple[Command, ...] = (commands.StepInto(), commands.StepOver(), commands
 OTHERS: tuple[Command, ...] = (
     commands.Approve(),
     commands.Retry(),
-    commands.Skip("Ann", "done by hand"),
+    commands.Skip("done by hand", who="Ann"),
     commands.Replan(),
     commands.Stop("enough"),
 )
@@ -45,7 +45,7 @@ OTHERS: tuple[Command, ...] = (
 def edit(flag: str, on: bool) -> commands.EditWorld:
     """Return the request to turn a flag."""
     change = LabelledProperty(LabelledIri(flag, flag), LabelledIri(ON, "on"), on)
-    return commands.EditWorld((change,), "Ann", "for the test")
+    return commands.EditWorld((change,), "for the test", who="Ann")
 
 
 ANY_COMMAND = st.one_of(

@@ -72,7 +72,7 @@ def test_a_failed_step_of_a_plan_is_retried_with_the_steps_after_it() -> None:
 @pytest.mark.parametrize("step", ["carl crate a", "carl crate b"], ids=["in the middle", "the last"])
 def test_a_failed_step_that_somebody_has_done_is_skipped_with_its_effects_assumed(step: str) -> None:
     yard, run = broken_step(step)
-    assert run.request(commands.Skip("Ann", "put it there by hand")) is None
+    assert run.request(commands.Skip("put it there by hand", who="Ann")) is None
     (skipped,) = [event for event in run.told(WorldChanged) if event.origin.startswith("Ann")]
     assert skipped.origin == "Ann: put it there by hand" and skipped.known == "assumed"
     assert run.until_end() == "succeeded" and run.run.verified is False
@@ -120,6 +120,6 @@ def test_a_plan_that_no_longer_leads_to_the_goal_is_replaced_while_paused() -> N
     there = contain("d", "crate")
     gone = RemoveRelation(iri("a"), there.relation, iri("crate"))
     changes = tuple(label_change(each, library().vocabulary) for each in (gone, there))
-    assert run.request(commands.EditWorld(changes, "Ann", "moved it")) is None
+    assert run.request(commands.EditWorld(changes, "moved it", who="Ann")) is None
     run.until("planning").until("paused").request(commands.Resume())
     assert run.until_end() == "succeeded" and "carl crate d" in yard.depot.log

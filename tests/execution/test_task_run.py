@@ -179,7 +179,8 @@ def test_a_failed_step_waits_for_a_decision_while_time_goes_on() -> None:
 
 def test_a_body_that_was_not_planned_cannot_be_replanned_and_has_no_step_to_skip() -> None:
     _, watched = failed_step()
-    for command, why in ((commands.Replan(), "only a goal"), (commands.Skip("me", "done"), "only a step of a plan")):
+    skip = commands.Skip("done", who="me")
+    for command, why in ((commands.Replan(), "only a goal"), (skip, "only a step of a plan")):
         refused = watched.request(command)
         assert refused is not None and why in str(refused) and watched.run.waits_for_decision
 
@@ -225,7 +226,7 @@ NOBODY = LabelledIri("http://example.org/stage#nobody", "nobody")
 def test_a_world_edit_that_makes_no_sense_is_refused_with_the_reason(change: object) -> None:
     cell, watched = running()
     before = cell.world.snapshot()
-    refused = watched.request(commands.EditWorld((change,), "somebody", "by mistake"))  # type: ignore[arg-type]
+    refused = watched.request(commands.EditWorld((change,), "by mistake", who="somebody"))  # type: ignore[arg-type]
     assert refused is not None and len(str(refused)) > len("`edit-world` is not possible while the task is running; ")
     assert cell.world.snapshot() is before and watched.run.state == "running"
 

@@ -21,7 +21,7 @@ FAILS = Script("fail", ticks=5)
 
 APPROVED = RunSettings(approve=True)
 ASKING = RunSettings(ask_after_failure=True)
-NO_EDIT = commands.EditWorld((), "somebody", "to see what happens")
+NO_EDIT = commands.EditWorld((), "to see what happens", who="somebody")
 EVERY: tuple[Command, ...] = (
     commands.Approve(),
     commands.Pause(),
@@ -31,7 +31,7 @@ EVERY: tuple[Command, ...] = (
     commands.StepOut(),
     commands.Stop("enough"),
     commands.Retry(),
-    commands.Skip("somebody", "done by hand"),
+    commands.Skip("done by hand", who="somebody"),
     commands.Replan(),
     NO_EDIT,
 )
@@ -39,7 +39,7 @@ EVERY: tuple[Command, ...] = (
 
 def turned(flag: str, on: bool) -> commands.EditWorld:
     change = LabelledProperty(LabelledIri(flag, flag), LabelledIri(ON, "on"), on)
-    return commands.EditWorld((change,), "somebody", "for the test")
+    return commands.EditWorld((change,), "for the test", who="somebody")
 
 
 def queued() -> tuple[StagedCell, Watched]:

@@ -60,7 +60,7 @@ def test_an_operator_is_asked_and_the_answer_decides(tmp_path: Path, choice: str
             refused = host.request("asking", wrong)
             host.tick()
             assert said in str(refused.refused)
-        host.request("asking", Answer(choice, "Ada", prompt.id))
+        host.request("asking", Answer(choice, prompt.id, who="Ada"))
         (ended,) = run_all(host)
         assert (ended.state, ended.prompts) == (end, ())
         found = events(host)

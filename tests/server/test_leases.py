@@ -69,3 +69,15 @@ def client_of(server: RunningServer, name: str, role: str) -> Iterator[httpx.Cli
             yield client
     finally:
         server.client.delete(f"/tokens/{name}")
+
+
+def test_the_events_of_an_operation_have_who_gave_each_command(server: RunningServer) -> None:
+    server.put_back()
+    operation = server.submit(task="carry_all", approve=True)["id"]
+    server.wait_for(operation, "planned")
+    answer = server.client.post(f"/operations/{operation}/commands", json={"type": "approve", "who": "somebody else"})
+    assert answer.status_code == 200, answer.text
+    server.client.post(f"/operations/{operation}/stop", json={})
+    events = [each["event"] for each in server.client.get(f"/operations/{operation}/events").json()]
+    requested = [each["command"] for each in events if each["type"] == "requested"]
+    assert requested[0] == {"type": "approve", "who": "admin"}, "who has the token, whatever the request says"

@@ -126,7 +126,7 @@ class Operation:
 
     def skip(self, who: str, why: str) -> None:
         """After a failure: count the failed step as done, because somebody did it; its effects are assumed."""
-        self._command(commands.Skip(require_text(who, "`who`"), require_text(why, "`why`")))
+        self._command(commands.Skip(require_text(why, "`why`"), who=require_text(who, "`who`")))
 
     @property
     def prompts(self) -> tuple[Prompt, ...]:
@@ -135,7 +135,7 @@ class Operation:
 
     def answer(self, choice: str, who: str, prompt: int = 0) -> None:
         """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
-        self._command(commands.Answer(require_text(choice, "the choice"), require_text(who, "`who`"), prompt))
+        self._command(commands.Answer(require_text(choice, "the choice"), prompt, who=require_text(who, "`who`")))
 
     def replan(self) -> None:
         """Halt what runs and plan again."""
@@ -156,7 +156,7 @@ class Operation:
             yield transaction
             changes = tuple(label_change(each, state.vocabulary) for each in transaction.changes)
             if changes:
-                self._command(commands.EditWorld(changes, author, reason))
+                self._command(commands.EditWorld(changes, reason, who=author))
 
     def wait(self, timeout_s: float | None = None) -> Run:
         """Wait for the end and return the result. RequestError after `timeout_s` s of wall time; it goes on then.

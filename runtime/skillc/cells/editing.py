@@ -41,4 +41,4 @@ def edit_world(
         raise RequestError(str(error)) from error
     labelled = tuple(label_change(each, state.vocabulary) for each in changes)
     for operation in operations:
-        operation.publisher(Requested(time=now, command=EditWorld(labelled, who, why), tick=loop.ticks))
+        operation.publisher(Requested(time=now, command=EditWorld(labelled, why, who=who), tick=loop.ticks))

@@ -58,7 +58,8 @@ def _describe_task(event: events.Event) -> Iterator[str]:
         case events.StateChanged(state=state, reason=reason):
             yield f"{state}: {reason}" if reason else state
         case events.Requested(command=command, refused=refused):
-            yield f"{command.name} is refused: {refused}" if refused else f"{command.name} is requested"
+            by = f" by {command.who}" if command.who else ""
+            yield f"{command.name}{by} is refused: {refused}" if refused else f"{command.name} is requested{by}"
         case events.Disturbed(disturbance=disturbance, who=who):
             yield f"{describe_disturbance(disturbance)}{f' ({who})' if who else ''}"
         case events.PlanArrived(refused=refused, detail=detail) if refused:

@@ -42,7 +42,7 @@ def find_answer(digit: str, run: RunView) -> Answer | None:
     number = int(digit)
     if not run.prompts or not 0 < number <= len(run.prompts[0].choices):
         return None
-    return Answer(run.prompts[0].choices[number - 1], "the user", run.prompts[0].id)
+    return Answer(run.prompts[0].choices[number - 1], run.prompts[0].id, who="the user")
 
 
 def explain_refusal(key: Key, run: RunView) -> str:

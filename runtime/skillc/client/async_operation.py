@@ -146,7 +146,7 @@ class AsyncOperation:
 
         Who says so is the owner of the token.
         """
-        await self._command(commands.Skip(who="", why=why))
+        await self._command(commands.Skip(why))
 
     @property
     def prompts(self) -> tuple[Prompt, ...]:

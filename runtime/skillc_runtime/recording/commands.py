@@ -11,7 +11,11 @@ from skillc_runtime.world.state.labelled import LabelledChange
 BreakpointText: TypeAlias = Annotated[str, msgspec.Meta(max_length=300)]
 
 
-class _Command(msgspec.Struct, frozen=True, omit_defaults=True):
+class _Command(msgspec.Struct, frozen=True, omit_defaults=True, kw_only=True):
+    """A command, and `who` has given it; empty if that is not known."""
+
+    who: str = ""
+
     @property
     def name(self) -> str:
         """The name of the command, such as `step-over`."""
@@ -64,7 +68,6 @@ class Retry(_Command, tag="retry", frozen=True):
 class Skip(_Command, tag="skip", frozen=True):
     """After a failure: count the failed step as done, because somebody did it; its effects are assumed."""
 
-    who: str
     why: str
 
 
@@ -76,7 +79,6 @@ class Answer(_Command, tag="answer", frozen=True):
     """Answer what a skill asks with one of its choices; `prompt` is its number, 0 for the only one."""
 
     choice: str
-    who: str = ""
     prompt: int = 0
 
 
@@ -90,7 +92,6 @@ class EditWorld(_Command, tag="edit-world", frozen=True):
     """Change the world model in one transaction."""
 
     changes: tuple[LabelledChange, ...]
-    who: str
     why: str
 
 

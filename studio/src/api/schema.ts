@@ -509,6 +509,8 @@ export interface components {
         Approve: {
             /** @enum {unknown} */
             type: "approve";
+            /** @default  */
+            who?: string;
         };
         /**
          * Pause
@@ -519,6 +521,8 @@ export interface components {
             type: "pause";
             /** @default requested */
             reason?: string;
+            /** @default  */
+            who?: string;
         };
         /**
          * Resume
@@ -527,6 +531,8 @@ export interface components {
         Resume: {
             /** @enum {unknown} */
             type: "resume";
+            /** @default  */
+            who?: string;
         };
         /**
          * StepInto
@@ -535,6 +541,8 @@ export interface components {
         StepInto: {
             /** @enum {unknown} */
             type: "step-into";
+            /** @default  */
+            who?: string;
         };
         /**
          * StepOver
@@ -543,6 +551,8 @@ export interface components {
         StepOver: {
             /** @enum {unknown} */
             type: "step-over";
+            /** @default  */
+            who?: string;
         };
         /**
          * StepOut
@@ -551,6 +561,8 @@ export interface components {
         StepOut: {
             /** @enum {unknown} */
             type: "step-out";
+            /** @default  */
+            who?: string;
         };
         /**
          * Retry
@@ -559,6 +571,8 @@ export interface components {
         "skillc_runtime.recording.commands.Retry": {
             /** @enum {unknown} */
             type: "retry";
+            /** @default  */
+            who?: string;
         };
         /**
          * Skip
@@ -567,8 +581,9 @@ export interface components {
         Skip: {
             /** @enum {unknown} */
             type: "skip";
-            who: string;
             why: string;
+            /** @default  */
+            who?: string;
         };
         /**
          * Replan
@@ -577,6 +592,8 @@ export interface components {
         Replan: {
             /** @enum {unknown} */
             type: "replan";
+            /** @default  */
+            who?: string;
         };
         /**
          * Answer
@@ -586,10 +603,10 @@ export interface components {
             /** @enum {unknown} */
             type: "answer";
             choice: string;
-            /** @default  */
-            who?: string;
             /** @default 0 */
             prompt?: number;
+            /** @default  */
+            who?: string;
         };
         /**
          * SetBreakpoints
@@ -599,6 +616,8 @@ export interface components {
             /** @enum {unknown} */
             type: "set-breakpoints";
             breakpoints: string[];
+            /** @default  */
+            who?: string;
         };
         /**
          * StopReason
@@ -1100,6 +1119,8 @@ export interface components {
             reason?: string;
             /** @default false */
             at_once?: boolean;
+            /** @default  */
+            who?: string;
         };
         /**
          * Abort
@@ -1109,6 +1130,8 @@ export interface components {
             /** @enum {unknown} */
             type: "abort";
             reason: string;
+            /** @default  */
+            who?: string;
         };
         /**
          * EditWorld
@@ -1118,8 +1141,9 @@ export interface components {
             /** @enum {unknown} */
             type: "edit-world";
             changes: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["IndividualAdded"] | components["schemas"]["IndividualRemoved"])[];
-            who: string;
             why: string;
+            /** @default  */
+            who?: string;
         };
         /**
          * LabelledRelation

@@ -136,9 +136,9 @@ def _find_running(call: ApiCall) -> tuple[CellSupervisor, OperationStatus]:
     return cell, operation
 
 
-def _sign(command: commands.Command, who: str) -> commands.Command:
+def _sign(command: Command, who: str) -> commands.Command:
     """Return a command with who has given it."""
-    return structs.replace(command, who=who) if isinstance(command, commands.Skip | commands.Answer) else command
+    return structs.replace(command, who=who)
 
 
 NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
