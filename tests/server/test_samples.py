@@ -78,7 +78,7 @@ def test_the_clock_of_a_display_goes_on_between_events(server: RunningServer) ->
         ({"token": "guessed", "cell": "yard"}, "the token is not valid"),
         ({"token": "", "cell": "garden"}, "there is no cell `garden`"),
         ({"token": "", "cell": "yard", "rate_hz": 0}, "no valid hello"),
-        ({"cell": "yard"}, "no valid hello"),
+        ({"cell": "yard"}, "the token is not valid"),
     ],
 )
 def test_who_may_not_have_samples_is_told_why(server: RunningServer, hello: dict[str, object], said: str) -> None:

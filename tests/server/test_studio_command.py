@@ -121,7 +121,7 @@ def test_a_library_or_a_task_determines_the_cells(yard: Path, monkeypatch: pytes
 @pytest.mark.parametrize(
     ("what", "message"),
     [
-        ("clean_whitebord", "there is no library and no task `clean_whitebord`; did you mean `clean_whiteboard` or"),
+        ("clean_whitebord", "there is no library and no task `clean_whitebord`; did you mean `clean_whiteboard`?"),
         ("wiping:clean_everything_at_once", "there is no library and no task"),
         ("nowhere.skill", "there is no file or folder nowhere.skill"),
         ("nowhere:task", "there is no file or folder nowhere"),

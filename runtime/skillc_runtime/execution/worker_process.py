@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-import select
 import selectors
 import socket
 import struct
@@ -206,8 +205,10 @@ def _call(function: WorkerFunction, request: bytes, connection: socket.socket) -
 def _send_report(connection: socket.socket, value: object) -> None:
     """Send how far the function is, unless nobody has read the former reports."""
     message = pickle.dumps(Report(value))
-    if select.select((), (connection,), (), 0.0)[1]:
-        connection.sendall(_HEADER.pack(len(message)) + message)
+    with selectors.DefaultSelector() as selector:
+        selector.register(connection, selectors.EVENT_WRITE)
+        if selector.select(0.0):
+            connection.sendall(_HEADER.pack(len(message)) + message)
 
 
 def _take_message(received: bytearray) -> bytes | None:

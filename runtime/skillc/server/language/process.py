@@ -33,7 +33,7 @@ class LanguageServer:
         content = msgspec.json.encode(message)
         try:
             self._input.write(b"Content-Length: %d\r\n\r\n%b" % (len(content), content))
-            await self._input.drain()  # wait ends: the process reads on, or is killed with the WebSocket
+            await self._input.drain()  # the process reads on, or is killed with the WebSocket
         except (BrokenPipeError, ConnectionResetError) as error:
             raise LanguageServerEnded("the language server has ended") from error
 

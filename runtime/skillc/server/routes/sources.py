@@ -52,7 +52,7 @@ async def read_library_source(call: ApiCall) -> SourceText:
 async def change_library_source(call: ApiCall) -> SourceText:
     library, change = call.server.find_library(call.path["library"]), call.body
     try:
-        async with library.writing:  # wait ends: with the write of somebody else to the disk
+        async with library.writing:  # waits for the write of somebody else to the disk
             written = await asyncio.to_thread(
                 lambda: write_source(list_sources(library), call.query.path, change.text, change.base_hash)
             )

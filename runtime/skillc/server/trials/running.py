@@ -53,11 +53,11 @@ class TrialRuns:
         for task in tuple(self._tasks.values()):
             task.cancel()
             with suppress(asyncio.CancelledError):
-                await task  # wait ends: it was cancelled
+                await task
 
     async def _run(self, series: TrialSeries, scene: str, known: bytes) -> None:
         try:
-            async with self._turn:  # wait ends: each trial of those before it has its time limit
+            async with self._turn:  # each trial of those before it has its time limit
                 self.store.set_state(series.id, "going on")
                 with closing(Workers(count=1)) as workers:
                     reason = await self._run_trials(workers, series, scene, known)
