@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
 
 from skillc.lsp.server import serve
 from skillc.services.errors import OutputError, ServiceError
 from skillc_runtime.platforms.memory import limit_memory
+from skillc_runtime.platforms.priority import lower_priority
 
 MEMORY_BYTES = 2 * 2**30
 """The largest address space of the process."""
@@ -18,7 +18,7 @@ NICENESS = 10
 def main() -> int:
     """Serve on stdin and stdout until the input ends; return the exit code."""
     limit_memory(MEMORY_BYTES)
-    os.nice(NICENESS)
+    lower_priority(NICENESS)
     try:
         return 0 if serve() else 1
     except (ServiceError, OutputError) as error:
