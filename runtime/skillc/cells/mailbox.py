@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import time
 from collections import deque
 from collections.abc import Callable
 from threading import Condition, Thread
@@ -13,7 +14,7 @@ from skillc.cells.messages import Alive, CellAnswer, CellRequest, Happened, Refu
 MAX_WAITING = 1000
 """How many requests may wait; those beyond are refused at once."""
 ALIVE_S = 0.25
-"""The interval of the reports that the loop goes round, in s of wall time."""
+"""The interval of the reports that the loop goes round, in s of wall time, whatever else is reported."""
 
 
 class Outbox:
@@ -30,6 +31,7 @@ class Outbox:
         self._answers = deque[Report]()
         self._latest: dict[str, Report] = {}
         self._closing = False
+        self._alive_at = time.monotonic()
         self._thread = Thread(target=self._send, daemon=True)
         self._thread.start()
 
@@ -54,21 +56,24 @@ class Outbox:
 
     def _send(self) -> None:
         try:
-            while reports := self._take():
+            while (reports := self._take()) is not None:
                 for report in reports:
                     send_frame(self._connection, report)
         except OSError:
             return  # the other end is gone, which the inbox finds out
 
-    def _take(self) -> list[Report]:
-        """Wait for reports; none at the end."""
+    def _take(self) -> list[Report] | None:
+        """Wait for reports; None at the end."""
         with self._news:
             if not self._closing and not self._answers and not self._latest:
                 self._news.wait(ALIVE_S)
             reports = [*self._latest.values(), *self._answers]
             self._latest.clear()
             self._answers.clear()
-            return reports or ([] if self._closing else [Alive(rounds=self.rounds)])
+            if not self._closing and time.monotonic() - self._alive_at >= ALIVE_S:
+                self._alive_at = time.monotonic()
+                reports.append(Alive(rounds=self.rounds))
+            return None if self._closing and not reports else reports
 
 
 class Inbox:
