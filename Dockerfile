@@ -12,6 +12,7 @@ COPY ontology ontology
 COPY compiler compiler
 COPY runtime runtime
 COPY skills_src skills_src
+COPY studio studio
 RUN pip install --no-cache-dir --constraint constraints.txt '.[planner,temporal,motion,fast,meshes,video,data,editor,server]'
 
 WORKDIR /work

@@ -91,7 +91,7 @@ def test_what_the_dockerfile_installs_works(tmp_path: Path) -> None:
     lines = (ROOT / "Dockerfile").read_text("utf-8").splitlines()
     source, target = tmp_path / "src", tmp_path / "env"
     source.mkdir()
-    ignore = shutil.ignore_patterns("__pycache__")
+    ignore = shutil.ignore_patterns("__pycache__", "node_modules")
     for name in (each for line in lines if line.startswith("COPY ") for each in line.split()[1:-1]):
         if (ROOT / name).is_dir():
             shutil.copytree(ROOT / name, source / name, ignore=ignore)
