@@ -57,7 +57,7 @@ def run_trials(
     deadline_s: float,
     show_done: Callable[[int], None],
 ) -> Series:
-    """Let a server run trials of a cell's task, and return them; `show_done` is told how many are done."""
+    """Let a server run trials of a cell's task, and return them; `show_done` is called with how many are done."""
     with asked_cell() as cell:
         return cell.trials(
             task,
