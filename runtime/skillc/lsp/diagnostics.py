@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from pathlib import Path
 
 from lsprotocol import types
@@ -20,13 +21,12 @@ _SEVERITY = {"error": types.DiagnosticSeverity.Error, "warning": types.Diagnosti
 
 
 def diagnostics_by_uri(
-    libraries: Libraries, root: Root, analysis: Analysis, encoding: str
+    libraries: Libraries, root: Root, analysis: Analysis, around: Sequence[Diagnostic], encoding: str
 ) -> dict[str, list[types.Diagnostic]]:
-    """Return the diagnostics of each file of a library (perhaps none), and of its vocabularies and scenes, by URI."""
+    """Return the diagnostics of each file of a library (perhaps none), and those `around` it, by URI."""
     found: dict[str, list[types.Diagnostic]] = defaultdict(list)
     for path in analysis.library.sources:
         found[libraries.uri(root, path)] = []
-    around = libraries.problems_around(root)
     lines = PositionConverter({**analysis.texts, **scenes.read_scene_texts(around, libraries.buffers)}, encoding)
     for problem in (*analysis.problems, *around):
         found[libraries.uri(root, problem.span.path)].append(convert_diagnostic(libraries, root, lines, problem))
