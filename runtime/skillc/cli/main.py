@@ -49,7 +49,18 @@ SECTIONS = {
         "token",
         "state",
     ),
-    "Operations of a server": ("wait", "pause", "resume", "step", "stop", "approve", "retry", "skip", "replan"),
+    "Operations of a server": (
+        "wait",
+        "pause",
+        "resume",
+        "step",
+        "stop",
+        "breakpoints",
+        "approve",
+        "retry",
+        "skip",
+        "replan",
+    ),
     "Tools": ("doctor", "schema", "completion", "lsp"),
 }
 """The sections of the help, with their commands in the order in which they are listed."""

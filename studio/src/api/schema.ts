@@ -271,8 +271,8 @@ export interface components {
          *         `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
          *         whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
          *         it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
-         *         operators. `planning` is how far its planner is; null if none works. `decisions` are how it can be continued if it
-         *         was interrupted, `continued_by` is the operation that does.
+         *         operators. `planning` is how far its planner is; null if none works. `breakpoints` are those at which it pauses now.
+         *         `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
          */
         OperationStatus: {
             id: string;
@@ -297,6 +297,8 @@ export interface components {
             prompts?: components["schemas"]["Prompt"][];
             /** @default null */
             planning?: components["schemas"]["PlanningProgress"] | null;
+            /** @default [] */
+            breakpoints?: string[];
             /** @default [] */
             decisions?: ("replan" | "retry" | "skip")[];
             /** @default  */
