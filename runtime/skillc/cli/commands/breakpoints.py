@@ -5,7 +5,10 @@ from __future__ import annotations
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.server_access import connect_server, operation_argument, remark_status, server_options
+from skillc.cli.operation_remarks import remark_status
+from skillc.cli.server_access import operation_argument
+from skillc.cli.server_completions import complete_pause_at
+from skillc.cli.server_connection import connect_server, server_options
 
 EXAMPLES = """
 skillc breakpoints
@@ -21,6 +24,7 @@ skillc breakpoints --clear
     "places",
     multiple=True,
     metavar="SKILL|FILE:LINE",
+    shell_complete=complete_pause_at,
     help="Pause before each call of a skill, or before the calls in a line, and at no others. Can be repeated.",
 )
 @click.option("--clear", is_flag=True, help="Pause at no call any more.")
