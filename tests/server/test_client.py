@@ -181,3 +181,23 @@ async def read_events(address: ServerAddress, operation: str) -> list[Envelope]:
         return [each async for each in follow_operation(connection, operation, 0)]
     finally:
         await connection.close()
+
+
+def test_breakpoints_are_changed_from_python(server: RunningServer, connected: skillc.Server) -> None:
+    server.put_back()
+    operation = connected.cell().start("carry_two", pause_at=["Load"])
+    assert operation.wait_for_pause() == "paused" and operation.breakpoints == ("Load",)
+    operation.set_breakpoints("Unload")
+    assert operation.breakpoints == ("Unload",)
+    operation.resume()
+    assert (operation.wait_for_pause(), operation.reason) == ("paused", "breakpoint at Unload")
+
+    async def clear() -> tuple[str, ...]:
+        async with skillc.connect_async(f"http://127.0.0.1:{server.port}", server.token) as asynchronous:
+            found = await asynchronous.operation(operation.id)
+            await found.set_breakpoints()
+            return found.status.breakpoints
+
+    assert asyncio.run(clear()) == ()
+    operation.stop()
+    assert operation.wait().state == "stopped"

@@ -35,6 +35,7 @@ from skillc.cells.messages import (
     TakeSnapshot,
 )
 from skillc.cells.operation import CellStatus
+from skillc.services.diagnosis import diagnose
 from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests
 from skillc_runtime.execution.pace import FAST, Pace
@@ -235,7 +236,7 @@ def _refuse(error: ServiceError | TooManyRequests | NotDurable) -> Refused:
     match error:
         case TooManyRequests():
             return Refused(kind="busy", reason=str(error))
-        case DiagnosticsError(diagnostics=diagnostics):
-            return Refused(kind="invalid", reason="\n".join(map(str, diagnostics)))
+        case DiagnosticsError():
+            return Refused(kind="invalid", diagnosis=diagnose(error))
         case _:
             return Refused(kind="invalid", reason=str(error))

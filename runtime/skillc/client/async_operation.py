@@ -157,6 +157,13 @@ class AsyncOperation:
         """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
         await self._command(commands.Answer(choice, prompt=prompt))
 
+    async def set_breakpoints(self, *places: str) -> None:
+        """Pause before each SKILL or FILE:LINE of `places` from now on, and before no others; without any, nowhere.
+
+        `status.breakpoints` are those that it has.
+        """
+        await self._command(commands.SetBreakpoints(places))
+
     async def replan(self) -> None:
         """Halt what runs and plan again."""
         await self._command(commands.Replan())

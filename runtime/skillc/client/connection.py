@@ -14,6 +14,8 @@ from skillc.client.address import ServerAddress
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.server.api_types import ProblemDetails
 from skillc.services.errors import ServiceError
+from skillc_dsl.rendering.json import from_data
+from skillc_dsl.source import Source
 
 TIMEOUT_S = 75.0
 """How long an answer may take, in s: a cell that plans or starts answers late."""
@@ -140,11 +142,19 @@ def join(*parts: str) -> str:
 def _find_error(answer: httpx.Response, address: ServerAddress) -> ServiceError:
     try:
         problem = msgspec.json.decode(answer.content, type=ProblemDetails)
-        detail, allowed = problem.detail, problem.allowed or ()
     except msgspec.DecodeError:
-        detail, allowed = f"{address.url} answers with {answer.status_code}: it is no server of skillc", ()
+        detail = f"{address.url} answers with {answer.status_code}: it is no server of skillc"
+        problem = ProblemDetails(title="", status=answer.status_code, detail=detail)
     if answer.status_code >= FIRST_SERVER_ERROR:
-        return UnavailableError(detail)
+        return UnavailableError(problem.detail)
     if answer.status_code == UNAUTHORIZED:
-        detail = f"the server at {address.url.rpartition('/api')[0]} does not know this token"
-    return RefusedError(detail, answer.status_code, allowed)
+        unknown = f"the server at {address.url.rpartition('/api')[0]} does not know this token"
+        return RefusedError(unknown, answer.status_code)
+    return RefusedError(
+        problem.detail,
+        answer.status_code,
+        problem.allowed or (),
+        problem.type,
+        tuple(map(from_data, problem.diagnostics or ())),
+        {path: Source(path, text) for path, text in (problem.texts or {}).items()},
+    )
