@@ -1,6 +1,6 @@
 // Feeds the signals from the server: cells and operations, the events of one operation, samples, and the world.
 import { decode } from "@msgpack/msgpack";
-import { batch, effect } from "@preact/signals";
+import { batch, computed, effect } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import { openStream } from "../api/stream";
 import type { Envelope, News, OperationStatus, Sample, WorldFact } from "../api/types";
@@ -50,8 +50,12 @@ function followCell(): (() => void) | undefined {
   const name = studio.cellName.value;
   if (name === null) return undefined;
   studio.sample.value = null;
-  void loadHistory(name);
+  // A server or a cell that has come back knows more about what was interrupted.
+  const isThere = computed(() => studio.connection.value.state === "open" && isOn(name));
   const ends = [
+    effect(() => {
+      if (isThere.value) void loadHistory(name);
+    }),
     openStream({
       path: "/samples",
       hello: () => ({ cell: name, rate_hz: SAMPLES_HZ }),
@@ -63,12 +67,18 @@ function followCell(): (() => void) | undefined {
   return () => ends.forEach((end) => end());
 }
 
+function isOn(cell: string): boolean {
+  return !["off", undefined].includes(studio.cells.value.get(cell)?.state);
+}
+
 async function loadHistory(cell: string): Promise<void> {
   const found = await persistently(() => api.operations(cell, { limit: HISTORY }), isShown(cell));
   if (found === null) return;
   batch(() => {
-    const known = new Map(found.map((each) => [each.id, each]));
-    studio.operations.value = new Map([...known, ...studio.operations.value]);
+    const known = new Map(studio.operations.value);
+    for (const each of found)
+      if (!known.has(each.id) || studio.ENDS.includes(each.state)) known.set(each.id, each);
+    studio.operations.value = known;
     if (studio.cellName.value === cell) studio.operationId.value ??= found[0]?.id ?? null;
   });
 }

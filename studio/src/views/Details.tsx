@@ -46,17 +46,20 @@ function OperationDetails() {
       )}
       {ended?.failure != null && <FailureText failure={ended.failure} />}
       {ended !== null && ended.status === "failed" && <FailedNodes />}
-      <Running active={activeCalls(operation.value)} />
+      <Running
+        title={ended === null ? "What runs now" : "What ran when it ended"}
+        active={activeCalls(operation.value)}
+      />
       {ended !== null && <Grounds ended={ended} />}
       <p class="muted small">Select a node of the tree, a thing or a moment: here is why it is so.</p>
     </>
   );
 }
 
-function Running({ active }: { active: readonly TreeNode[] }) {
+function Running({ title, active }: { title: string; active: readonly TreeNode[] }) {
   if (active.length === 0) return null;
   return (
-    <Section title="What runs now">
+    <Section title={title}>
       <ul class="stack">
         {active.map((each) => (
           <li key={each.key}>
