@@ -113,7 +113,11 @@ def test_a_task_with_parameters_asks_for_them(page: Page) -> None:
     page.get_by_role("combobox", name="to", exact=True).fill("lab:Goal")
     expect(page.locator(".preview-step")).to_have_count(2)
     page.get_by_role("button", name="Rehearse").click()
-    expect(page.locator(".rehearsed")).to_contain_text(FINISHED, timeout=30_000)
+    expect(page.locator(".rehearsed")).to_contain_text(FINISHED, timeout=120_000)  # a twin of the cell starts
+    page.get_by_role("button", name="Play it").click()
+    expect(page.get_by_text("rehearsal of carry")).to_be_visible()
+    expect(page.locator(".tree-row[aria-level='1'].is-success")).to_have_count(2)
+    page.get_by_role("button", name="Back to the cell").click()
     page.get_by_role("button", name="Start", exact=True).click()
     wait_for_state(page, FINISHED, "carry")
 

@@ -150,7 +150,7 @@ export const api = {
     write<CellStatus>("PUT", `/cells/${part(cell)}/pace`, { factor }),
   acknowledge: (cell: string) => write<CellStatus>("POST", `/cells/${part(cell)}/acknowledge`),
   tree: (id: string) => read<OperationTree>(`/operations/${part(id)}/tree`),
-  why: (id: string) => read<RunExplanation>(`/operations/${part(id)}/why`),
+  why: (id: string, question: string) => read<RunExplanation>(`/operations/${part(id)}/why`, { question }),
   signals: (id: string, match: string, afterS: number | null) =>
     read<SignalRows>(`/operations/${part(id)}/signals`, { match, after_s: afterS }),
   diff: (id: string, other: string) => read<RunDiff>(`/operations/${part(id)}/diff`, { other }),

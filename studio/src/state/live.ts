@@ -38,8 +38,9 @@ function takeNews(news: News): void {
   }
 }
 
-/** Note how an operation is; the first one that goes on is shown. */
+/** Note how an operation is, unless that is known better: an answer may come after newer news. */
 export function takeOperation(operation: OperationStatus): void {
+  if (!isNews(studio.operations.value.get(operation.id), operation)) return;
   studio.operations.value = new Map(studio.operations.value).set(operation.id, operation);
   if (operation.cell === studio.cellName.value && !studio.ENDS.includes(operation.state))
     studio.operationId.value ??= operation.id;
@@ -67,6 +68,13 @@ function followCell(): (() => void) | undefined {
   return () => ends.forEach((end) => end());
 }
 
+/** Whether what is said of an operation is not older than what is known of it. */
+export function isNews(known: OperationStatus | undefined, said: OperationStatus): boolean {
+  if (known === undefined) return true;
+  const [hasEnded, ends] = [known, said].map((each) => studio.ENDS.includes(each.state));
+  return hasEnded === ends ? said.events >= known.events : ends === true;
+}
+
 function isOn(cell: string): boolean {
   return !["off", undefined].includes(studio.cells.value.get(cell)?.state);
 }
@@ -76,8 +84,7 @@ async function loadHistory(cell: string): Promise<void> {
   if (found === null) return;
   batch(() => {
     const known = new Map(studio.operations.value);
-    for (const each of found)
-      if (!known.has(each.id) || studio.ENDS.includes(each.state)) known.set(each.id, each);
+    for (const each of found) if (isNews(known.get(each.id), each)) known.set(each.id, each);
     studio.operations.value = known;
     if (studio.cellName.value === cell) studio.operationId.value ??= found[0]?.id ?? null;
   });

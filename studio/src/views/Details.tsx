@@ -6,6 +6,7 @@ import { activeCalls, ancestors, type TreeNode } from "../state/operation";
 import { selectedNode } from "../state/selection";
 import { operation, selection, status } from "../state/studio";
 import { describeFailure, formatTime } from "../state/text";
+import { CallExplanation, Explanation } from "./Explanation";
 import { Fact, PlaceLink, ThingLink, Value } from "./links";
 import { nodeWord, NodeMark, RunBadge } from "./status";
 import { ThingDetails } from "./ThingDetails";
@@ -51,6 +52,7 @@ function OperationDetails() {
         active={activeCalls(operation.value)}
       />
       {ended !== null && <Grounds ended={ended} />}
+      <Explanation />
       <p class="muted small">Select a node of the tree, a thing or a moment: here is why it is so.</p>
     </>
   );
@@ -166,6 +168,7 @@ function NodeDetails({ node }: { node: TreeNode }) {
       )}
       {node.failedCall !== null && <Rejected rejected={node.failedCall.rejected ?? []} />}
       {node.choice !== null && <Choice choice={node.choice} />}
+      {node.kind === "call" && node.status !== "pending" && <CallExplanation node={node} />}
     </>
   );
 }
