@@ -11,7 +11,7 @@ from pygls.uris import from_fs_path
 
 from skillc.lsp import scenes
 from skillc.lsp.files import Root
-from skillc.lsp.libraries import Libraries, parse
+from skillc.lsp.libraries import Libraries
 from skillc.lsp.positions import PositionConverter
 from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
@@ -37,7 +37,7 @@ def diagnostics_after_failure(
     libraries: Libraries, root: Root, message: str, encoding: str
 ) -> dict[str, list[types.Diagnostic]]:
     """Return the syntax errors of a library's files, and `message` of an internal error in the open ones, by URI."""
-    texts = libraries.texts(root)
+    texts, parse = libraries.texts(root), libraries.parser(root)
     lines = PositionConverter({path: source.text for path, source in texts.items()}, encoding)
     start = types.Range(types.Position(0, 0), types.Position(0, 1))
     failure = types.Diagnostic(start, message, types.DiagnosticSeverity.Error, "internal-error", source="skillc")
