@@ -9,7 +9,7 @@ import pytest
 
 BASH = """
 eval "$(skillc completion bash)"
-COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1))
+COMP_LINE="{words}"; COMP_POINT=${{#COMP_LINE}}
 _skillc_completion skillc
 printf '%s\\n' "${{COMPREPLY[@]}}"
 """

@@ -22,6 +22,8 @@ import uvicorn
 from running_cells.yard import write_yard
 
 READY_S = 120.0
+CLIENT_S = 60.0
+"""How long an answer of the server may take, in s: a process that answers may have to start first."""
 NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
@@ -38,7 +40,7 @@ class RunningServer:
         """Return a client with a token."""
         verify = ssl.create_default_context(cafile=self._authority) if self._authority else False
         return httpx.Client(
-            base_url=self.url, headers={"Authorization": f"Bearer {token}"}, timeout=30.0, verify=verify
+            base_url=self.url, headers={"Authorization": f"Bearer {token}"}, timeout=CLIENT_S, verify=verify
         )
 
     def submit(self, **request: Any) -> dict[str, Any]:

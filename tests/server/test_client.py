@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import skillc
-from server.cutting import cutting
+from server.cutting import cutting, cutting_first_change
 from server.running import RunningServer, serving, start_server, wait_until
 from skillc.cells.operation import CellStatus
 from skillc.client.address import ServerAddress, find_address
@@ -125,6 +125,25 @@ def test_connections_that_break_lose_and_double_no_event(server: RunningServer, 
     assert isinstance(found[-1].event, TaskEnded)
 
 
+def connect_through(server: RunningServer, port: int) -> skillc.Server:
+    """Connect to another port of this machine with the token of a server."""
+    return skillc.connect(f"http://127.0.0.1:{port}", server.token)
+
+
+def test_a_stop_whose_connection_is_cut_is_sent_again(server: RunningServer, connected: skillc.Server) -> None:
+    server.put_back()
+    operation = connected.cell().start("carry_all", approve=True)
+    operation.wait_for_pause()
+    with cutting_first_change(server.port) as relay, connect_through(server, relay.port) as through:
+        with pytest.raises(skillc.UnavailableError):
+            through.cell("yard").set_pace("fast")
+        assert relay.cuts == 1
+    with cutting_first_change(server.port) as relay, connect_through(server, relay.port) as through:
+        through.operation(operation.id).stop()
+        assert relay.cuts == 1
+    assert operation.wait(30.0).state == "stopped"
+
+
 @pytest.mark.sim
 def test_a_server_that_is_started_again_is_followed_on(tmp_path: Path) -> None:
     with serving(tmp_path) as server, skillc.connect(f"http://127.0.0.1:{server.port}", server.token) as connected:
@@ -162,3 +181,23 @@ async def read_events(address: ServerAddress, operation: str) -> list[Envelope]:
         return [each async for each in follow_operation(connection, operation, 0)]
     finally:
         await connection.close()
+
+
+def test_breakpoints_are_changed_from_python(server: RunningServer, connected: skillc.Server) -> None:
+    server.put_back()
+    operation = connected.cell().start("carry_two", pause_at=["Load"])
+    assert operation.wait_for_pause() == "paused" and operation.breakpoints == ("Load",)
+    operation.set_breakpoints("Unload")
+    assert operation.breakpoints == ("Unload",)
+    operation.resume()
+    assert (operation.wait_for_pause(), operation.reason) == ("paused", "breakpoint at Unload")
+
+    async def clear() -> tuple[str, ...]:
+        async with skillc.connect_async(f"http://127.0.0.1:{server.port}", server.token) as asynchronous:
+            found = await asynchronous.operation(operation.id)
+            await found.set_breakpoints()
+            return found.status.breakpoints
+
+    assert asyncio.run(clear()) == ()
+    operation.stop()
+    assert operation.wait().state == "stopped"

@@ -235,3 +235,18 @@ def test_who_watches_gets_a_line_for_each_change(here: RunningServer, tmp_path: 
         terminal.send(signal.SIGINT)
         assert terminal.wait() == 130
     wait_until(lambda: json.loads(type_in("ps", "--json").stdout)["operations"], bool)
+
+
+def test_breakpoints_are_listed_and_replaced_while_an_operation_goes_on(here: RunningServer) -> None:
+    here.put_back()
+    name = here.submit(task="carry_two", breakpoints=["Load"])["id"]
+    here.wait_for(name, "paused")
+    assert type_in("breakpoints", name).stdout == "Load\n"
+    replaced = type_in("breakpoints", "--pause-at", "Unload")
+    assert (replaced.exit_code, replaced.stdout) == (0, "Unload\n") and "paused: breakpoint at Load" in replaced.stderr
+    assert type_in("resume").exit_code == 0
+    assert f"{name}: paused: breakpoint at Unload" in type_in("wait").stderr
+    refused = type_in("breakpoints", "--pause-at", "Unlode")
+    assert refused.exit_code == 1 and "breakpoint: there is no skill `Unlode`" in refused.stderr
+    assert type_in("breakpoints", "--pause-at", "Load", "--clear").exit_code == 2
+    assert (type_in("breakpoints", "--clear").stdout, type_in("breakpoints").stdout) == ("", "")

@@ -65,8 +65,11 @@ def test_two_runs_are_compared(server: RunningServer) -> None:
     server.client.put("/cells/yard/pace", json={"factor": None})
     other = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
     first, second = (server.submit(**each)["id"] for each in (CARRY, other))
-    server.wait_for(second, "succeeded")
-    diff = server.client.get(f"/operations/{first}/diff", params={"other": second}).json()
+    for each in (first, second):
+        server.wait_for(each, "succeeded")
+    answer = server.client.get(f"/operations/{first}/diff", params={"other": second})
+    assert answer.status_code == 200, answer.text
+    diff = answer.json()
     assert diff["runs"] == [first, second]
     plans = [(each["first"], each["second"]) for each in diff["differences"] if each["part"] == "plan"]
     load = "Load(cart: lab:Cart-1, crate: lab:crate-{})"

@@ -48,17 +48,15 @@ class DiagnosticData(PlaceData):
 
 def render(diagnostics: Iterable[Diagnostic], sources: Mapping[str, Source]) -> str:
     """Return a list of objects; lines and columns count from 1, the end column is exclusive."""
-    return (
-        escaped(json.dumps([_as_data(diagnostic) for diagnostic in diagnostics], indent=2, ensure_ascii=False)) + "\n"
-    )
+    return escaped(json.dumps([to_data(diagnostic) for diagnostic in diagnostics], indent=2, ensure_ascii=False)) + "\n"
 
 
 def read(text: str) -> tuple[Diagnostic, ...]:
     """Return the diagnostics that `render` wrote."""
-    return tuple(_diagnostic(data) for data in json.loads(text))
+    return tuple(from_data(data) for data in json.loads(text))
 
 
-def _as_data(diagnostic: Diagnostic) -> DiagnosticData:
+def to_data(diagnostic: Diagnostic) -> DiagnosticData:
     """Return the JSON object of one diagnostic; `fix` is null if there is none."""
     fix = diagnostic.fix
     return {
@@ -82,7 +80,8 @@ def _place(span: Span) -> PlaceData:
     }
 
 
-def _diagnostic(data: Mapping[str, Any]) -> Diagnostic:
+def from_data(data: Mapping[str, Any] | DiagnosticData) -> Diagnostic:
+    """Return the diagnostic that `to_data` made an object of."""
     fix = data["fix"]
     return Diagnostic(
         data["name"],

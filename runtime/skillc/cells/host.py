@@ -44,7 +44,7 @@ from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import prepare_after
 from skillc_runtime.execution.task_state import ENDS
-from skillc_runtime.execution.tree.gate import Gate, format_breakpoint
+from skillc_runtime.execution.tree.gate import Gate, format_breakpoints
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
@@ -130,7 +130,7 @@ class CellHost:
             raise RequestError(f"no operation {operation} goes on in {self.settings.name}")
         if isinstance(command, SetBreakpoints):
             found = parse_breakpoints(command.breakpoints, self.library)
-            command = SetBreakpoints(tuple(sorted(map(format_breakpoint, found))))
+            command = SetBreakpoints(format_breakpoints(found))
         return self.loop.request(self._operations[operation].run, command)
 
     def stop(self, operation: str | None, reason: str) -> None:

@@ -11,6 +11,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
+from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.recording.commands import Command
 
@@ -110,12 +111,17 @@ class StopRequest(msgspec.Struct, frozen=True):
 class Refused(msgspec.Struct, frozen=True, kw_only=True):
     """Why nothing was done: the request is `invalid`, the `state` does not allow it, the cell is too `busy`, or `off`.
 
-    `allowed` are the commands that the state allows.
+    `allowed` are the commands that the state allows. `reason` is empty if a `diagnosis` says more.
     """
 
     kind: Literal["invalid", "state", "busy", "off"]
-    reason: str
+    reason: str = ""
     allowed: tuple[str, ...] = ()
+    diagnosis: Diagnosis = NO_DIAGNOSIS
+
+    def describe(self) -> str:
+        """Return the reason as text."""
+        return self.reason or self.diagnosis.describe()
 
 
 class CellAnswer(_Message, tag="answer", frozen=True, kw_only=True):
@@ -139,9 +145,14 @@ class StatusChanged(_Message, tag="status", frozen=True, kw_only=True):
 
 
 class Alive(_Message, tag="alive", frozen=True, kw_only=True):
-    """The loop of the cell has gone round `rounds` times; it stands still if that stays the same."""
+    """The loop of the cell has gone round `rounds` times; it stands still if that stays the same.
+
+    `intervals` are the counts of `TickIntervals` since the process was started, `intervals_s` their sum in s.
+    """
 
     rounds: int
+    intervals: tuple[int, ...] = ()
+    intervals_s: float = 0.0
 
 
 class StartFailed(_Message, tag="not-started", frozen=True, kw_only=True):

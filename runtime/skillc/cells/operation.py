@@ -50,8 +50,8 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
     it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
-    operators. `planning` is how far its planner is; null if none works. `decisions` are how it can be continued if it
-    was interrupted, `continued_by` is the operation that does.
+    operators. `planning` is how far its planner is; null if none works. `breakpoints` are those at which it pauses now.
+    `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
     """
 
     id: str
@@ -67,6 +67,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     devices: tuple[str, ...] | None = ()
     prompts: tuple[Prompt, ...] = ()
     planning: PlanningProgress | None = None
+    breakpoints: tuple[str, ...] = ()
     decisions: tuple[Decision, ...] = ()
     continued_by: str = ""
 

@@ -31,4 +31,5 @@ class SubmittedOperation:
             devices=None if (held := run.devices) is None else tuple(sorted(held)),
             prompts=run.prompts,
             planning=run.planning,
+            breakpoints=run.breakpoints,
         )

@@ -9,9 +9,9 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 
 from skillc.cli.console import find_display_obstacle
+from skillc.cli.operation_remarks import remark_going_on, remark_status
 from skillc.cli.run_progress import RunProgress
 from skillc.cli.run_view import EventView
-from skillc.cli.server_access import remark_going_on, remark_status
 from skillc.client.cell import ServerCell
 from skillc.client.operation import ServerOperation
 from skillc.services.errors import ServiceError

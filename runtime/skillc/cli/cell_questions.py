@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, cast
 import click
 import msgspec
 
-from skillc.cli.server_access import asked_cell
+from skillc.cli.server_connection import asked_cell
 
 if TYPE_CHECKING:
     from skillc.workers.jobs import WorldFact, WorldWrite

@@ -10,7 +10,7 @@ import click
 
 from skillc.cli.console import Terminal, print_error
 from skillc.cli.settings import GroupedOption, output_options
-from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc.services.errors import ServiceError
 from skillc_ontology import catalogue
 
 OPTIONS, OUTPUT = "Options", "Output"
@@ -34,11 +34,11 @@ class Command(click.Command):
         try:
             with catalogue.folder_scope():
                 code = super().invoke(ctx)
-        except DiagnosticsError as error:
-            Terminal().show(error.diagnostics, error.texts)
-            code = error.exit_code
         except ServiceError as error:
-            print_error(str(error))
+            if error.diagnostics:
+                Terminal().show(error.diagnostics, error.texts)
+            else:
+                print_error(str(error))
             code = error.exit_code
         finally:
             sys.path[:] = modules

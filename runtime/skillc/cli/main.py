@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib
+import os
 import pkgutil
 import signal
 import sys
@@ -25,6 +26,8 @@ from skillc.services.errors import OutputError
 COMMANDS = Path(__file__).parent / "commands"
 INTERNAL = 70
 """EX_SOFTWARE of sysexits.h."""
+VARIABLE = "_SKILLC_COMPLETE"
+"""The variable of the environment in which a shell says what it wants to complete."""
 BROKEN_PIPE = 141
 """The exit code that shells give to a process ended by SIGPIPE."""
 
@@ -49,7 +52,18 @@ SECTIONS = {
         "token",
         "state",
     ),
-    "Operations of a server": ("wait", "pause", "resume", "step", "stop", "approve", "retry", "skip", "replan"),
+    "Operations of a server": (
+        "wait",
+        "pause",
+        "resume",
+        "step",
+        "stop",
+        "breakpoints",
+        "approve",
+        "retry",
+        "skip",
+        "replan",
+    ),
     "Tools": ("doctor", "schema", "completion", "lsp"),
 }
 """The sections of the help, with their commands in the order in which they are listed."""
@@ -60,6 +74,10 @@ class Commands(Group):
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
         """Run the command line and exit; end it if the standard output cannot be written to."""
+        if VARIABLE in os.environ:
+            from skillc.cli.bash_completion import use_completion
+
+            use_completion()
         try:
             with streams.guard_streams():
                 sys.exit(self._run(*args, **kwargs))

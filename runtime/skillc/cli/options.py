@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from click.shell_completion import CompletionItem
 
 from skillc.cli.settings import GroupedOption
 from skillc_ontology import catalogue
@@ -32,9 +33,11 @@ def grouped_option(group: str, *names: str, **settings: Any) -> Callable[[Functi
     return click.option(*names, cls=GroupedOption, group=group, **settings)
 
 
-def task_arguments(function: Function) -> Function:
-    """Add the values of a task's parameters, `NAME=VALUE ..`, as the mapping `arguments`."""
-    return click.argument("arguments", nargs=-1, metavar="[NAME=VALUE]..", callback=_parse_arguments)(function)
+def task_arguments(complete: Callable[..., list[CompletionItem]] | None = None) -> Callable[[Function], Function]:
+    """Return what adds the values of a task's parameters, `NAME=VALUE ..`, as the mapping `arguments`."""
+    return click.argument(
+        "arguments", nargs=-1, metavar="[NAME=VALUE]..", callback=_parse_arguments, shell_complete=complete
+    )
 
 
 def _parse_arguments(_context: click.Context, _parameter: click.Parameter, texts: tuple[str, ...]) -> dict[str, str]:

@@ -135,7 +135,7 @@ class AsyncOperation:
     async def stop(self, reason: str = "stopped") -> None:
         """Halt everything; it ends when everything is at rest. One that has ended stays as it is."""
         path = join("operations", self.id, "stop")
-        self.status = await self._connection.send("POST", path, OperationStatus, StopReason(reason))
+        self.status = await self._connection.send("POST", path, OperationStatus, StopReason(reason), repeatable=True)
 
     async def retry(self) -> None:
         """After a failure: run the failed step again."""
@@ -156,6 +156,13 @@ class AsyncOperation:
     async def answer(self, choice: str, prompt: int = 0) -> None:
         """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
         await self._command(commands.Answer(choice, prompt=prompt))
+
+    async def set_breakpoints(self, *places: str) -> None:
+        """Pause before each SKILL or FILE:LINE of `places` from now on, and before no others; without any, nowhere.
+
+        `status.breakpoints` are those that it has.
+        """
+        await self._command(commands.SetBreakpoints(places))
 
     async def replan(self) -> None:
         """Halt what runs and plan again."""

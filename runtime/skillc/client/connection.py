@@ -14,6 +14,8 @@ from skillc.client.address import ServerAddress
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.server.api_types import ProblemDetails
 from skillc.services.errors import ServiceError
+from skillc_dsl.rendering.json import from_data
+from skillc_dsl.source import Source
 
 TIMEOUT_S = 75.0
 """How long an answer may take, in s: a cell that plans or starts answers late."""
@@ -52,8 +54,11 @@ class Connection:
         body: object = None,
         query: dict[str, object] | None = None,
         key: str | None = None,
+        repeatable: bool = False,
     ) -> T:
         """Make a request and return the answer. `key` makes the same request twice one.
+
+        One that is `repeatable`, as those that read or have a key are, is made again if its connection is cut.
 
         RefusedError if the server refuses it, UnavailableError if it does not answer, or the cell is off.
         """
@@ -62,15 +67,23 @@ class Connection:
             headers["Idempotency-Key"] = key
         content = None if body is None else msgspec.json.encode(body)
         parameters = {name: str(value) for name, value in (query or {}).items() if value is not None}
+        url = self.address.url + path
         try:
-            answer = await self._client.request(
-                method, self.address.url + path, content=content, params=parameters, headers=headers
-            )
+            request = self._client.build_request(method, url, content=content, params=parameters, headers=headers)
+            answer = await self._send(request, repeatable or method == "GET" or key is not None)
         except (httpx.HTTPError, httpx.InvalidURL) as error:
             raise UnavailableError(describe_loss(self.address, error)) from error
         if not answer.is_success:
             raise _find_error(answer, self.address)
         return decode(answer.content or b"null", kind)
+
+    async def _send(self, request: httpx.Request, repeatable: bool) -> httpx.Response:
+        try:
+            return await self._client.send(request)
+        except (httpx.NetworkError, httpx.RemoteProtocolError):
+            if not repeatable:
+                raise
+        return await self._client.send(request)
 
     async def download(self, path: str, file: Path) -> None:
         """Write a resource to a file, completely or not at all; errors as of `send`, ServiceError if not possible."""
@@ -129,11 +142,19 @@ def join(*parts: str) -> str:
 def _find_error(answer: httpx.Response, address: ServerAddress) -> ServiceError:
     try:
         problem = msgspec.json.decode(answer.content, type=ProblemDetails)
-        detail, allowed = problem.detail, problem.allowed or ()
     except msgspec.DecodeError:
-        detail, allowed = f"{address.url} answers with {answer.status_code}: it is no server of skillc", ()
+        detail = f"{address.url} answers with {answer.status_code}: it is no server of skillc"
+        problem = ProblemDetails(title="", status=answer.status_code, detail=detail)
     if answer.status_code >= FIRST_SERVER_ERROR:
-        return UnavailableError(detail)
+        return UnavailableError(problem.detail)
     if answer.status_code == UNAUTHORIZED:
-        detail = f"the server at {address.url.rpartition('/api')[0]} does not know this token"
-    return RefusedError(detail, answer.status_code, allowed)
+        unknown = f"the server at {address.url.rpartition('/api')[0]} does not know this token"
+        return RefusedError(unknown, answer.status_code)
+    return RefusedError(
+        problem.detail,
+        answer.status_code,
+        problem.allowed or (),
+        problem.type,
+        tuple(map(from_data, problem.diagnostics or ())),
+        {path: Source(path, text) for path, text in (problem.texts or {}).items()},
+    )

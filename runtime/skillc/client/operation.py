@@ -118,6 +118,15 @@ class ServerOperation:
         """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
         self._loop.run(self._operation.answer(choice, prompt))
 
+    @property
+    def breakpoints(self) -> tuple[str, ...]:
+        """Before which calls it pauses, each SKILL or FILE:LINE."""
+        return self.status.breakpoints
+
+    def set_breakpoints(self, *places: str) -> None:
+        """Pause before each SKILL or FILE:LINE of `places` from now on, and before no others; without any, nowhere."""
+        self._loop.run(self._operation.set_breakpoints(*places))
+
     def replan(self) -> None:
         """Halt what runs and plan again."""
         self._loop.run(self._operation.replan())

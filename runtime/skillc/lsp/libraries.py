@@ -17,6 +17,7 @@ from skillc.lsp.scenes import SceneCache, find_problems
 from skillc.services.libraries import load_vocabulary_with
 from skillc.services.library_files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
+from skillc_compiler.pipeline import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing import parser
@@ -48,6 +49,7 @@ class Libraries:
     buffers: dict[Path, str] = field(default_factory=dict)
     _uris: dict[Path, str] = field(default_factory=dict)
     _analyses: dict[Root, Analysis] = field(default_factory=dict)
+    _memos: dict[Root, AnalysisMemo] = field(default_factory=dict)
     _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
     _vocabularies: dict[Root, tuple[Source, ...]] = field(default_factory=dict)
     _surroundings: dict[Root, Outcome[LibraryFiles]] = field(default_factory=dict)
@@ -165,11 +167,12 @@ class Libraries:
         around = self._around(root).value
         sources = dict(self._sources[root])
         library = Library(around.name, sources, around.importable, terms, before, around.namespaces)
-        found = analyse(library, parse)
+        memo = self._memos.setdefault(root, AnalysisMemo())
+        found = analyse(library, parse, memo)
         scenes = self._scene_cache.read(found.program, library.vocabulary, around, root.folder, self.buffers)
         self._scenes[root] = scenes
         now = _individuals(scenes)
-        return found if now == before else analyse(replace(library, scenes=now), parse)
+        return found if now == before else analyse(replace(library, scenes=now), parse, memo)
 
 
 def _individuals(scenes: TaskScenes | None) -> Mapping[str, Individuals]:

@@ -9,6 +9,7 @@ import msgspec
 from skillc.server.access.roles import Role
 from skillc.server.values import Name, Reason
 from skillc.workers.devices import Device
+from skillc_dsl.rendering.json import DiagnosticData
 
 MAX_PACE = 1000.0
 MAX_LEASE_S = 3600.0
@@ -16,9 +17,11 @@ MAX_PLANNING_S = 60.0
 
 
 class ProblemDetails(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """Why a request was refused; nothing has changed. `title` is the phrase of the status, `detail` says what to do.
+    """Why a request was refused; nothing has changed. `detail` says what to do.
 
-    `allowed` are the commands that the state of an operation allows.
+    `type` is `about:blank`, and `title` the phrase of the status, unless there is more to know than the status.
+    `allowed` are the commands that the state of an operation allows. `diagnostics` are the errors of a goal, a call or
+    an argument, as of `skillc check --json`, and `texts` what they point into, by path; long texts are left out.
     """
 
     type: str = "about:blank"
@@ -26,6 +29,8 @@ class ProblemDetails(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tr
     status: int
     detail: str
     allowed: tuple[str, ...] | None = None
+    diagnostics: tuple[DiagnosticData, ...] | None = None
+    texts: dict[str, str] | None = None
 
 
 EditText: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=2000)]

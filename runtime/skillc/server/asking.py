@@ -39,7 +39,7 @@ async def _wait(call: ApiCall, answer: Coroutine[None, None, T]) -> T:
     try:
         return await _unless_gone(call, answer)
     except JobFailed as error:
-        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error), diagnosis=error.diagnosis) from error
     except (JobTimedOut, TooManyJobs) as error:
         raise ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error)) from error
 

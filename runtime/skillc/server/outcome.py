@@ -12,7 +12,7 @@ from typing import assert_never
 from skillc.cells.messages import Message, Refused
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.endpoint import ApiCall
-from skillc.server.problems import ApiRefusal
+from skillc.server.problems import LEASE_HELD, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 
 UNAVAILABLE = (HTTPStatus.TOO_MANY_REQUESTS, HTTPStatus.SERVICE_UNAVAILABLE)
@@ -24,7 +24,7 @@ def check_lease(call: ApiCall, cell: CellSupervisor) -> None:
     try:
         call.server.leases.check(cell.settings.name, call.client.name)
     except LeaseHeld as error:
-        raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
+        raise ApiRefusal(HTTPStatus.CONFLICT, str(error), kind=LEASE_HELD) from error
 
 
 async def command_cell(call: ApiCall, cell: CellSupervisor, message: Message) -> None:
@@ -36,7 +36,7 @@ async def command_cell(call: ApiCall, cell: CellSupervisor, message: Message) ->
 def raise_refused(answer: Refused | bytes) -> bytes:
     """Return what a cell has answered; ApiRefusal if it has refused a request."""
     if isinstance(answer, Refused):
-        raise ApiRefusal(_find_status(answer), answer.reason, answer.allowed or None)
+        raise ApiRefusal(_find_status(answer), answer.describe(), answer.allowed or None, answer.diagnosis)
     return answer
 
 

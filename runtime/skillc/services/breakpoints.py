@@ -36,7 +36,7 @@ def _find_skill(name: str, library: SkillLibrary) -> AtSkill:
         return AtSkill(name)
     near = get_close_matches(name, library.skills, n=_SHOWN)
     hint = f"did you mean {_join(near)}?" if near else "write the name of a skill, or FILE:LINE of a call"
-    raise RequestError(f"--pause-at: there is no skill `{name}` in `{library.name}`; {hint}")
+    raise RequestError(f"breakpoint: there is no skill `{name}` in `{library.name}`; {hint}")
 
 
 def _find_line(path: str, line: int, places: list[Position]) -> AtLine:
@@ -45,14 +45,14 @@ def _find_line(path: str, line: int, places: list[Position]) -> AtLine:
     found = named or [file for file in files if f"/{file}".endswith(f"/{path}")]
     if not found:
         near = get_close_matches(path, files, n=_SHOWN, cutoff=0.4) or files[:_SHOWN]
-        raise RequestError(f"--pause-at: there are no calls in a file `{path}`; some files with calls: {_join(near)}")
+        raise RequestError(f"breakpoint: there are no calls in a file `{path}`; some files with calls: {_join(near)}")
     if len(found) > 1:
-        raise RequestError(f"--pause-at: `{path}` may be {_join(found)}; write more of the path")
+        raise RequestError(f"breakpoint: `{path}` may be {_join(found)}; write more of the path")
     lines = sorted({place.line for place in places if place.path == found[0]})
     if line not in lines:
         near_lines = sorted(sorted(lines, key=lambda each: abs(each - line))[:_SHOWN])
         shown = ", ".join(map(str, near_lines))
-        raise RequestError(f"--pause-at: there is no call in line {line} of {found[0]}; the nearest are in {shown}")
+        raise RequestError(f"breakpoint: there is no call in line {line} of {found[0]}; the nearest are in {shown}")
     return AtLine(found[0], line)
 
 

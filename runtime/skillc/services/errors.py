@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
@@ -15,7 +16,13 @@ class SkillcError(Exception):
 
 
 class ServiceError(SkillcError):
-    """A request cannot be fulfilled; the message says why."""
+    """A request cannot be fulfilled; the message says why.
+
+    Some say it with `diagnostics`, which point into `texts`, by path.
+    """
+
+    diagnostics: Sequence[Diagnostic] = ()
+    texts: Mapping[str, Source] = MappingProxyType({})
 
 
 class RequestError(ServiceError):

@@ -15,6 +15,7 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cells.samples import PoseNumbers, list_numbers
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot
 from skillc.services.breakpoints import parse_breakpoints
+from skillc.services.diagnosis import diagnose
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.scenes import describe_state, query_document
 from skillc.workers.devices import Device, list_devices
@@ -85,7 +86,7 @@ def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
     try:
         return msgspec.json.encode(_answer(job, decode_snapshot(snapshot)))
     except DiagnosticsError as error:
-        return JobRefused("\n".join(map(str, error.diagnostics)))
+        return JobRefused(diagnosis=diagnose(error))
     except (ServiceError, QueryError, NoSuchName, DatabaseError) as error:
         return JobRefused(str(error))
     except MemoryError:

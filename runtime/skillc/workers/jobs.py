@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledFact
@@ -106,9 +107,10 @@ Job: TypeAlias = Question | SimulationJob
 
 
 class JobRefused(msgspec.Struct, frozen=True):
-    """Why a job cannot be done."""
+    """Why a job cannot be done; `why` is empty if a `diagnosis` says more."""
 
-    why: str
+    why: str = ""
+    diagnosis: Diagnosis = NO_DIAGNOSIS
 
 
 class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):

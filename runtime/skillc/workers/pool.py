@@ -10,6 +10,7 @@ from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 
+from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
 from skillc.workers.answering import answer_job
 from skillc.workers.jobs import Job, JobRefused
 from skillc.workers.run_jobs import RunJob
@@ -32,7 +33,11 @@ Program: TypeAlias = Callable[[Any], bytes | JobRefused]
 
 
 class JobFailed(Exception):
-    """A job cannot be done; the message says why."""
+    """A job cannot be done; the message says why, and `diagnosis` which errors the request has."""
+
+    def __init__(self, why: str, diagnosis: Diagnosis = NO_DIAGNOSIS) -> None:
+        super().__init__(why or diagnosis.describe())
+        self.diagnosis = diagnosis
 
 
 class JobCrashed(JobFailed):
@@ -142,8 +147,8 @@ class Workers:
         match result:
             case Returned(bytes() as answer):
                 return answer
-            case Returned(JobRefused(why)):
-                raise JobFailed(why)
+            case Returned(JobRefused(why, diagnosis)):
+                raise JobFailed(why, diagnosis)
             case Raised(why):
                 raise JobCrashed(why)
             case Died(why):

@@ -13,7 +13,7 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.plans.plan_record import record_arrangement, record_plan, record_steps, restore_plan
-from skillc_runtime.execution.tree.gate import Gate, format_breakpoint
+from skillc_runtime.execution.tree.gate import Gate, format_breakpoints
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import FORMAT, PlanArrived, PlanMade, TaskStarted
 from skillc_runtime.recording.run_settings import RunSettings
@@ -42,7 +42,7 @@ def make_start_event(
         minimise=objective.minimise if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,
         settings=settings or RunSettings(),
-        breakpoints=tuple(sorted(map(format_breakpoint, gate.breakpoints))),
+        breakpoints=format_breakpoints(gate.breakpoints),
         stepped=gate.stepping,
     )
 

@@ -23,7 +23,7 @@ from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPre
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.run_status import RunStatus
 from skillc_runtime.execution.task_state import Ending, Refusal, refusal
-from skillc_runtime.execution.tree.gate import read_breakpoint
+from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoint
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
@@ -61,6 +61,11 @@ class TaskRun(RunStatus):
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._emit(make_start_event(assignment, context.library, context.origin, self._now, settings, context.gate))
+
+    @property
+    def breakpoints(self) -> tuple[str, ...]:
+        """At which calls it pauses, each SKILL or FILE:LINE."""
+        return format_breakpoints(self._context.gate.breakpoints)
 
     def request(self, command: commands.Command, tick: int) -> Refusal | None:
         """Do what is requested in a tick of the loop; return why not if it is refused, and nothing has changed."""

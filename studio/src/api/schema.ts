@@ -271,8 +271,8 @@ export interface components {
          *         `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
          *         whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
          *         it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
-         *         operators. `planning` is how far its planner is; null if none works. `decisions` are how it can be continued if it
-         *         was interrupted, `continued_by` is the operation that does.
+         *         operators. `planning` is how far its planner is; null if none works. `breakpoints` are those at which it pauses now.
+         *         `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
          */
         OperationStatus: {
             id: string;
@@ -297,6 +297,8 @@ export interface components {
             prompts?: components["schemas"]["Prompt"][];
             /** @default null */
             planning?: components["schemas"]["PlanningProgress"] | null;
+            /** @default [] */
+            breakpoints?: string[];
             /** @default [] */
             decisions?: ("replan" | "retry" | "skip")[];
             /** @default  */
@@ -2665,9 +2667,11 @@ export interface components {
         };
         /**
          * ProblemDetails
-         * @description Why a request was refused; nothing has changed. `title` is the phrase of the status, `detail` says what to do.
+         * @description Why a request was refused; nothing has changed. `detail` says what to do.
          *
-         *         `allowed` are the commands that the state of an operation allows.
+         *         `type` is `about:blank`, and `title` the phrase of the status, unless there is more to know than the status.
+         *         `allowed` are the commands that the state of an operation allows. `diagnostics` are the errors of a goal, a call or
+         *         an argument, as of `skillc check --json`, and `texts` what they point into, by path; long texts are left out.
          */
         ProblemDetails: {
             /** @default about:blank */
@@ -2677,6 +2681,56 @@ export interface components {
             detail: string;
             /** @default null */
             allowed?: string[] | null;
+            /** @default null */
+            diagnostics?: components["schemas"]["DiagnosticData"][] | null;
+            /** @default null */
+            texts?: {
+                [key: string]: string;
+            } | null;
+        };
+        /**
+         * DiagnosticData
+         * @description A problem: its name, as `skillc explain` knows it, where it is, and what to do about it.
+         */
+        DiagnosticData: {
+            column: number;
+            end_column: number;
+            end_line: number;
+            fix: components["schemas"]["FixData"] | null;
+            help: string;
+            labels: components["schemas"]["LabelData"][];
+            line: number;
+            message: string;
+            name: string;
+            path: string;
+            /** @enum {unknown} */
+            severity: "error" | "warning";
+        };
+        /**
+         * FixData
+         * @description An edit that removes the problem: `text` replaces the range; one that is not `safe` may change a meaning.
+         */
+        FixData: {
+            column: number;
+            end_column: number;
+            end_line: number;
+            line: number;
+            message: string;
+            path: string;
+            safe: boolean;
+            text: string;
+        };
+        /**
+         * LabelData
+         * @description Another place that a diagnostic is about.
+         */
+        LabelData: {
+            column: number;
+            end_column: number;
+            end_line: number;
+            line: number;
+            message: string;
+            path: string;
         };
     };
     responses: never;

@@ -6,7 +6,8 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.console import print_remark
-from skillc.cli.server_access import complete_cell, connect_server, server_options
+from skillc.cli.server_completions import complete_cell
+from skillc.cli.server_connection import connect_server, server_options
 
 
 @click.command(cls=Command)

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import click
-from click.shell_completion import get_completion_class
+from click.shell_completion import FishComplete, ShellComplete, ZshComplete
 
+from skillc.cli.bash_completion import BashCompletion
 from skillc.cli.command import Command
 
-SHELLS = ("bash", "zsh", "fish")
-VARIABLE = "_SKILLC_COMPLETE"
-"""The variable of the environment in which click looks for what a shell asks."""
+SHELLS: dict[str, type[ShellComplete]] = {"bash": BashCompletion, "zsh": ZshComplete, "fish": FishComplete}
 
 
 @click.command(cls=Command)
-@click.argument("shell", type=click.Choice(SHELLS))
+@click.argument("shell", type=click.Choice(tuple(SHELLS)))
 def command(shell: str) -> None:
     """Print the completion script of SHELL.
 
     Put `eval "$(skillc completion bash)"` into ~/.bashrc (bash 4.4 or newer), the same with zsh into ~/.zshrc, or
     `skillc completion fish | source` into ~/.config/fish/config.fish.
     """
-    from skillc.cli.main import skillc
+    from skillc.cli.main import VARIABLE, skillc
 
-    script = get_completion_class(shell)
-    assert script is not None, "click knows all of these shells"
-    click.echo(script(skillc, {}, "skillc", VARIABLE).source())
+    click.echo(SHELLS[shell](skillc, {}, "skillc", VARIABLE).source())

@@ -10,7 +10,8 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.console import print_remark
 from skillc.cli.options import PATH
-from skillc.cli.server_access import connect_server, operation_argument, server_options
+from skillc.cli.server_access import any_operation_argument
+from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,7 +27,7 @@ skillc logs carry-20260131T120000Z-1f0c9a --recording carry.mcap
 
 
 @click.command(cls=Command, examples=EXAMPLES)
-@operation_argument
+@any_operation_argument
 @click.option("-f", "--follow", is_flag=True, help="Go on until the operation has ended.")
 @click.option("--after", type=click.IntRange(min=0), default=0, metavar="N", help="Begin after event number N.")
 @click.option("--json", "as_json", is_flag=True, help="Print each event as a line of JSON.")

@@ -13,7 +13,8 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.console import page_of, print_json, print_lines, print_remark
 from skillc.cli.options import json_option
-from skillc.cli.server_access import complete_cell, complete_order, connect_server, server_options
+from skillc.cli.server_completions import complete_cell, complete_order
+from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
     from skillc.cli.layout import Row

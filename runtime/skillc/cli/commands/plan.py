@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.completions import complete_scene, complete_task
+from skillc.cli.completions import complete_scene
 from skillc.cli.options import (
     PATH,
     PLANNING,
@@ -26,7 +26,9 @@ from skillc.cli.options import (
     store_options,
     task_arguments,
 )
-from skillc.cli.server_access import asks_cell, cell_options, refuse_options
+from skillc.cli.server_access import cell_options, refuse_options
+from skillc.cli.server_completions import complete_asked_argument, complete_asked_task
+from skillc.cli.server_connection import asks_cell
 from skillc.cli.settings import output_settings
 
 if TYPE_CHECKING:
@@ -41,8 +43,8 @@ skillc plan wiping:clean_both --minimise makespan --json
 
 
 @click.command(cls=Command, examples=EXAMPLES)
-@click.argument("task", required=False, shell_complete=complete_task)
-@task_arguments
+@click.argument("task", required=False, shell_complete=complete_asked_task)
+@task_arguments(complete_asked_argument)
 @click.option("--goal", metavar="CONDITION", help="Plan without a task: for this goal, a condition or PDDL.")
 @click.option("--scene", type=PATH, shell_complete=complete_scene, help="The scene of --goal.")
 @click.option("--library", type=PATH, help="The library of --goal; by default that here, or `wiping`.")

@@ -6,7 +6,7 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.options import json_option
-from skillc.cli.server_access import connect_server, server_options
+from skillc.cli.server_connection import connect_server, server_options
 
 LAST = 20
 

@@ -16,7 +16,8 @@ import msgspec
 
 from skillc.cli.command import Command
 from skillc.cli.options import EXECUTION, PATH, grouped_option, json_option
-from skillc.cli.server_access import connect_server, request_options, server_options
+from skillc.cli.server_access import request_options
+from skillc.cli.server_connection import connect_server, server_options
 
 EXAMPLES = """
 skillc rehearse clean_table --cell iiwa_table

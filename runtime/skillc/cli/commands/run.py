@@ -44,7 +44,7 @@ skillc run clean_table --pause-at Wipe
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_task)
-@task_arguments
+@task_arguments()
 @click.option("--goal", metavar="CONDITION", help="Run without a task: plan for this goal, a condition or PDDL.")
 @click.option("--skill", metavar="CALL", help="Run without a task: call a skill, as in `Wipe(surface: lab:Table-1)`.")
 @click.option("--scene", type=PATH, shell_complete=complete_scene, help="The scene of --goal or --skill.")

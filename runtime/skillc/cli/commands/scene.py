@@ -19,7 +19,8 @@ from skillc.cli.command import Command, Group
 from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
 from skillc.cli.options import FOLDER, PATH, add_ontology_option, json_option
-from skillc.cli.server_access import asks_cell, cell_options, refuse_options
+from skillc.cli.server_access import cell_options, refuse_options
+from skillc.cli.server_connection import asks_cell
 
 if TYPE_CHECKING:
     from skillc.services.scene_things import PoseRequest

@@ -5,11 +5,12 @@ from __future__ import annotations
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.server_access import decide, operation_argument, server_options
+from skillc.cli.server_access import decide, decided_argument
+from skillc.cli.server_connection import server_options
 
 
 @click.command(cls=Command, examples='skillc skip --why "the part was put in by hand"')
-@operation_argument
+@decided_argument("skip")
 @click.option("--why", required=True, help="Why it is done; the history says so, with the name of the token.")
 @server_options
 def command(operation: str | None, why: str) -> None:

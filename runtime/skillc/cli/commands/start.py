@@ -13,9 +13,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.operation_remarks import remark_going_on, remark_status
 from skillc.cli.options import EXECUTION, grouped_option
 from skillc.cli.order_options import order_options
-from skillc.cli.server_access import connect_server, remark_going_on, remark_status, request_options, server_options
+from skillc.cli.server_access import request_options
+from skillc.cli.server_completions import complete_pause_at
+from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
     from skillc.client.cell import ServerCell
@@ -42,6 +45,7 @@ skillc start clean_table --at 2027-01-04T07:00:00+01:00 --every 86400 --missed s
     "--pause-at",
     multiple=True,
     metavar="SKILL|FILE:LINE",
+    shell_complete=complete_pause_at,
     help="Pause before each call of a skill, or before the calls in a line. Can be repeated.",
 )
 @grouped_option(

@@ -7,13 +7,10 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.server_access import (
-    complete_cell,
-    connect_server,
-    operation_argument,
-    remark_status,
-    server_options,
-)
+from skillc.cli.operation_remarks import remark_status
+from skillc.cli.server_access import operation_argument
+from skillc.cli.server_completions import complete_cell
+from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
     from skillc.client.operation import ServerOperation

@@ -10,7 +10,8 @@ import click
 from skillc.cli.command import Command, Group
 from skillc.cli.console import page_of, print_json, print_lines, print_remark
 from skillc.cli.options import json_option
-from skillc.cli.server_access import connect_server, server_options
+from skillc.cli.server_completions import complete_token
+from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
     from skillc.server.access.roles import Role
@@ -49,7 +50,7 @@ def list_tokens(as_json: bool) -> None:
 
 
 @command.command(cls=Command)
-@click.argument("name")
+@click.argument("name", shell_complete=complete_token)
 @server_options
 def revoke(name: str) -> None:
     """Refuse all further requests with the token NAME."""

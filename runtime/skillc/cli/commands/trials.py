@@ -13,9 +13,10 @@ from typing import get_args
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.completions import complete_task
 from skillc.cli.options import FOLDER, json_option, task_arguments
-from skillc.cli.server_access import asks_cell, cell_options, refuse_options
+from skillc.cli.server_access import cell_options, refuse_options
+from skillc.cli.server_completions import complete_asked_argument, complete_asked_task
+from skillc.cli.server_connection import asks_cell
 from skillc_runtime.evaluation.trials.trial import Disturbance
 
 EXAMPLES = """
@@ -29,8 +30,8 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
 
 
 @click.command(cls=Command, examples=EXAMPLES)
-@click.argument("task", required=False, shell_complete=complete_task)
-@task_arguments
+@click.argument("task", required=False, shell_complete=complete_asked_task)
+@task_arguments(complete_asked_argument)
 @click.option(
     "-n",
     "--number",

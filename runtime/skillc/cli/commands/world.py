@@ -17,7 +17,9 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
 from skillc.cli.options import PATH, json_option, store_options
-from skillc.cli.server_access import asks_cell, cell_options, refuse_options
+from skillc.cli.server_access import cell_options, refuse_options
+from skillc.cli.server_completions import complete_individual
+from skillc.cli.server_connection import asks_cell
 
 if TYPE_CHECKING:
     from skillc.services.scenes import OpenScene
@@ -41,6 +43,7 @@ FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
     "names",
     metavar="INDIVIDUAL",
     multiple=True,
+    shell_complete=complete_individual,
     help="Show all facts about an individual, including derived ones.",
 )
 @click.option("--diff", "other", type=PATH, help="Show the differences between this scene and another one.")

@@ -73,9 +73,9 @@ def _note(server: ServerContext, order: Order, due: Due, operation: str, answer:
         server.orders.pass_on(order, due.number, operation, "")
         server.audit.add(order.owner, "", f"order {order.id}", HTTPStatus.CREATED, "")
     elif answer.kind in ("off", "busy"):
-        server.orders.wait(order, answer.reason)
+        server.orders.wait(order, answer.describe())
     else:
-        _refuse(server, order, due, answer.reason)
+        _refuse(server, order, due, answer.describe())
 
 
 def _refuse(server: ServerContext, order: Order, due: Due, reason: str) -> None:

@@ -8,7 +8,7 @@ from skillc.server.access.leases import Lease, LeaseHeld
 from skillc.server.access.roles import includes
 from skillc.server.api_types import LeaseRequest
 from skillc.server.endpoint import ApiCall, ApiEndpoint
-from skillc.server.problems import ApiRefusal
+from skillc.server.problems import LEASE_HELD, ApiRefusal
 
 
 async def show_lease(call: ApiCall) -> Lease:
@@ -22,14 +22,14 @@ async def take_lease(call: ApiCall) -> Lease:
     try:
         return call.server.leases.take(_name(call), call.client.name, wanted.duration_s, wanted.takeover)
     except LeaseHeld as error:
-        raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
+        raise ApiRefusal(HTTPStatus.CONFLICT, str(error), kind=LEASE_HELD) from error
 
 
 async def release_lease(call: ApiCall) -> None:
     try:
         call.server.leases.release(_name(call), call.client.name)
     except LeaseHeld as error:
-        raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
+        raise ApiRefusal(HTTPStatus.CONFLICT, str(error), kind=LEASE_HELD) from error
 
 
 def _name(call: ApiCall) -> str:

@@ -18,7 +18,7 @@ from skillc.server.context import open_journal
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
 from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused
-from skillc.server.problems import ApiRefusal
+from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording import commands
@@ -114,7 +114,7 @@ def _claim(call: ApiCall, content: bytes, operation: str) -> str:
     try:
         return call.server.keys.claim(call.client.name, call.key, content, operation)
     except KeyReused as error:
-        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error), kind=KEY_REUSED) from error
 
 
 def _read_history(cell: CellSupervisor, page: HistoryPage) -> Iterable[OperationStatus]:

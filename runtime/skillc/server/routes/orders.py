@@ -12,7 +12,7 @@ from skillc.server.idempotency import KeyReused
 from skillc.server.orders.order import LATE_S, Order, OrderRequest
 from skillc.server.orders.store import TooManyOrders
 from skillc.server.outcome import UNAVAILABLE
-from skillc.server.problems import ApiRefusal
+from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.routes.world import QUERY_S
 from skillc.workers.jobs import CheckOperation
 from skillc_runtime.recording.envelope import make_run_id
@@ -56,7 +56,7 @@ def _claim(call: ApiCall, cell: str, key: str, name: str) -> str:
     try:
         return call.server.keys.claim(call.client.name, key, b"\0".join((b"order", cell.encode(), call.content)), name)
     except KeyReused as error:
-        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error)) from error
+        raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error), kind=KEY_REUSED) from error
 
 
 def _check(wanted: OrderRequest, now: datetime) -> None:

@@ -16,10 +16,11 @@ from skillc.server.files import send_file
 from skillc.server.problems import ApiRefusal
 from skillc.services.recordings import MCAP_MAGIC
 from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording.mcap.recording_file import CLOSE_S
 
 MEDIA_TYPE = "application/octet-stream"
-LOOKS, LOOK_S = 40, 0.05
-"""How often, and how long apart in s, it is looked whether a recording is complete."""
+LOOK_S = 0.05
+"""How long apart it is looked whether a recording is complete, in s."""
 
 
 async def read_recording(call: ApiCall) -> Response:
@@ -33,8 +34,8 @@ async def read_recording(call: ApiCall) -> Response:
 
 
 async def wait_until_complete(path: Path) -> None:
-    """Wait a little for the end of a file whose operation has just ended; that of a dead process never comes."""
-    for _ in range(LOOKS):
+    """Wait for the end of a file whose operation has just ended; that of a dead process never comes."""
+    for _ in range(round(CLOSE_S / LOOK_S)):
         if not await asyncio.to_thread(_is_being_completed, path):
             return
         await asyncio.sleep(LOOK_S)
@@ -46,7 +47,7 @@ def _is_being_completed(path: Path) -> bool:
         with path.open("rb") as file:
             status = os.fstat(file.fileno())
             file.seek(max(0, status.st_size - len(MCAP_MAGIC)))
-            return file.read() != MCAP_MAGIC and time.time() - status.st_mtime < LOOKS * LOOK_S
+            return file.read() != MCAP_MAGIC and time.time() - status.st_mtime < CLOSE_S
     except OSError:
         return False
 

@@ -7,13 +7,15 @@ from http import HTTPStatus
 from starlette.responses import Response
 
 from skillc.cells.messages import TakeSnapshot
+from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.rehearsals import Rehearsal
+from skillc.server.routes.world import QUERY_S
 from skillc.server.simulation_jobs import MAX_WAITING
-from skillc.workers.jobs import RehearsalRequest
+from skillc.workers.jobs import CheckOperation, RehearsalRequest
 
 MCAP, VIDEO = "application/octet-stream", "video/mp4"
 
@@ -22,6 +24,10 @@ async def rehearse(call: ApiCall) -> Rehearsal:
     cell = call.server.find_cell(call.path["cell"])
     if call.server.jobs.full:
         raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"{MAX_WAITING} simulations wait or go on; try again later")
+    wanted: RehearsalRequest = call.body
+    await ask_about(
+        call, CheckOperation(wanted.task, wanted.goal, wanted.call, wanted.arguments, ()), type(None), QUERY_S
+    )
     twin = raise_refused(await cell.request(TakeSnapshot(devices=True)))
     return call.server.rehearsals.begin(cell.settings.name, call.body, twin)
 

@@ -150,6 +150,11 @@ def keep_s(active: Iterable[Call]) -> float:
     return min((policy.keep_s for policy in policies if policy.keep_s is not None), default=KEEP_S)
 
 
+def format_breakpoints(breakpoints: Iterable[Breakpoint]) -> tuple[str, ...]:
+    """Return breakpoints as they are written, sorted."""
+    return tuple(sorted(map(format_breakpoint, breakpoints)))
+
+
 def format_breakpoint(breakpoint_: Breakpoint) -> str:
     """Return a breakpoint as it is written."""
     match breakpoint_:
