@@ -6,7 +6,6 @@ The file is made of the shipped library; each edit changes a number in the middl
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Callable
 from itertools import count
@@ -15,7 +14,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from time import process_time
 
-from compile import generated
+from _one_file import one_file
 
 from skillc.lsp import diagnostics as problems
 from skillc.lsp.libraries import Libraries
@@ -25,19 +24,7 @@ from skillc_compiler.ide.descriptions import find_hover
 from skillc_dsl.parsing.grammar import load_parser
 
 EDITS = 15
-_HEADER = re.compile(r"^(use|import) .*\n", re.MULTILINE)
-_TASK = re.compile(r"^(?:## .*\n)*task .*?^}\n", re.MULTILINE | re.DOTALL)
 _EDITED = "0.25 m/s"
-
-
-def one_file(lines: int) -> str:
-    """Return the shipped library without its tasks as one file, with copies until it has so many lines."""
-    parts = [source.text for source in generated(lines + 200) if not source.path.startswith("tasks")]
-    used = sorted({name.strip() for part in parts for line in _uses(part) for name in line.split(",")})
-    text = f"use {', '.join(used)}\n" + "".join(_TASK.sub("", _HEADER.sub("", part)) for part in parts)
-    rows = text.split("\n")
-    last = next(number for number in range(lines, len(rows)) if rows[number - 1] == "}")
-    return "\n".join((*rows[:last], ""))
 
 
 def main() -> None:
@@ -82,10 +69,6 @@ def measure(text: str, file: Path) -> None:
     print(f"{'lark parse alone':28} {bare * 1e3:7.1f} {1.0:6.2f}")
     for name, seconds in taken.items():
         print(f"{name:28} {median(seconds[1:]) * 1e3:7.1f} {median(seconds[1:]) / bare:6.2f}")
-
-
-def _uses(text: str) -> list[str]:
-    return re.findall(r"^use (.*)$", text, re.MULTILINE)
 
 
 def _seconds(work: Callable[[], object]) -> float:

@@ -20,9 +20,8 @@ from statistics import median, quantiles
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from _one_file import one_file
 from compile import generated
-
-from editor import one_file
 
 WARM_UP = 5
 _QUANTITY = re.compile(r"(?<== )[\d.]+ (?:m/s|mm|N)\b")
