@@ -19,6 +19,8 @@ KINDS :=
 CELLS := 300
 KILLS := 200
 REQUESTS := 500
+# How many random sequences of edits are analysed in `make soak`, after each edit from nothing and with what was known.
+SEQUENCES := 5000
 
 .PHONY: help demo test check reasoners sim browser wheel fuzz soak peers bench editors studio docs pictures accept lock clean
 
@@ -55,10 +57,11 @@ wheel: .venv/.dev ## build the wheel and use it in a clean environment
 fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; failing inputs are saved in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
 
-soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind; SEQUENCES=5000 of edits
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m killed_servers --kills $(KILLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)
+	SEQUENCES=$(SEQUENCES) $(BIN)/pytest tests/compiler/test_incremental.py -n 2
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)
 	cmake -S tests/peers -B build/peers -D BTCPP=$(abspath $(BTCPP))

@@ -21,9 +21,11 @@ from typing import TypeVar
 
 from skillc.services.libraries import load_vocabulary
 from skillc.services.library_files import SHIPPED
+from skillc_compiler.analysis.proof import prove
 from skillc_compiler.checks import load_checks
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.pipeline import compile
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.parsing.grammar import load_parser
@@ -115,7 +117,11 @@ def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
     yield "read", seconds
     seconds, program = _seconds(lambda: resolve_program(files.value, load_vocabulary(), "generated", {}))
     yield "resolve", seconds
-    found = [(_seconds(lambda one=one: list(one.check(program.value)))[0], one.__name__) for one in load_checks()]
+    proving, proofs = _seconds(lambda: prove(program.value))
+    found = [(proving, "prove")]
+    for one in load_checks():
+        of = proofs if one.READS is Reads.PROOFS else program.value
+        found.append((_seconds(lambda one=one, of=of: list(one.check(of)))[0], one.__name__))
     yield "check", sum(seconds for seconds, _ in found)
     for seconds, name in sorted(found, reverse=True)[:4]:
         yield f"  {name.rpartition('.')[2]}", seconds

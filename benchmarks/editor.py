@@ -58,7 +58,7 @@ def measure(text: str, file: Path) -> None:
 
     def find_problems() -> None:
         view = libraries.view(uri)
-        problems.diagnostics_by_uri(libraries, view.root, view.analysis, "utf-16")
+        problems.diagnostics_by_uri(libraries, view.root, view.analysis, libraries.problems_around(view.root), "utf-16")
 
     def highlight() -> None:
         view = libraries.view(uri)

@@ -14,8 +14,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from http import HTTPStatus
 from pathlib import Path
 from statistics import median, quantiles
 from typing import Any
@@ -24,8 +25,14 @@ import httpx
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+
+from server.running import serving as serving_yard
+
 CELL, TASK = "iiwa_table", "clean_table"
 REQUESTS, STOPS, OPERATIONS, KILLS = 400, 20, 2_000, 3
+CLIENTS, BUSY_S = 16, 3.0
+"""How many clients, each with a token of its own, make requests as fast as they are answered, and for how long in s."""
 WATCHERS = (0, 1, 8, 64)
 SAMPLERS = (0, 1, 8)
 TICK_S = 0.01
@@ -173,16 +180,45 @@ async def run_sampled(client: httpx.Client, number: int) -> int:
     return sum(counts) // max(1, number)
 
 
-def measure_memory(client: httpx.Client, server: int) -> None:
-    """Print how the memory of both processes grows over many operations, after a tenth of them and after all."""
-    cell = find_cell(server)
-    for number in range(OPERATIONS):
-        operation = submit(client, approve=True)
-        client.post(f"/operations/{operation}/stop", json={})
-        wait_for(lambda operation=operation: state_of(client, operation) == "stopped")
-        if number == OPERATIONS // 10:
-            before = rss_mb(server), rss_mb(cell)
-    grown = rss_mb(server) / before[0], rss_mb(cell) / before[1]
+def measure_rates(client: httpx.Client) -> None:
+    """Print how many requests a second are answered that clients make at the same time, relative to /health."""
+    names = [f"client-{number}" for number in range(CLIENTS)]
+    tokens = [client.post("/tokens", json={"name": each, "role": "view"}).json()["token"] for each in names]
+    paths = ("/health", f"/cells/{CELL}", f"/cells/{CELL}/operations", f"/cells/{CELL}/world")
+    rates = [asyncio.run(count_answers(client, each, tokens)) / BUSY_S for each in paths]
+    for path, rate in zip(paths, rates, strict=True):
+        print(f"{CLIENTS} clients GET {path}: {rate / rates[0]:.2f} x /health ({rate:.0f} requests/s)")
+
+
+async def count_answers(client: httpx.Client, path: str, tokens: Sequence[str]) -> int:
+    """Return how many requests are answered in BUSY_S to clients with these tokens."""
+    end = time.monotonic() + BUSY_S
+
+    async def ask(token: str) -> int:
+        count = 0
+        headers = {"Authorization": f"Bearer {token}"}
+        async with httpx.AsyncClient(base_url=client.base_url, headers=headers, timeout=60.0) as asking:
+            while time.monotonic() < end:
+                count += (await asking.get(path)).status_code == HTTPStatus.OK
+        return count
+
+    return sum(await asyncio.gather(*map(ask, tokens)))
+
+
+def measure_memory() -> None:
+    """Print how the memory of both processes grows over many operations that run, after a tenth of them and after all.
+
+    Crates are carried to and fro, in the cell of the tests.
+    """
+    with tempfile.TemporaryDirectory() as folder, serving_yard(Path(folder), takes_ms=10) as yard:
+        yard.client.put("/cells/yard/pace", json={"factor": None})
+        cell = find_cell(yard.process.pid)
+        for number in range(OPERATIONS):
+            where = {"crate": "lab:crate-1", "to": ("lab:Goal", "lab:Start")[number % 2]}
+            yard.wait_for(yard.submit(task="carry", arguments=where)["id"], "succeeded")
+            if number == OPERATIONS // 10:
+                before = rss_mb(yard.process.pid), rss_mb(cell)
+        grown = rss_mb(yard.process.pid) / before[0], rss_mb(cell) / before[1]
     print(f"memory after {OPERATIONS} operations, of that after {OPERATIONS // 10}: ", end="")
     print(f"server {grown[0]:.3f} x, cell {grown[1]:.3f} x")
 
@@ -254,11 +290,12 @@ def rss_mb(process: int) -> float:
 
 
 def main() -> None:
-    with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as (client, server, ready_s):
+    with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as (client, _, ready_s):
         print(f"from start to ready: {ready_s:.1f} s")
         measure_requests(client)
         measure_stops(client)
-        measure_memory(client, server)
+        measure_rates(client)
+    measure_memory()
     measure_restarts(ready_s)
     measure_watchers()
     measure_samplers()

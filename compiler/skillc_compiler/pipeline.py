@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from skillc_compiler.checks import run_checks
+from skillc_compiler.checks import CheckMemo, run_checks
 from skillc_compiler.diagnostics.prefixes import with_prefix
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
 from skillc_compiler.diagnostics.unknown_names import report_unknown_names
@@ -15,6 +16,7 @@ from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
+from skillc_compiler.resolve.memo import ResolveMemo
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
@@ -24,6 +26,17 @@ from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 
 NO_SCENES: Mapping[str, Individuals] = MappingProxyType({})
+
+
+@dataclass
+class AnalysisMemo:
+    """What the last analysis of a library has found, by declaration; the next one reuses what has not changed.
+
+    An analysis with it has the same result as one without it, whatever was analysed before.
+    """
+
+    resolve: ResolveMemo = field(default_factory=ResolveMemo)
+    checks: CheckMemo = field(default_factory=CheckMemo)
 
 
 def compile(
@@ -59,14 +72,16 @@ def analyse(
     return Outcome(program.value, find_problems(files, program))
 
 
-def find_problems(files: Outcome[tuple[ParsedFile, ...]], program: Outcome[Program]) -> tuple[Diagnostic, ...]:
+def find_problems(
+    files: Outcome[tuple[ParsedFile, ...]], program: Outcome[Program], memo: AnalysisMemo | None = None
+) -> tuple[Diagnostic, ...]:
     """Check a program; return the diagnostics of all errors, and nothing that may only follow from them."""
     syntax = tuple(with_prefix(problem, program.value) for problem in files.diagnostics)
     marks = Marks(program.value, ())
     unknown = (problem for problem in report_unknown_names(program.value) if marks.allow(Need.TEXT, problem))
     known = (*syntax, *unknown)
     resolving = [problem for problem in program.diagnostics if marks.allow(Need.TEXT, problem)]
-    return (*known, *run_checks(program.value, known, resolving))
+    return (*known, *run_checks(program.value, known, resolving, memo.checks if memo else None))
 
 
 def lower_and_report(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:

@@ -50,7 +50,7 @@ def uri(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 def test_a_failure_is_told_and_the_next_edit_is_analysed(
     uri: str, late: bool, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    def failing(library: Library, parsed_by: object) -> Analysis:
+    def failing(library: Library, parsed_by: object, memo: object) -> Analysis:
         found = analyse(library, parse)
         if "# it fails" in library.sources["a.skill"].text:
             if not late:

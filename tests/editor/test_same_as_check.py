@@ -78,7 +78,9 @@ def test_columns_in_scenes_are_those_of_check(tmp_path: Path) -> None:
     libraries = Libraries((tmp_path,))
     libraries.write(file.as_uri(), file.read_text("utf-8"))
     view = libraries.view(file.as_uri())
-    (told,) = diagnostics_by_uri(libraries, view.root, view.analysis, "utf-16")[scene.as_uri()]
+    (told,) = diagnostics_by_uri(libraries, view.root, view.analysis, libraries.problems_around(view.root), "utf-16")[
+        scene.as_uri()
+    ]
     assert told.range == types.Range(types.Position(1, 15), types.Position(1, 30))
 
 
@@ -128,5 +130,5 @@ def test_a_project_is_what_it_is_for_check(tmp_path: Path) -> None:
     manifest.write_text('name = "mine"\n[dependencys]\n', "utf-8")
     libraries.forget(manifest)
     root = libraries.view(file.as_uri()).root
-    told = diagnostics_by_uri(libraries, root, libraries.analysis(root), "utf-16")
+    told = diagnostics_by_uri(libraries, root, libraries.analysis(root), libraries.problems_around(root), "utf-16")
     assert [(each.code, each.range.start.line) for each in told[manifest.as_uri()]] == [("unknown-key", 1)]

@@ -12,8 +12,10 @@ from typing import TypeVar
 
 import pytest
 
+from skillc.cells.adopting import adopt_world
 from skillc.cells.database import DatabaseError
 from skillc.cells.evidence import EvidenceKeeper, read_merged
+from skillc.cells.journal.fingerprint import FINGERPRINT, make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.journal.schema import SCHEMA
@@ -28,7 +30,7 @@ from skillc_runtime.world.state.facts import Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, NullStore, StoreError
 from store.worlds import PLACES, THINGS, facts_of, model_of, random_write
-from world.lab import iri
+from world.lab import assign, iri
 
 EVIDENCE: tuple[Evidence | None, ...] = ("sensed", "reported", "assumed", None)
 
@@ -131,7 +133,83 @@ def test_a_world_that_is_older_than_the_journal_is_refused(tmp_path: Path) -> No
         journal.commit()
     with closing(sqlite3.connect(tmp_path / "journal.sqlite")) as connection, connection:
         connection.execute("UPDATE transactions SET sequence = sequence + 5")
-    with pytest.raises(DatabaseError, match="restore both from the same backup"), opened(tmp_path, DiskStore):
+    with refused_as_different(), opened(tmp_path, DiskStore):
+        pass
+
+
+@pytest.mark.parametrize("known", [True, False])
+@pytest.mark.parametrize("own_writes", [0, 3])
+def test_a_store_to_which_others_wrote_is_refused_until_a_person_adopts_it(
+    tmp_path: Path, own_writes: int, known: bool
+) -> None:
+    chance = Random(own_writes)
+    with opened(tmp_path, DiskStore) as (world, journal, _):
+        for _ in range(own_writes):
+            write(world, chance)
+        journal.commit()
+    with closing(DiskStore(tmp_path / "world")) as store:
+        model_of(store).commit([assign("box", "weight", 77.0)], "somebody else")
+    if not known:
+        forget_fingerprint(tmp_path)
+    if known or own_writes:
+        with refused_as_different(), opened(tmp_path, DiskStore):
+            pass
+        assert adopt_world(tmp_path, "bo", "I weighed it") == own_writes + 3
+    with opened(tmp_path, DiskStore) as (world, journal, _), reading(journal.path) as reader:
+        assert world.snapshot().value(iri("box"), iri("weight")) == 77.0
+        if known or own_writes:
+            assert set(evidence(world).values()) == {"given"}
+            assert reader.latest_writes(100, 1)[0].transaction.origin == "bo: I weighed it"
+        write(world, chance)
+        journal.commit()
+        facts = facts_of(world.snapshot())
+    with opened(tmp_path, DiskStore) as (again, _, _):
+        assert facts_of(again.snapshot()) == facts
+
+
+@pytest.mark.parametrize("ahead", [False, True])
+def test_a_store_with_other_facts_under_the_same_number_is_refused(tmp_path: Path, ahead: bool) -> None:
+    """The same number says nothing: here the journal has a write of its own, and the store has one of others."""
+    with opened(tmp_path, BrokenStore) as (world, journal, store):
+        store.fails = True
+        for name, value in (("weight", 5.0), ("label", "heavy"))[: 1 + ahead]:
+            world.commit([assign("box", name, value)])
+        with pytest.raises(NotDurable):
+            journal.commit()
+    with closing(DiskStore(tmp_path / "world")) as others:
+        model_of(others).commit([assign("box", "weight", 77.0)], "somebody else")
+    with refused_as_different(), opened(tmp_path, DiskStore):
+        pass
+    with closing(DiskStore(tmp_path / "world")) as others:
+        assert model_of(others).snapshot().value(iri("box"), iri("weight")) == 77.0
+        assert others.read().sequence == 2, "nothing is written to a store that is refused"
+    assert adopt_world(tmp_path, "bo", "I weighed it") == 3 + ahead
+    with opened(tmp_path, DiskStore) as (world, _, _):
+        assert world.snapshot().value(iri("box"), iri("weight")) == 77.0
+
+
+def test_a_write_that_the_store_did_not_take_is_given_to_it_again(tmp_path: Path) -> None:
+    with opened(tmp_path, BrokenStore) as (world, journal, store):
+        store.fails = True
+        world.commit([assign("box", "weight", 5.0)])
+        with pytest.raises(NotDurable, match="the disk is gone"):
+            journal.commit()
+        with pytest.raises(NotDurable, match="the disk is gone"):
+            journal.commit()
+        store.fails = False
+        world.commit([assign("box", "label", "heavy")])
+        journal.commit()
+        assert facts_of(model_of(store).snapshot()) == facts_of(world.snapshot())
+
+
+def test_a_store_that_others_wrote_to_stays_a_fault(tmp_path: Path) -> None:
+    with opened(tmp_path, DiskStore) as (world, journal, store):
+        model_of(store).commit([assign("box", "weight", 77.0)], "past the lock")
+        world.commit([assign("box", "weight", 5.0)])
+        for _ in range(3):
+            with pytest.raises(NotDurable, match="was written to by others, and the cell cannot go on with it"):
+                journal.commit()
+    with refused_as_different(), opened(tmp_path, DiskStore):
         pass
 
 
@@ -157,6 +235,18 @@ def test_a_damaged_file_is_refused(tmp_path: Path) -> None:
         CellJournal(path, NullStore())
 
 
+def refused_as_different() -> pytest.RaisesExc[DatabaseError]:
+    return pytest.raises(
+        DatabaseError, match=r"does not have the facts that its cell wrote.* `skillc state restore`, or"
+    )
+
+
+def forget_fingerprint(folder: Path) -> None:
+    """Make the journal one of a skillc that kept no fingerprints."""
+    with closing(sqlite3.connect(folder / "journal.sqlite")) as connection, connection:
+        connection.execute("DELETE FROM cell_state WHERE name = ?", (FINGERPRINT,))
+
+
 StoreT = TypeVar("StoreT", bound=DiskStore)
 
 
@@ -165,9 +255,9 @@ def opened(folder: Path, kind: type[StoreT]) -> Iterator[tuple[WorldModel, CellJ
     """Open a store with the laboratory, and the journal in front of it, as a cell does."""
     with closing(kind(folder / "world")) as store:
         stored = model_of(store).snapshot()
-        sequence = store.read().sequence
+        found = make_fingerprint(store.read())
         with closing(CellJournal(folder / "journal.sqlite", store)) as journal, reading(journal.path) as reader:
-            yield restore_world(store, stored, sequence, journal, reader), journal, store
+            yield restore_world(store, stored, found, journal, reader), journal, store
 
 
 def write(world: WorldModel, chance: Random) -> None:

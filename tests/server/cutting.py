@@ -56,10 +56,39 @@ class CuttingRelay:
             each.close()
 
 
+class FirstChangeCut(CuttingRelay):
+    """Cuts the connection on which the first request arrives that changes something, before it is passed on."""
+
+    def __init__(self, target: int) -> None:
+        super().__init__(target, seed=0, max_bytes=10**9)
+
+    def _pass_on(self, client: socket.socket, server: socket.socket) -> None:
+        with suppress(OSError):
+            while client.recv(1, socket.MSG_PEEK):
+                if self.cuts == 0 and client.recv(3, socket.MSG_PEEK) in (b"POS", b"PUT"):
+                    self.cuts += 1
+                    server.shutdown(socket.SHUT_RDWR)
+                    return
+                data = client.recv(4096)
+                server.sendall(data.replace(b":%d\r\n" % self.port, b":%d\r\n" % self._target))
+
+
 @contextmanager
 def cutting(target: int, seed: int, max_bytes: int) -> Iterator[CuttingRelay]:
-    """Relay in a `with` statement."""
-    relay = CuttingRelay(target, seed, max_bytes)
+    """Relay in a `with` statement, with random cuts."""
+    with _open(CuttingRelay(target, seed, max_bytes)) as relay:
+        yield relay
+
+
+@contextmanager
+def cutting_first_change(target: int) -> Iterator[CuttingRelay]:
+    """Relay in a `with` statement, with one cut."""
+    with _open(FirstChangeCut(target)) as relay:
+        yield relay
+
+
+@contextmanager
+def _open(relay: CuttingRelay) -> Iterator[CuttingRelay]:
     try:
         yield relay
     finally:

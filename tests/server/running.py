@@ -61,9 +61,9 @@ class RunningServer:
             lambda: self.client.get(f"/operations/{operation}").json(), lambda it: it.get("state") in states
         )
 
-    def wait_ready(self) -> dict[str, Any]:
-        """Wait until the cell takes operations."""
-        return wait_until(lambda: self.client.get("/cells/yard").json(), lambda it: it["state"] == "operational")
+    def wait_ready(self, state: str = "operational") -> dict[str, Any]:
+        """Wait until the cell takes operations, or is in another state."""
+        return wait_until(lambda: self.client.get("/cells/yard").json(), lambda it: it["state"] == state)
 
 
 def wait_until(look: Any, condition: Any) -> Any:
@@ -82,8 +82,12 @@ def serving(
     options: Sequence[str | Path] = (),
     authority: Path | None = None,
     environment: Mapping[str, str] = NOTHING,
+    state: str = "operational",
 ) -> Iterator[RunningServer]:
-    """Serve a yard in a folder, in which it may have been served before; with a certificate of `authority`, if any."""
+    """Serve a yard in a folder, in which it may have been served before; with a certificate of `authority`, if any.
+
+    Its cell is in a `state` then.
+    """
     write_yard(folder, takes_ms)
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
@@ -92,7 +96,7 @@ def serving(
         wait_until(lambda: is_listening(port) or process.poll() is not None, bool)
         assert process.poll() is None, "the server has ended"
         server = RunningServer(folder, process, port, authority)
-        server.wait_ready()
+        server.wait_ready(state)
         yield server
     finally:
         process.send_signal(signal.SIGTERM)

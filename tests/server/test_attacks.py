@@ -5,7 +5,10 @@ from __future__ import annotations
 import asyncio
 import json
 import socket
-from collections.abc import Callable, Iterator
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AsyncExitStack
 
 import httpx
@@ -18,14 +21,11 @@ from starlette.routing import Route
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from server.attacking import ATTACKS, Attack, forge_entries
 from server.running import RunningServer, serving, serving_app
 from skillc.server import requests
 from skillc.server.problems import ApiRefusal
 from skillc.server.watchers import MAX_UNKNOWN
-
-JSON = {"Content-Type": "application/json"}
-Attack = Callable[[RunningServer], list[int]]
-"""Attacks a server; returns the statuses of its answers."""
 
 
 @pytest.fixture(scope="module")
@@ -34,124 +34,31 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
         yield running
 
 
-def send(server: RunningServer, content: bytes) -> int:
-    """Send bytes over a connection of its own; return the status of the answer, 0 if the connection is just closed."""
-    with socket.create_connection(("127.0.0.1", server.port), 20.0) as connection:
-        connection.sendall(content)
-        answer = connection.recv(4096)
-    return int(answer.split(b" ")[1]) if answer else 0
-
-
-def submit(server: RunningServer, **request: object) -> int:
-    return server.client.post("/cells/yard/operations", json=request).status_code
-
-
-def rebind_name(server: RunningServer) -> list[int]:
-    hosts = ("evil.example:80", f"evil.example:{server.port}", "127.0.0.1.evil.example", "")
-    return [server.client.get("/cells", headers={"Host": each}).status_code for each in hosts]
-
-
-def come_from_another_page(server: RunningServer) -> list[int]:
-    origins = ("https://evil.example", "null", f"http://127.0.0.1:{server.port + 1}", "file://")
-    return [server.client.post("/cells/yard/stop", json={}, headers={"Origin": each}).status_code for each in origins]
-
-
-def submit_a_form(server: RunningServer) -> list[int]:
-    kinds = ("application/x-www-form-urlencoded", "text/plain", "multipart/form-data; boundary=x", "")
-    content = b'{"task": "carry_all"}'
-    return [
-        server.client.post("/cells/yard/operations", content=content, headers={"Content-Type": each}).status_code
-        for each in kinds
-    ]
-
-
-def leave_the_folder(server: RunningServer) -> list[int]:
-    names = ("..%2F..%2Fetc%2Fpasswd", "%2e%2e", "yard%00", "..\\..\\secret", "%2Fetc%2Fpasswd")
-    paths = [f"/{kind}/{name}" for kind in ("cells", "operations") for name in names]
-    return [
-        *(server.client.get(each).status_code for each in paths),
-        *(submit(server, task="carry_all", breakpoints=[each]) for each in ("../../etc/passwd:1", "/etc/passwd:1")),
-    ]
-
-
-def send_too_much(server: RunningServer) -> list[int]:
-    deep = [b"[" * 100_000, b'{"arguments":' * 50_000, b'{"task": "' + b"a" * 2_000_000]
-    path = "/cells/yard/operations"
-    return [
-        *(server.client.post(path, content=each, headers=JSON).status_code for each in deep),
-        submit(server, task="carry_all", arguments={f"name{number}": "lab:Goal" for number in range(10_000)}),
-        submit(server, goal="(" * 100_000),
-        submit(server, goal="not " * 100_000 + "lab:Goal contain lab:crate-0"),
-        submit(server, call="Load(" * 10_000),
-    ]
-
-
-def smuggle(server: RunningServer) -> list[int]:
-    head = f"POST /api/v1/cells/yard/stop HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n".encode()
-    return [
-        send(server, head + b"Content-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\nGET /x"),
-        send(server, head + b"Content-Length: 5\r\nContent-Length: 6\r\n\r\n{}"),
-        send(server, head + b"Transfer-Encoding: chunked, chunked\r\n\r\n0\r\n\r\n"),
-        send(server, head + b"Host: evil.example\r\nContent-Length: 0\r\n\r\n"),
-        send(server, head + b"X: a\r\n b\nEvil: x\r\nContent-Length: -1\r\n\r\n"),
-        send(server, b"GET http://evil.example/api/v1/cells HTTP/1.1\r\nHost: evil.example\r\n\r\n"),
-        send(server, b"GET / HTTP/1.1\r\n" + b"X: " + b"a" * 200_000 + b"\r\n\r\n"),
-        send(server, b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\r\n\r\n"),
-    ]
-
-
-def guess_tokens(server: RunningServer) -> list[int]:
-    guesses = [
-        "x y",
-        "skillc_",
-        "admin",
-        "\xff",
-        "a" * 5000,
-        server.token[:-1],
-        server.token.upper(),
-        *map(str, range(150)),
-    ]
-    return [
-        httpx.get(f"{server.url}/cells", headers={"Authorization": f"Bearer {each}".encode("latin-1")}).status_code
-        for each in guesses
-    ]
-
-
-def connect_again_and_again(server: RunningServer) -> list[int]:
-    for _ in range(10_000):
-        socket.create_connection(("127.0.0.1", server.port), 20.0).close()
-    return []
-
-
-def forge_entries(server: RunningServer) -> list[int]:
-    path = "/cells/x%0D%0A2026-01-01 admin GET 200%1B[2J/stop"
-    return [server.client.post(path, json={}).status_code]
-
-
-@pytest.mark.parametrize(
-    ("attack", "statuses"),
-    [
-        (rebind_name, {421, 400}),
-        (come_from_another_page, {403}),
-        (submit_a_form, {415}),
-        (leave_the_folder, {404, 409}),
-        (send_too_much, {400, 409, 413, 422}),
-        (smuggle, {0, 400, 401, 421, 431}),
-        (guess_tokens, {401, 429}),
-        (connect_again_and_again, set[int]()),
-        (forge_entries, {404}),
-    ],
-    ids=lambda value: getattr(value, "__name__", ""),
-)
-def test_an_attack_is_refused_and_disturbs_nothing(server: RunningServer, attack: Attack, statuses: set[int]) -> None:
+@pytest.mark.parametrize("attack", ATTACKS, ids=lambda attack: attack.__name__)
+def test_an_attack_is_refused_and_a_stop_meanwhile_takes_effect(server: RunningServer, attack: Attack) -> None:
+    server.put_back()
     server.client.put("/cells/yard/pace", json={"factor": 0.02})
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
-    answers = attack(server)
+    stopped = threading.Event()
+
+    def attack_until_it_is_stopped() -> list[int]:
+        answers = attack(server)
+        while not stopped.is_set():
+            answers += attack(server)
+        return answers
+
+    with ThreadPoolExecutor() as pool:
+        attacking = pool.submit(attack_until_it_is_stopped)
+        try:
+            time.sleep(0.5)
+            assert server.client.get(f"/operations/{operation}").json()["state"] == "running"
+            assert server.client.post(f"/operations/{operation}/stop", json={}).status_code == 200
+            assert server.wait_for(operation, "stopped")["reason"] == "admin: stopped"
+        finally:
+            stopped.set()
+        answers, statuses = attacking.result(), ATTACKS[attack]
     assert set(answers) <= statuses and bool(answers) == bool(statuses), answers
-    assert server.client.get(f"/operations/{operation}").json()["state"] == "running"
-    server.client.post(f"/operations/{operation}/stop", json={})
-    assert server.wait_for(operation, "stopped")["reason"] == "admin: stopped"
     server.client.put("/cells/yard/pace", json={"factor": None})
     assert server.process.poll() is None and server.client.get("/cells/yard").json()["state"] == "operational"
 

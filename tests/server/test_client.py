@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import skillc
-from server.cutting import cutting
+from server.cutting import cutting, cutting_first_change
 from server.running import RunningServer, serving, start_server, wait_until
 from skillc.cells.operation import CellStatus
 from skillc.client.address import ServerAddress, find_address
@@ -123,6 +123,25 @@ def test_connections_that_break_lose_and_double_no_event(server: RunningServer, 
         assert relay.cuts >= 1
     assert [each.sequence for each in found] == list(range(1, operation.status.events + 1))
     assert isinstance(found[-1].event, TaskEnded)
+
+
+def connect_through(server: RunningServer, port: int) -> skillc.Server:
+    """Connect to another port of this machine with the token of a server."""
+    return skillc.connect(f"http://127.0.0.1:{port}", server.token)
+
+
+def test_a_stop_whose_connection_is_cut_is_sent_again(server: RunningServer, connected: skillc.Server) -> None:
+    server.put_back()
+    operation = connected.cell().start("carry_all", approve=True)
+    operation.wait_for_pause()
+    with cutting_first_change(server.port) as relay, connect_through(server, relay.port) as through:
+        with pytest.raises(skillc.UnavailableError):
+            through.cell("yard").set_pace("fast")
+        assert relay.cuts == 1
+    with cutting_first_change(server.port) as relay, connect_through(server, relay.port) as through:
+        through.operation(operation.id).stop()
+        assert relay.cuts == 1
+    assert operation.wait(30.0).state == "stopped"
 
 
 @pytest.mark.sim

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import socket
+import time
 from contextlib import AbstractContextManager, AsyncExitStack, ExitStack
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from starlette.websockets import WebSocket
 from websockets.asyncio.client import connect
 
 from server.running import RunningServer, serving, serving_app
+from skillc.cells.mailbox import ALIVE_S
 from skillc.server import connections
 from skillc.server.connections import BoundedConnection
 from skillc.server.proxy import ProxiedRequests
@@ -72,10 +74,18 @@ def test_behind_a_proxy_nobody_else_is_answered(address: str, status: int) -> No
 
 def test_prometheus_reads_its_metrics(server: RunningServer) -> None:
     server.client.get("/cells/nowhere")
+    server.put_back()
+    operation = server.submit(task="carry_all")["id"]
+    server.wait_for(operation, "running", "succeeded")
+    server.client.post(f"/operations/{operation}/stop", json={})
+    server.wait_for(operation, "stopped", "succeeded")
+    time.sleep(2 * ALIVE_S)
     text = httpx.get(server.url.replace("/api/v1", "/metrics"), headers=server.client.headers).text
     found = {each.name: each.samples for each in text_string_to_metric_families(text)}
     states = {sample.labels["state"]: sample.value for sample in found["skillc_cell_state"]}
     assert states["operational"] == 1.0 and states["fault"] == 0.0
+    ticks = {each.labels.get("le", each.name): each.value for each in found["skillc_tick_interval_seconds"]}
+    assert ticks["+Inf"] > ticks["0.005"] >= 0.0 and ticks["skillc_tick_interval_seconds_sum"] > 0.0
     missing = {"method": "GET", "path": "/cells/{cell}", "status": "404"}
     counts = [each.value for each in found["skillc_request_seconds"] if each.labels == missing and "count" in each.name]
     assert len(counts) == 1 and counts[0] >= 1.0

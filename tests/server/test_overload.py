@@ -17,13 +17,13 @@ from starlette.routing import Route
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
+from server.attacking import COSTLY
 from server.running import RunningServer, serving
 from server.test_network import bounded_server
 from skillc.server import connections
 from skillc.server.context import FAILURES
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
-COSTLY = {"goal": " and ".join(["lab:Goal contain lab:crate-0"] * 1500 + ["lab:Goal contain lab:nothing"])}
 FLOOD = 12
 
 
@@ -35,7 +35,9 @@ def test_a_stop_takes_effect_while_costly_requests_still_wait(server: RunningSer
     async def flood() -> tuple[str, int, set[int]]:
         headers = {"Authorization": f"Bearer {server.token}"}
         async with httpx.AsyncClient(base_url=server.url, headers=headers, timeout=120.0) as client:
-            asked = [asyncio.create_task(client.post("/cells/yard/operations", json=COSTLY)) for _ in range(FLOOD)]
+            asked = [
+                asyncio.create_task(client.post("/cells/yard/operations", json={"goal": COSTLY})) for _ in range(FLOOD)
+            ]
             await asyncio.sleep(0.3)
             await client.post(f"/operations/{operation}/stop", json={})
             state = ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import resource
+import signal
 from multiprocessing.connection import Connection
 from multiprocessing.synchronize import Barrier
 from pathlib import Path
@@ -34,6 +35,14 @@ def write(tell: Connection, place: str, seed: int, count: int, name: str, begin:
             continue
         tell.send(f"{name} {made}")
         made += 1
+
+
+def own_and_write(tell: Connection, place: Path) -> None:
+    """Own a store, write to it, and go on owning it; tell what was written."""
+    store = DiskStore(place, owner="the cell lab")
+    model_of(store).commit([assign("box", "weight", 5.0)])
+    tell.send("5.0")
+    signal.pause()
 
 
 def write_and_tidy_up(tell: Connection, place: Path) -> None:

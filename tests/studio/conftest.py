@@ -12,7 +12,7 @@ from server.running import RunningServer, serving
 from skillc.server.studio_page import STUDIO_FILES
 
 playwright_api = pytest.importorskip("playwright.sync_api", reason="the tests of the studio need playwright")
-from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright  # noqa: E402
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect, sync_playwright  # noqa: E402
 
 from studio.opening import EXPECTED_ERRORS, open_studio, warm_up  # noqa: E402
 
@@ -64,6 +64,11 @@ def context(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Browse
     context.close()
 
 
+def describe(message: ConsoleMessage) -> str:
+    """Return what a page has written to the console, and what it is about."""
+    return f"{message.text} {message.location['url']}"
+
+
 @pytest.fixture
 def page(context: BrowserContext, server: RunningServer, request: pytest.FixtureRequest) -> Iterator[Page]:
     """The page, logged in, with all crates at the start."""
@@ -72,7 +77,7 @@ def page(context: BrowserContext, server: RunningServer, request: pytest.Fixture
     page = context.new_page()
     problems: list[str] = []
     page.on("pageerror", lambda error: problems.append(str(error)))
-    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
+    page.on("console", lambda message: problems.append(describe(message)) if message.type == "error" else None)
     open_studio(page, server)
     yield page
     OUT.mkdir(parents=True, exist_ok=True)

@@ -19,6 +19,7 @@ def test_three_clicks_run_a_task(page: Page) -> None:
     page.get_by_role("button", name="Enlarge Tree").click()
     page.keyboard.press("2")
     page.keyboard.press("Home")
+    expect(page.locator(".tree-row").first).to_have_attribute("aria-posinset", "1")
     names = page.locator(".tree-row[aria-level='1'] .node-name").all_inner_texts()
     assert len(names) > 4
     assert names == planned[: len(names)]
@@ -68,16 +69,20 @@ def test_the_keyboard_alone_does_a_whole_run(page: Page) -> None:
 
 def test_pause_step_resume_and_stop(page: Page, server: RunningServer) -> None:
     server.client.put("/cells/yard/pace", json={"factor": 0.2})
-    start(page, "carry_all")
+    choose(page, "carry_all")
+    page.get_by_label("pause before the first step").check()
+    page.get_by_role("button", name="Start", exact=True).click()
+    wait_for_state(page, "paused")
+    steps = page.locator(".tree-row[aria-level='1']")
+    expect(steps).to_have_count(12)
+    for number in (1, 2):
+        page.get_by_role("button", name="Step over").click()
+        expect(steps.and_(page.locator(".is-success"))).to_have_count(number)
+        wait_for_state(page, "paused")
+    page.get_by_role("button", name="Resume").click()
     wait_for_state(page, "running")
     page.keyboard.press("p")
     wait_for_state(page, "paused")
-    before = page.locator(".tree-row[aria-level='1']").count()
-    page.get_by_role("button", name="Step over").click()
-    expect(page.locator(".tree-row[aria-level='1']")).to_have_count(before + 1)
-    wait_for_state(page, "paused")
-    page.get_by_role("button", name="Resume").click()
-    wait_for_state(page, "running")
     page.get_by_role("button", name="Stop", exact=True).click()
     wait_for_state(page, "stopped")
 
@@ -108,7 +113,11 @@ def test_a_task_with_parameters_asks_for_them(page: Page) -> None:
     page.get_by_role("combobox", name="to", exact=True).fill("lab:Goal")
     expect(page.locator(".preview-step")).to_have_count(2)
     page.get_by_role("button", name="Rehearse").click()
-    expect(page.locator(".rehearsed")).to_contain_text(FINISHED, timeout=30_000)
+    expect(page.locator(".rehearsed")).to_contain_text(FINISHED, timeout=120_000)  # a twin of the cell starts
+    page.get_by_role("button", name="Play it").click()
+    expect(page.get_by_text("rehearsal of carry")).to_be_visible()
+    expect(page.locator(".tree-row[aria-level='1'].is-success")).to_have_count(2)
+    page.get_by_role("button", name="Back to the cell").click()
     page.get_by_role("button", name="Start", exact=True).click()
     wait_for_state(page, FINISHED, "carry")
 

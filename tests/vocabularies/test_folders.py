@@ -142,6 +142,6 @@ def test_the_editor_knows_the_vocabularies_beside_the_skills_and_tells_what_is_w
     libraries.write(file.as_uri(), SKILL)
     view = libraries.view(file.as_uri())
     assert {d.name for d in view.analysis.problems if d.severity == "error"} == set()
-    told = diagnostics_by_uri(libraries, view.root, view.analysis, "utf-16")
+    told = diagnostics_by_uri(libraries, view.root, view.analysis, libraries.problems_around(view.root), "utf-16")
     names = {problem.code for problem in told[(file.parent / "cell.owl").as_uri()]}
     assert names == {"shipped-term", "undeclared-term", "unused-axiom"}

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import TypeVar
+from functools import partial
+from typing import TypeAlias, TypeVar
 
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.axioms import CanonicalAxioms, build_axioms
+from skillc_compiler.analysis.called import CalledBodies
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
@@ -29,6 +30,7 @@ from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.analysis.writes import NO_WRITES, Write
+from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
@@ -45,20 +47,36 @@ class Proof:
     leaks: frozenset[Write] = NO_WRITES
 
 
-@lru_cache(maxsize=1)
-def prove(program: Program) -> Mapping[str, Proof]:
-    """Return the proof of each compound implementation by its key, and of each task with a body by `task NAME`."""
-    prover = Prover(program)
+Proofs: TypeAlias = Mapping[str, Proof]
+"""The proof of each compound implementation by its key, and of each task with a body by `task NAME`."""
+
+
+@dataclass
+class ProofMemo:
+    """The proofs of the last analysis."""
+
+    proofs: Memo[Proof] = field(default_factory=Memo)
+
+
+def prove(program: Program, memo: ProofMemo | None = None) -> Proofs:
+    """Return the proofs of a program, in the order of its declarations.
+
+    A proof in `memo` is reused if neither the body nor anything that it may run has changed.
+    """
+    memo = memo or ProofMemo()
+    memo.proofs.begin()
+    prover = Prover(program, memo.proofs)
     for implementation in program.implementations:
         prover.leaks(implementation)
     for task in program.tasks:
         prover.prove_task(task)
-    return prover.proofs
+    keys = (*(each.key for each in program.implementations), *(f"task {task.name}" for task in program.tasks))
+    return {key: prover.proofs[key] for key in keys if key in prover.proofs}
 
 
-def findings_of(program: Program, kind: type[F]) -> Iterator[F]:
+def findings_of(proofs: Proofs, kind: type[F]) -> Iterator[F]:
     """Yield the findings of a kind in all bodies."""
-    for proof in prove(program).values():
+    for proof in proofs.values():
         yield from (finding for finding in proof.findings if isinstance(finding, kind))
 
 
@@ -67,11 +85,13 @@ class Prover:
     """Computes proofs on demand."""
 
     program: Program
+    memo: Memo[Proof] = field(default_factory=Memo)
     proofs: dict[str, Proof] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._axioms: CanonicalAxioms = build_axioms(self.program.vocabulary)
         self.summaries = WriteSummaries(self.program, self._axioms)
+        self._called = CalledBodies(self.program)
         self._busy: set[str] = set()
 
     def leaks(self, implementation: Implementation) -> frozenset[Write]:
@@ -80,17 +100,25 @@ class Prover:
             return NO_WRITES
         if implementation.key not in self.proofs:
             self._busy.add(implementation.key)
-            self.proofs[implementation.key] = self._prove_implementation(implementation, implementation.body)
+            compute = partial(self._prove_implementation, implementation, implementation.body)
+            self.proofs[implementation.key] = self._recall(implementation, implementation.body, compute)
             self._busy.discard(implementation.key)
         return self.proofs[implementation.key].leaks
 
     def prove_task(self, task: Task) -> None:
         """Prove the body of a task."""
         if task.body is not None:
-            run = self.new_exploration(task, task.body)
-            run.explore(run, task.body, {State(): None}, EvalContext())
-            findings = self._all_findings(task, task.body, run, ())
-            self.proofs[f"task {task.name}"] = Proof(task, findings)
+            self.proofs[f"task {task.name}"] = self._recall(task, task.body, partial(self._prove_task, task, task.body))
+
+    def _prove_task(self, task: Task, body: TypedNode) -> Proof:
+        run = self.new_exploration(task, body)
+        run.explore(run, body, {State(): None}, EvalContext())
+        return Proof(task, self._all_findings(task, body, run, ()))
+
+    def _recall(self, of: Implementation | Task, body: TypedNode, compute: Callable[[], Proof]) -> Proof:
+        """Return the known proof of a body; that of one that may run itself depends on the order, and is not reused."""
+        run = self._called.run_by(body)
+        return compute() if run is None else self.memo.recall((of, self.program.vocabulary, *run), compute)
 
     def new_exploration(self, of: Implementation | Task, body: TypedNode) -> Exploration:
         """Return a new exploration of a body."""

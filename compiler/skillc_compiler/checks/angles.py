@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.types import Measure
 from skillc_compiler.program.walk import all_values
@@ -15,6 +16,7 @@ from skillc_model.conditions import Literal
 
 NAMES = ("suspicious-angle",)
 NEEDS = Need.TEXT
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
 from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl import syntax as s
@@ -14,6 +15,7 @@ from skillc_model.conditions import Invoke
 
 NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count")
 NEEDS = Need.TYPES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -6,18 +6,19 @@ from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import BrokenHold
 from skillc_compiler.analysis.paths import path_labels
-from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("hold-broken",)
 NEEDS = Need.BODY
+READS = Reads.PROOFS
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for each hold that a child breaks before other children run."""
-    for one in findings_of(program, BrokenHold):
+    for one in findings_of(proofs, BrokenHold):
         verb = "breaks" if one.certain else "may break"
         yield Diagnostic(
             "hold-broken",

@@ -6,18 +6,19 @@ from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UnprovedPrecondition
 from skillc_compiler.analysis.paths import path_labels
-from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("child-precondition",)
 NEEDS = Need.BODY
+READS = Reads.PROOFS
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for each such precondition of each call."""
-    for one in findings_of(program, UnprovedPrecondition):
+    for one in findings_of(proofs, UnprovedPrecondition):
         name, text = one.call.written.skill.text, one.requirement.text
         what = "does not hold" if one.false else "is not guaranteed"
         yield Diagnostic(

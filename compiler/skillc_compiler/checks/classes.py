@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.types import Thing, Type, describe_type
 from skillc_compiler.program.walk import all_conditions
@@ -14,6 +15,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 NAMES = ("disjoint-types",)
 NEEDS = Need.NAMES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

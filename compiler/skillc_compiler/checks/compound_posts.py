@@ -6,18 +6,19 @@ from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UnprovedPost
 from skillc_compiler.analysis.paths import path_labels
-from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("post-not-established",)
 NEEDS = Need.BODY
+READS = Reads.PROOFS
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for each postcondition that some successful end does not establish."""
-    for several in _group_by_path(program):
+    for several in _group_by_path(proofs):
         one = several[0]
         verb = "makes it false" if one.false else "does not establish it"
         texts = " and ".join(f"`{each.post.text}`" for each in several)
@@ -31,10 +32,10 @@ def check(program: Program) -> Iterator[Diagnostic]:
         )
 
 
-def _group_by_path(program: Program) -> Iterator[tuple[UnprovedPost, ...]]:
+def _group_by_path(proofs: Proofs) -> Iterator[tuple[UnprovedPost, ...]]:
     """Group what the same path leaves open, as it has one cause."""
     groups: dict[object, tuple[UnprovedPost, ...]] = {}
-    for one in findings_of(program, UnprovedPost):
+    for one in findings_of(proofs, UnprovedPost):
         key = (id(one.implementation), id(one.path), one.false, one.beyond)
         groups[key] = (*groups.get(key, ()), one)
     return iter(groups.values())

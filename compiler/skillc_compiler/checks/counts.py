@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from skillc_compiler.logic.intervals import Interval, interval_of, parameter_intervals
 from skillc_compiler.logic.rounds import MOST_ROUNDS
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
 from skillc_compiler.program.walk import all_nodes, all_values, nodes_in
 from skillc_dsl import syntax as s
@@ -17,6 +18,7 @@ from skillc_model.rewriting import constant_number
 
 NAMES = ("bad-count", "bad-time", "bad-number")
 NEEDS = Need.TEXT
+READS = Reads.DECLARATION
 MOST = 1e100
 """The largest quantity that is accepted; larger numbers only overflow."""
 LARGEST_INTEGER = 2**53 - 1

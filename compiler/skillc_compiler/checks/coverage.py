@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.logic.selection import types_overlap
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Program, Skill
 from skillc_compiler.program.types import Thing, describe_type, fits
 from skillc_compiler.program.walk import all_calls
@@ -14,6 +15,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("no-fitting-implementation",)
 NEEDS = Need.PROGRAM
+READS = Reads.PROGRAM
 SHOWN = 3
 
 

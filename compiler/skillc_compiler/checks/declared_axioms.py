@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -13,6 +14,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("impossible-class", "class-cycle", "impossible-relation")
 NEEDS = Need.TEXT
+READS = Reads.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Parameter, Program, Skill
 from skillc_compiler.program.types import UNKNOWN, Thing, describe_type, fits
 from skillc_dsl import syntax as s
@@ -14,6 +15,7 @@ from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 NAMES = ("not-a-device",)
 NEEDS = Need.NAMES
+READS = Reads.DECLARATION
 DEVICE = "http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#Device"
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.logic.conjunctions import TypedFact, facts_in
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement, TypedCondition
 from skillc_compiler.program.walk import all_nodes
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -13,6 +14,7 @@ from skillc_model.conditions import Condition
 
 NAMES = ("duplicate-condition",)
 NEEDS = Need.TYPES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -6,12 +6,14 @@ import re
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 
 NAMES = ("empty-file",)
 NEEDS = Need.TEXT
+READS = Reads.PROGRAM
 _NOTHING = re.compile(r"(?:\s|#[^\n]*+)*+")
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.python.targets import method_returns
@@ -14,6 +15,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("never-ends", "not-endless")
 NEEDS = Need.TYPES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, TypedCondition
 from skillc_compiler.program.walk import conditions_in
 from skillc_dsl.diagnostics import Diagnostic
@@ -15,6 +16,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unachievable-goal",)
 NEEDS = Need.PROGRAM
+READS = Reads.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill, TypedCondition
 from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_dsl.diagnostics import Diagnostic
@@ -13,6 +14,7 @@ from skillc_model.traversal import free_variables
 
 NAMES = ("unlinked-inference",)
 NEEDS = Need.DECLARATION
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
@@ -16,6 +17,7 @@ from skillc_model.conditions import Arithmetic, Compare
 
 NAMES = ("unlike-dimensions", "wrong-operands")
 NEEDS = Need.TEXT
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

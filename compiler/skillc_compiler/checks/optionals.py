@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import (
     Implementation,
     Parameter,
@@ -21,6 +22,7 @@ from skillc_model.conditions import And, Given, Not, Or, Variable
 
 NAMES = ("unset-optional",)
 NEEDS = Need.NAMES
+READS = Reads.DECLARATION
 Guards = frozenset[str]
 NONE: Guards = frozenset()
 

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import ParallelConflict
-from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("parallel-conflict",)
 NEEDS = Need.BODY
+READS = Reads.PROOFS
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for the first two conflicting calls of each pair of children."""
-    for one in findings_of(program, ParallelConflict):
+    for one in findings_of(proofs, ParallelConflict):
         first, second = one.first.written.skill, one.second.written.skill
         yield Diagnostic(
             "parallel-conflict",

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.logic.effects import effects_of
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -15,6 +16,7 @@ from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
 NEEDS = Need.TYPES
+READS = Reads.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

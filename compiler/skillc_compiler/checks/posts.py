@@ -8,6 +8,7 @@ from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assert, Assign, Compare, Effect, Expression, HasProperty, Holds, Literal, Retract
@@ -16,6 +17,7 @@ from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, 
 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")
 NEEDS = Need.NAMES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

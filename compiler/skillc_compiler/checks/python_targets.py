@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from skillc_compiler.checks.bad_targets import split_target
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation, Program
 from skillc_compiler.python.info import (
     BrokenModule,
@@ -27,6 +28,7 @@ from skillc_dsl.spelling import did_you_mean
 
 NAMES = ("missing-python", "wrong-python-parameters", "not-a-primitive")
 NEEDS = Need.BODY
+READS = Reads.PROGRAM
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "withdraw": 0, "approach": 0, "resume": 0, "release": 0}
 """The methods of a primitive that are called, with the number of arguments."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Parameter, Program, TypedExpression
 from skillc_compiler.program.types import INT, Measure, Type
 from skillc_compiler.program.walk import all_calls
@@ -16,6 +17,7 @@ from skillc_model.rewriting import constant_number
 
 NAMES = ("out-of-range", "empty-range")
 NEEDS = Need.NAMES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("recursion",)
 NEEDS = Need.BODY
+READS = Reads.PROGRAM
 Edges = Mapping[str, Sequence[tuple[str, Call]]]
 
 

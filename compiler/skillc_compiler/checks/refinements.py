@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import describe_type, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -12,6 +13,7 @@ from skillc_model.rewriting import constant_number
 
 NAMES = ("not-narrower",)
 NEEDS = Need.TYPES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

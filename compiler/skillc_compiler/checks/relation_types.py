@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.labels import label_declaration, label_values
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, TypedExpression
 from skillc_compiler.program.types import Thing, UnknownType, describe_type, fits
 from skillc_compiler.program.walk import all_conditions
@@ -15,6 +16,7 @@ from skillc_rdf.vocabulary.types import RelationTerm, local_name
 
 NAMES = ("relation-domain", "relation-range")
 NEEDS = Need.NAMES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

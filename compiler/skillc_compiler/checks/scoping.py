@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Call, Program, Skill
 from skillc_compiler.program.walk import all_nodes
 from skillc_dsl import syntax as s
@@ -12,6 +13,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("not-scoped",)
 NEEDS = Need.TYPES
+READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

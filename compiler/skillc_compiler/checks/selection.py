@@ -13,12 +13,14 @@ from skillc_compiler.logic.selection import (
     subsumes,
 )
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation, Program
 from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("ambiguous-selection", "never-selected")
 NEEDS = Need.BODY
+READS = Reads.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -7,19 +7,20 @@ from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UndeclaredEffect
 from skillc_compiler.analysis.paths import path_labels
-from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("undeclared-effect",)
 NEEDS = Need.BODY
+READS = Reads.PROOFS
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for each body with effects of calls that last beyond the skill and that no `post` declares."""
     groups: dict[str, list[UndeclaredEffect]] = defaultdict(list)
-    for one in findings_of(program, UndeclaredEffect):
+    for one in findings_of(proofs, UndeclaredEffect):
         groups[one.implementation.key].append(one)
     for one, *others in groups.values():
         skill = one.implementation.skill

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("no-implementation",)
 NEEDS = Need.PROGRAM
+READS = Reads.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

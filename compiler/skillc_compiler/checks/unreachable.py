@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UnreachableNode
-from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("unreachable-node",)
 NEEDS = Need.BODY
+READS = Reads.PROOFS
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for the first of consecutive nodes that never start."""
-    for one in findings_of(program, UnreachableNode):
+    for one in findings_of(proofs, UnreachableNode):
         yield Diagnostic(
             "unreachable-node",
             one.node.written.span,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
@@ -13,6 +14,7 @@ from skillc_rdf.vocabulary.closure import reachable
 
 NAMES = ("unreachable-skill",)
 NEEDS = Need.PROGRAM
+READS = Reads.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

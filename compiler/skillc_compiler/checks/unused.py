@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import (
     Implementation,
     ParsedFile,
@@ -31,6 +32,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter")
 NEEDS = Need.BODY
+READS = Reads.PROGRAM
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

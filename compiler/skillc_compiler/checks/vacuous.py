@@ -8,6 +8,7 @@ from skillc_compiler.logic.bounds import Bound, are_disjoint, compare_constants,
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import facts_in
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
 from skillc_compiler.program.types import Thing, describe_type
 from skillc_compiler.program.walk import conditions_in, nodes_in
@@ -17,6 +18,7 @@ from skillc_model.rewriting import constant_number, fold
 
 NAMES = ("always-true", "always-false")
 NEEDS = Need.TYPES
+READS = Reads.DECLARATION
 _Parameters = Mapping[str, Parameter]
 
 

@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression
 from skillc_compiler.program.types import (
     INT,
@@ -36,6 +37,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("wrong-type", "wrong-dimension", "missing-unit")
 NEEDS = Need.NAMES
+READS = Reads.DECLARATION
 _QUANTITY = re.compile(r"\s*(-?\d+(?:\.\d+)?)\s*([A-Za-z/0-9]*)\s*$")
 
 

@@ -6,18 +6,19 @@ from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UndecidedProperty, ViolatedProperty
 from skillc_compiler.analysis.paths import path_labels
-from skillc_compiler.analysis.proof import findings_of
+from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("verify-violated", "verify-undecided")
 NEEDS = Need.BODY
+READS = Reads.PROOFS
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for each property that some execution violates, or that is undecided."""
-    for one in findings_of(program, ViolatedProperty):
+    for one in findings_of(proofs, ViolatedProperty):
         yield Diagnostic(
             "verify-violated",
             one.property.span,
@@ -25,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             help="change the body so that this way cannot be taken, or the property",
             labels=path_labels(one.path),
         )
-    for two in findings_of(program, UndecidedProperty):
+    for two in findings_of(proofs, UndecidedProperty):
         yield Diagnostic(
             "verify-undecided",
             two.property.span,

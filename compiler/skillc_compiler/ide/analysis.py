@@ -8,7 +8,7 @@ from functools import cached_property
 
 from skillc_compiler.ide.index import Index, build_index
 from skillc_compiler.ide.visible import VisibleNames, find_visible
-from skillc_compiler.pipeline import NO_SCENES, find_problems, lower_and_report
+from skillc_compiler.pipeline import NO_SCENES, AnalysisMemo, find_problems, lower_and_report
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.types import Type
 from skillc_compiler.program.walk import all_values
@@ -16,6 +16,7 @@ from skillc_compiler.resolve.files import NO_NAMESPACES, Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_model.skills import SkillLibrary
@@ -46,6 +47,7 @@ class Analysis:
     files: Outcome[tuple[ParsedFile, ...]]
     resolved: Outcome[Program]
     parsed_by: Parser = parse
+    memo: AnalysisMemo | None = None
 
     @property
     def program(self) -> Program:
@@ -55,8 +57,9 @@ class Analysis:
     @cached_property
     def compiled(self) -> Outcome[SkillLibrary]:
         """The compiled library with all diagnostics, as from the compiler; by far the slowest property."""
-        checked = Outcome(self.program, find_problems(self.files, self.resolved))
-        return lower_and_report(checked, _ordered(self.library))
+        with gc_disabled():
+            checked = Outcome(self.program, find_problems(self.files, self.resolved, self.memo))
+            return lower_and_report(checked, _ordered(self.library))
 
     @property
     def problems(self) -> tuple[Diagnostic, ...]:
@@ -97,11 +100,16 @@ class Analysis:
         return " ".join(line.strip() for line in lines)
 
 
-def analyse(library: Library, parsed_by: Parser = parse) -> Analysis:
-    """Parse and resolve a library; `parsed_by` is the parser, which may cache its results."""
-    files = read_sources(_ordered(library), library.importable, library.name, parsed_by, library.namespaces)
-    program = resolve_program(files.value, library.vocabulary, library.name, library.scenes)
-    return Analysis(library, files, program, parsed_by)
+def analyse(library: Library, parsed_by: Parser = parse, memo: AnalysisMemo | None = None) -> Analysis:
+    """Parse and resolve a library; `parsed_by` is the parser, which may cache its results.
+
+    `memo` has the analysis before, of which everything is reused that has not changed.
+    """
+    with gc_disabled():
+        files = read_sources(_ordered(library), library.importable, library.name, parsed_by, library.namespaces)
+        known = memo.resolve if memo else None
+        program = resolve_program(files.value, library.vocabulary, library.name, library.scenes, known)
+    return Analysis(library, files, program, parsed_by, memo)
 
 
 def _ordered(library: Library) -> tuple[Source, ...]:

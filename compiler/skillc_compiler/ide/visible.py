@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.resolve.declarations import (
     Bare,
     FileDeclarations,
+    bare_names_in,
     collect_declarations,
     merge_imported,
     prefixes_in,
-    used_vocabularies,
 )
-from skillc_compiler.resolve.names import Kind, bare_terms
+from skillc_compiler.resolve.names import Kind
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
@@ -56,16 +57,20 @@ class VisibleNames:
 
 def find_visible(program: Program, base: Vocabulary) -> dict[str, VisibleNames]:
     """Return the visible names of each file by path; `base` is the vocabulary without the program's own terms."""
-    declared = collect_declarations(program.files, base)
-    return {unit.file.path: _visible(unit, declared, program.vocabulary, base) for unit in program.files}
+    bare = bare_names_in(program.files, base, Memo())
+    declared = collect_declarations(program.files, base, bare)
+    return {
+        unit.file.path: _visible(unit, declared, bare[unit.file.path], program.vocabulary, base)
+        for unit in program.files
+    }
 
 
 def _visible(
-    unit: ParsedFile, declared: Mapping[str, FileDeclarations], whole: Vocabulary, base: Vocabulary
+    unit: ParsedFile, declared: Mapping[str, FileDeclarations], bare: Bare, whole: Vocabulary, base: Vocabulary
 ) -> VisibleNames:
     here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports if path in declared)]
     return VisibleNames(
-        bare=merge_imported(bare_terms(base, used_vocabularies(unit.file, base)), here),
+        bare=merge_imported(bare, here),
         prefixes=prefixes_in(unit.file, base),
         functions=frozenset(name for there in here for name in there.functions),
         skills=frozenset(name for there in here for name in there.skills),

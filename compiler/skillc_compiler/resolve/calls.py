@@ -17,7 +17,7 @@ def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tu
     name = context.names.look_up_skill(written.skill)
     skill = context.skills.get(name) if name else None
     implementation = _implementation(context, written, skill)
-    known = context.implementations.get(skill.name, ()) if skill else ()
+    known = context.implementations.get(skill.name) or () if skill else ()
     is_known = implementation is None or implementation in known
     arguments = tuple(_arguments(context, scope, written, skill if is_known else None))
     typed = Call(skill, implementation, arguments, written.out, written)
@@ -87,7 +87,7 @@ def _implementation(context: FileContext, written: s.CallSkill, skill: Skill | N
     name = written.implementation
     if name is None or skill is None:
         return None
-    known = context.implementations.get(skill.name, ())
+    known = context.implementations.get(skill.name) or ()
     if name.text not in known:
         message = f"the skill `{skill.name}` has no implementation `{name.text}`"
         context.report_unknown("unknown-implementation", name, message, known, owner=skill.name)

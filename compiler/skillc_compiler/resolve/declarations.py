@@ -6,8 +6,10 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TypeAlias
 
+from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_compiler.resolve.spelling import suggest_fix
@@ -48,14 +50,15 @@ def library_prefix(library: str, namespace: str, taken: Mapping[str, str]) -> st
     return name if taken.get(name, namespace) == namespace else f"{name}_library"
 
 
-def collect_declarations(files: Sequence[ParsedFile], vocabulary: Vocabulary) -> dict[str, FileDeclarations]:
-    """Return the declarations of each file, by path.
+def collect_declarations(
+    files: Sequence[ParsedFile], vocabulary: Vocabulary, bare: Mapping[str, Bare]
+) -> dict[str, FileDeclarations]:
+    """Return the declarations of each file, by path; `bare` are the terms of the vocabulary that bare names denote.
 
     A term whose bare name is visible where it is declared is that term, with additions; otherwise it is new. A
     qualified name determines the term; if its prefix is unknown, it counts as a bare name.
     """
     found: dict[str, FileDeclarations] = {}
-    bare = bare_names_in(files, vocabulary)
     for unit in files:
         found[unit.file.path] = _declarations_in(unit, bare[unit.file.path], found, vocabulary)
     return found
@@ -66,11 +69,13 @@ def prefixes_in(file: s.File, vocabulary: Vocabulary) -> dict[str, str]:
     return {**vocabulary.prefixes, **{line.name.text: line.iri for line in file.header if isinstance(line, s.Prefix)}}
 
 
-def bare_names_in(files: Sequence[ParsedFile], vocabulary: Vocabulary) -> dict[str, Bare]:
+def bare_names_in(files: Sequence[ParsedFile], vocabulary: Vocabulary, memo: Memo[Bare]) -> dict[str, Bare]:
     """Return, by path, the terms that bare names denote; files that use the same vocabularies share them."""
     uses = {unit.file.path: used_vocabularies(unit.file, vocabulary) for unit in files}
-    terms = {prefixes: bare_terms(vocabulary, prefixes) for prefixes in set(uses.values())}
-    return {path: terms[prefixes] for path, prefixes in uses.items()}
+    return {
+        path: memo.recall((vocabulary,), partial(bare_terms, vocabulary, prefixes), name=prefixes)
+        for path, prefixes in uses.items()
+    }
 
 
 def used_vocabularies(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
@@ -86,14 +91,16 @@ def used_vocabularies(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
 
 def merge_imported(bare: Bare, imported: Iterable[FileDeclarations]) -> Bare:
     """Return the terms that bare names denote when those of other files are added."""
-    merged: dict[Kind, dict[str, set[str]]] = {kind: defaultdict(set) for kind in KINDS}
-    for kind in KINDS:
-        for name, iris in bare[kind].items():
-            merged[kind][name].update(iris)
-        for declared in imported:
-            for name, iri in declared.terms[kind].items():
-                merged[kind][name].add(iri)
-    return {kind: {name: tuple(sorted(iris)) for name, iris in merged[kind].items()} for kind in KINDS}
+    added = [declared.terms for declared in imported if any(declared.terms.values())]
+    return {kind: _merge(bare[kind], [terms[kind] for terms in added]) for kind in KINDS} if added else bare
+
+
+def _merge(bare: Mapping[str, tuple[str, ...]], added: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, ...]]:
+    new: dict[str, set[str]] = defaultdict(set)
+    for terms in added:
+        for name, iri in terms.items():
+            new[name].add(iri)
+    return {**bare, **{name: tuple(sorted({*bare.get(name, ()), *iris})) for name, iris in new.items()}}
 
 
 def _declarations_in(

@@ -205,5 +205,5 @@ def bare_terms(vocabulary: Vocabulary, used: Iterable[str]) -> dict[Kind, dict[s
         targets = {**{iri: iri for iri in table}, **{a: t for a, t in vocabulary.aliases.items() if t in table}}
         for iri, target in sorted(targets.items()):
             if bases and iri.startswith(bases) and target not in found[kind].get(local_name(iri), ()):
-                found[kind][local_name(iri)] = (*found[kind].get(local_name(iri), ()), target)
+                found[kind][local_name(iri)] = tuple(sorted((*found[kind].get(local_name(iri), ()), target)))
     return found

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost
 from skillc_compiler.resolve.declarations import (
+    Bare,
     FileDeclarations,
     bare_names_in,
     collect_declarations,
@@ -16,7 +18,8 @@ from skillc_compiler.resolve.declarations import (
 )
 from skillc_compiler.resolve.duplicates import find_twice, remove_duplicates
 from skillc_compiler.resolve.implementations import resolve_implementation
-from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
+from skillc_compiler.resolve.individuals import Individuals
+from skillc_compiler.resolve.memo import NOTHING, Found, ResolveMemo, Resolver
 from skillc_compiler.resolve.names import KINDS, Kind, Names
 from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import resolve_skill
@@ -30,38 +33,94 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 
 def resolve_program(
-    read: Sequence[ParsedFile], base: Vocabulary, name: str, scenes: Mapping[str, Individuals]
+    read: Sequence[ParsedFile],
+    base: Vocabulary,
+    name: str,
+    scenes: Mapping[str, Individuals],
+    memo: ResolveMemo | None = None,
 ) -> Outcome[Program]:
     """Return the program of the files; unresolved names are reported and left unknown.
 
-    `scenes` holds the individuals that tasks may name, by task.
+    `scenes` holds the individuals that tasks may name, by task. `memo` has the declarations of the analysis before,
+    whose meanings are reused if nothing has changed that was read for them.
     """
-    declared = collect_declarations(read, base)
+    memo = memo or ResolveMemo()
+    memo.begin()
+    read = memo.keep_declarations(read)
+    bare = bare_names_in(read, base, memo.bare)
+    declared = collect_declarations(read, base, bare)
     repeats = remove_duplicates(read, declared)
     files = repeats.value
     lost = replace(_find_lost(read, base), twice=find_twice(read))
-    names = _names(files, declared, base)
-    vocabulary = extend_vocabulary(base, files, declared, names)
-    for visible_names in names.values():
-        visible_names.vocabulary = vocabulary
-    _make_functions_visible(files, declared, names, vocabulary)
-    settings = {path: FileContext(visible_names, vocabulary) for path, visible_names in names.items()}
-    skills = _skills(files, settings)
+    names = _names(files, declared, bare, base, memo)
+    vocabulary, of_terms = _terms(files, declared, names, base, memo)
+    resolver = Resolver(memo, {path: [found] for path, found in of_terms.items()})
+    contexts = _contexts(files, declared, names, vocabulary, memo)
+    skills = _skills(files, contexts, resolver)
     by_skill = _implementation_names(files)
-    settings = {path: replace(st, skills=skills, implementations=by_skill) for path, st in settings.items()}
+    contexts = {path: replace(each, skills=skills, implementations=by_skill) for path, each in contexts.items()}
     program = Program(
         name=name,
         vocabulary=vocabulary,
         files=files,
         skills=skills,
-        implementations=tuple(_implementations(files, settings)),
-        tasks=tuple(_tasks(files, settings, scenes)),
-        used={path: frozenset(visible_names.used) for path, visible_names in names.items()},
-        unknown=tuple(unknown for path in names for unknown in names[path].unknown),
+        implementations=tuple(_implementations(files, contexts, skills, resolver)),
+        tasks=tuple(_tasks(files, contexts, scenes, resolver)),
+        used={path: frozenset().union(*(each.used for each in found)) for path, found in resolver.found.items()},
+        unknown=tuple(name for found in resolver.found.values() for each in found for name in each.unknown),
         lost=lost,
     )
-    problems = (problem for path in names for problem in names[path].problems)
+    problems = (problem for found in resolver.found.values() for each in found for problem in each.problems)
     return Outcome(program, (*_headers(files, base), *repeats.diagnostics, *problems))
+
+
+def _terms(
+    files: Sequence[ParsedFile],
+    declared: Mapping[str, FileDeclarations],
+    names: Mapping[str, Names],
+    base: Vocabulary,
+    memo: ResolveMemo,
+) -> tuple[Vocabulary, Mapping[str, Found]]:
+    """Return the vocabulary with the terms that the files declare, and what was found in each file on the way."""
+    written = tuple((unit, names[unit.file.path]) for unit in map(_without_skills, files) if _changes_terms(unit.file))
+    inputs = memo.declared_terms.same("terms", (base, written))
+
+    def extend() -> tuple[Vocabulary, Mapping[str, Found]]:
+        own = {path: replace(each, problems=[], unknown=[], used=set()) for path, each in names.items()}
+        vocabulary = extend_vocabulary(base, files, declared, own)
+        return vocabulary, {path: Found.of(each) for path, each in own.items()}
+
+    vocabulary, found = memo.terms.recall((inputs,), extend)
+    return memo.vocabulary.same("", vocabulary), {path: found.get(path, NOTHING) for path in names}
+
+
+def _without_skills(unit: ParsedFile) -> ParsedFile:
+    """Return what of a file the vocabulary depends on."""
+    kinds = s.SkillDeclaration | s.ImplementationDeclaration | s.TaskDeclaration
+    terms = tuple(each for each in unit.file.declarations if not isinstance(each, kinds))
+    return replace(unit, file=s.File(unit.file.path, unit.file.header, terms), text="")
+
+
+def _changes_terms(file: s.File) -> bool:
+    return bool(file.declarations) or any(isinstance(line, s.Prefix) for line in file.header)
+
+
+def _contexts(
+    files: Sequence[ParsedFile],
+    declared: Mapping[str, FileDeclarations],
+    names: Mapping[str, Names],
+    vocabulary: Vocabulary,
+    memo: ResolveMemo,
+) -> dict[str, FileContext]:
+    """Return the context of each file, in which its own functions and those of its imports are visible."""
+    found = {}
+    for unit in files:
+        here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
+        own = sorted({name for there in here for name in there.functions})
+        functions = {name: vocabulary.functions[name] for name in own}
+        visible = replace(names[unit.file.path], vocabulary=vocabulary, functions=functions)
+        found[unit.file.path] = FileContext(memo.names.same(unit.file.path, visible), vocabulary)
+    return found
 
 
 def _find_lost(files: Sequence[ParsedFile], base: Vocabulary) -> LostNames:
@@ -79,10 +138,16 @@ def _lacks_a_file(unit: ParsedFile, base: Vocabulary) -> bool:
     )
 
 
-def _names(files: Sequence[ParsedFile], declared: Mapping[str, FileDeclarations], base: Vocabulary) -> dict[str, Names]:
-    known = _known(declared, base)
+def _names(
+    files: Sequence[ParsedFile],
+    declared: Mapping[str, FileDeclarations],
+    bare: Mapping[str, Bare],
+    base: Vocabulary,
+    memo: ResolveMemo,
+) -> dict[str, Names]:
+    known = memo.known.same("", _known(declared, base))
     homes = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
-    bare, found = bare_names_in(files, base), {}
+    found = {}
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
         visible_here = {name for there in here for name in there.names()}
@@ -110,24 +175,13 @@ def _known(declared: Mapping[str, FileDeclarations], base: Vocabulary) -> dict[K
     return known
 
 
-def _make_functions_visible(
-    files: Sequence[ParsedFile],
-    declared: Mapping[str, FileDeclarations],
-    names: Mapping[str, Names],
-    vocabulary: Vocabulary,
-) -> None:
-    for unit in files:
-        here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
-        own = {name for there in here for name in there.functions}
-        names[unit.file.path].functions = {name: vocabulary.functions[name] for name in sorted(own)}
-
-
-def _skills(files: Sequence[ParsedFile], settings: Mapping[str, FileContext]) -> dict[str, Skill]:
+def _skills(files: Sequence[ParsedFile], contexts: Mapping[str, FileContext], resolver: Resolver) -> dict[str, Skill]:
     found: dict[str, Skill] = {}
     for unit in files:
-        for declaration in unit.file.declarations:
-            if isinstance(declaration, s.SkillDeclaration):
-                found[declaration.name.text] = resolve_skill(settings[unit.file.path], declaration)
+        context = contexts[unit.file.path]
+        for each in unit.file.declarations:
+            if isinstance(each, s.SkillDeclaration):
+                found[each.name.text] = resolver.resolve(context, (each,), partial(resolve_skill, written=each))
     return found
 
 
@@ -140,28 +194,36 @@ def _implementation_names(files: Sequence[ParsedFile]) -> dict[str, list[str]]:
     return found
 
 
-def _implementations(files: Sequence[ParsedFile], settings: Mapping[str, FileContext]) -> Iterator[Implementation]:
+def _implementations(
+    files: Sequence[ParsedFile], contexts: Mapping[str, FileContext], skills: Mapping[str, Skill], resolver: Resolver
+) -> Iterator[Implementation]:
     for unit in files:
-        context, lines = settings[unit.file.path], unit.text.split("\n")
-        for declaration in unit.file.declarations:
-            if not isinstance(declaration, s.ImplementationDeclaration):
+        context, lines = contexts[unit.file.path], unit.text.split("\n")
+        for each in unit.file.declarations:
+            if not isinstance(each, s.ImplementationDeclaration):
                 continue
-            of = context.names.look_up_skill(declaration.skill)
+            of = resolver.look_up_skill(context, each.skill)
             if of is not None:
-                yield resolve_implementation(context, declaration, context.skills[of], lines)
+                skill = skills[of]
+                resolve = partial(resolve_implementation, written=each, skill=skill, lines=lines)
+                yield resolver.resolve(context, (each, skill), resolve)
 
 
 def _tasks(
-    files: Sequence[ParsedFile], settings: Mapping[str, FileContext], scenes: Mapping[str, Individuals]
+    files: Sequence[ParsedFile],
+    contexts: Mapping[str, FileContext],
+    scenes: Mapping[str, Individuals],
+    resolver: Resolver,
 ) -> Iterator[Task]:
     for unit in files:
-        context = settings[unit.file.path]
-        for declaration in unit.file.declarations:
-            if not isinstance(declaration, s.TaskDeclaration):
+        context = contexts[unit.file.path]
+        for each in unit.file.declarations:
+            if not isinstance(each, s.TaskDeclaration):
                 continue
-            there = scenes.get(declaration.name.text)
-            known = None if there is None else most_specific_classes(context.vocabulary, there)
-            yield resolve_task(replace(context, individuals=known), declaration)
+            there = scenes.get(each.name.text)
+            known = None if there is None else resolver.individuals(each.name.text, context, there)
+            within = replace(context, individuals=known)
+            yield resolver.resolve(within, (each, known), partial(resolve_task, written=each))
 
 
 def _headers(files: Sequence[ParsedFile], base: Vocabulary) -> Iterator[Diagnostic]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
+from skillc_compiler.program.memo import NameTable
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.program.unknown import UnknownName
@@ -53,8 +54,8 @@ class FileContext:
 
     names: Names
     vocabulary: Vocabulary
-    skills: Mapping[str, Skill] = field(default_factory=dict)
-    implementations: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    skills: NameTable[Skill] = field(default_factory=dict)
+    implementations: NameTable[Sequence[str]] = field(default_factory=dict)
     individuals: Mapping[str, str | None] | None = None
 
     def report(self, name: str, span: Span, message: str, help: str = "", *labels: Label) -> None:

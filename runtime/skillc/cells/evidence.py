@@ -51,6 +51,12 @@ class EvidenceKeeper:
         self._journal.set_state(MERGED, msgspec.msgpack.encode(saved))
 
 
+def keep_as_given(journal: CellJournal, sequence: int, origin: str) -> None:
+    """Record that all facts after the write `sequence` were given by a person, whatever was known before."""
+    nothing = encode_changes(())
+    journal.set_state(MERGED, msgspec.msgpack.encode(MergedWrites(sequence, None, origin, nothing, nothing)))
+
+
 def read_merged(reader: JournalReader) -> MergedWrites | None:
     """Return the merged writes that were saved last; None if none were. DatabaseError if they cannot be read."""
     saved = reader.state(MERGED)

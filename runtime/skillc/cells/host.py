@@ -17,6 +17,7 @@ from skillc.cells.editing import edit_world
 from skillc.cells.evidence import EvidenceKeeper
 from skillc.cells.geometry_reader import GeometryReader
 from skillc.cells.interrupted import end_interrupted
+from skillc.cells.journal.fingerprint import make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.library import decode_library, load_library
@@ -32,7 +33,7 @@ from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import RequestError
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
-from skillc.services.stores import StoreChoice, open_chosen_store, read_or_fill
+from skillc.services.stores import StoreChoice, read_or_fill
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.disturbances import Disturbance, DisturbanceRefused
 from skillc_runtime.execution.assignment import Assignment
@@ -51,6 +52,7 @@ from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.store.disk import DiskStore
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.names import NoSuchName
 from skillc_runtime.world.state.world_state import WorldState
@@ -284,13 +286,14 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
     folder = Path(settings.folder)
     folder.mkdir(parents=True, exist_ok=True)
     choice = StoreChoice(str(folder / WORLD))
-    with closing(open_chosen_store(choice, str(folder / WORLD), scene)) as store:
-        state, sequence = read_or_fill(store, choice, scene, library.vocabulary, reporter)
+    with closing(DiskStore(folder / WORLD, owner=f"the cell {settings.name}")) as store:
+        state, _ = read_or_fill(store, choice, scene, library.vocabulary, reporter)
+        found = make_fingerprint(store.read())
         with (
             closing(CellJournal(settings.journal, store)) as journal,
             closing(JournalReader(settings.journal)) as reader,
         ):
-            world = restore_world(store, state, sequence, journal, reader)
+            world = restore_world(store, state, found, journal, reader)
             end_interrupted(settings.name, reader, journal)
             host = CellHost(settings, library, world, journal, reader, scene, reporter)
             try:

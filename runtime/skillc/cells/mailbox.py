@@ -10,6 +10,7 @@ from threading import Condition, Thread
 
 from skillc.cells.frames import FrameReader, InvalidFrame, send_frame
 from skillc.cells.messages import Alive, CellAnswer, CellRequest, Happened, Refused, Report, StatusChanged, StopRequest
+from skillc.cells.tick_intervals import TickIntervals
 
 MAX_WAITING = 1000
 """How many requests may wait; those beyond are refused at once."""
@@ -21,11 +22,11 @@ class Outbox:
     """Reports that a thread sends. Of those about one operation, and about the cell, only the last one waits.
 
     So no slow reader fills it: answers are at most as many as the requests that may wait. `rounds` is how often the
-    loop has gone round.
+    loop has gone round, `intervals` how far apart its ticks were.
     """
 
     def __init__(self, connection: socket.socket) -> None:
-        self.rounds = 0
+        self.rounds, self.intervals = 0, TickIntervals()
         self._connection = connection
         self._news = Condition()
         self._answers = deque[Report]()
@@ -72,8 +73,11 @@ class Outbox:
             self._answers.clear()
             if not self._closing and time.monotonic() - self._alive_at >= ALIVE_S:
                 self._alive_at = time.monotonic()
-                reports.append(Alive(rounds=self.rounds))
+                reports.append(self._describe_progress())
             return None if self._closing and not reports else reports
+
+    def _describe_progress(self) -> Alive:
+        return Alive(rounds=self.rounds, intervals=self.intervals.counts, intervals_s=self.intervals.sum_s)
 
 
 class Inbox:

@@ -145,9 +145,14 @@ class StatusChanged(_Message, tag="status", frozen=True, kw_only=True):
 
 
 class Alive(_Message, tag="alive", frozen=True, kw_only=True):
-    """The loop of the cell has gone round `rounds` times; it stands still if that stays the same."""
+    """The loop of the cell has gone round `rounds` times; it stands still if that stays the same.
+
+    `intervals` are the counts of `TickIntervals` since the process was started, `intervals_s` their sum in s.
+    """
 
     rounds: int
+    intervals: tuple[int, ...] = ()
+    intervals_s: float = 0.0
 
 
 class StartFailed(_Message, tag="not-started", frozen=True, kw_only=True):

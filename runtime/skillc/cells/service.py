@@ -120,11 +120,17 @@ class CellService:
 
     def _tick(self) -> bool:
         """Tick if a tick is due, else only take requests; return whether anything goes on."""
-        loop = self._host.loop
-        if loop.runs and self._find_remaining() <= 0.0:
-            return self._host.tick()
-        self._host.obey()
-        return bool(loop.runs)
+        loop, intervals = self._host.loop, self._outbox.intervals
+        if not loop.runs or self._find_remaining() > 0.0:
+            self._host.obey()
+            if not loop.runs:
+                intervals.pause()
+            return bool(loop.runs)
+        intervals.begin_tick()
+        moved = self._host.tick()
+        if not moved:
+            intervals.pause()
+        return moved
 
     def _take(self, request: CellRequest) -> None:
         """Do what is requested, as far as that is possible before the next tick."""

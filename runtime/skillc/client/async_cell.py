@@ -314,7 +314,7 @@ class AsyncCell:
 
     async def stop(self, reason: str = "stopped") -> CellStatus:
         """Stop all its operations."""
-        return await self._connection.send("POST", self._path("stop"), CellStatus, StopAll(reason))
+        return await self._connection.send("POST", self._path("stop"), CellStatus, StopAll(reason), repeatable=True)
 
     async def lease(self) -> Lease:
         """Return who alone may command it now."""

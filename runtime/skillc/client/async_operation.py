@@ -135,7 +135,7 @@ class AsyncOperation:
     async def stop(self, reason: str = "stopped") -> None:
         """Halt everything; it ends when everything is at rest. One that has ended stays as it is."""
         path = join("operations", self.id, "stop")
-        self.status = await self._connection.send("POST", path, OperationStatus, StopReason(reason))
+        self.status = await self._connection.send("POST", path, OperationStatus, StopReason(reason), repeatable=True)
 
     async def retry(self) -> None:
         """After a failure: run the failed step again."""

@@ -54,8 +54,11 @@ class Connection:
         body: object = None,
         query: dict[str, object] | None = None,
         key: str | None = None,
+        repeatable: bool = False,
     ) -> T:
         """Make a request and return the answer. `key` makes the same request twice one.
+
+        One that is `repeatable`, as those that read or have a key are, is made again if its connection is cut.
 
         RefusedError if the server refuses it, UnavailableError if it does not answer, or the cell is off.
         """
@@ -64,15 +67,23 @@ class Connection:
             headers["Idempotency-Key"] = key
         content = None if body is None else msgspec.json.encode(body)
         parameters = {name: str(value) for name, value in (query or {}).items() if value is not None}
+        url = self.address.url + path
         try:
-            answer = await self._client.request(
-                method, self.address.url + path, content=content, params=parameters, headers=headers
-            )
+            request = self._client.build_request(method, url, content=content, params=parameters, headers=headers)
+            answer = await self._send(request, repeatable or method == "GET" or key is not None)
         except (httpx.HTTPError, httpx.InvalidURL) as error:
             raise UnavailableError(describe_loss(self.address, error)) from error
         if not answer.is_success:
             raise _find_error(answer, self.address)
         return decode(answer.content or b"null", kind)
+
+    async def _send(self, request: httpx.Request, repeatable: bool) -> httpx.Response:
+        try:
+            return await self._client.send(request)
+        except (httpx.NetworkError, httpx.RemoteProtocolError):
+            if not repeatable:
+                raise
+        return await self._client.send(request)
 
     async def download(self, path: str, file: Path) -> None:
         """Write a resource to a file, completely or not at all; errors as of `send`, ServiceError if not possible."""

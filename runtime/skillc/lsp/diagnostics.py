@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from pathlib import Path
 
 from lsprotocol import types
@@ -10,7 +11,7 @@ from pygls.uris import from_fs_path
 
 from skillc.lsp import scenes
 from skillc.lsp.files import Root
-from skillc.lsp.libraries import Libraries, parse
+from skillc.lsp.libraries import Libraries
 from skillc.lsp.positions import PositionConverter
 from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
@@ -20,13 +21,12 @@ _SEVERITY = {"error": types.DiagnosticSeverity.Error, "warning": types.Diagnosti
 
 
 def diagnostics_by_uri(
-    libraries: Libraries, root: Root, analysis: Analysis, encoding: str
+    libraries: Libraries, root: Root, analysis: Analysis, around: Sequence[Diagnostic], encoding: str
 ) -> dict[str, list[types.Diagnostic]]:
-    """Return the diagnostics of each file of a library (perhaps none), and of its vocabularies and scenes, by URI."""
+    """Return the diagnostics of each file of a library (perhaps none), and those `around` it, by URI."""
     found: dict[str, list[types.Diagnostic]] = defaultdict(list)
     for path in analysis.library.sources:
         found[libraries.uri(root, path)] = []
-    around = libraries.problems_around(root)
     lines = PositionConverter({**analysis.texts, **scenes.read_scene_texts(around, libraries.buffers)}, encoding)
     for problem in (*analysis.problems, *around):
         found[libraries.uri(root, problem.span.path)].append(convert_diagnostic(libraries, root, lines, problem))
@@ -37,7 +37,7 @@ def diagnostics_after_failure(
     libraries: Libraries, root: Root, message: str, encoding: str
 ) -> dict[str, list[types.Diagnostic]]:
     """Return the syntax errors of a library's files, and `message` of an internal error in the open ones, by URI."""
-    texts = libraries.texts(root)
+    texts, parse = libraries.texts(root), libraries.parser(root)
     lines = PositionConverter({path: source.text for path, source in texts.items()}, encoding)
     start = types.Range(types.Position(0, 0), types.Position(0, 1))
     failure = types.Diagnostic(start, message, types.DiagnosticSeverity.Error, "internal-error", source="skillc")

@@ -10,7 +10,7 @@ from pygls.exceptions import JsonRpcInvalidParams
 
 from skillc.lsp import diagnostics as problems
 from skillc.lsp.files import Root, is_rdf
-from skillc.lsp.libraries import FileView, parse
+from skillc.lsp.libraries import FileView
 from skillc.lsp.positions import PositionConverter
 from skillc.lsp.scenes import read_scene_texts
 from skillc.lsp.session import Session
@@ -74,7 +74,7 @@ def prepare_rename(session: Session, params: types.PrepareRenameParams) -> types
 def rename(session: Session, params: types.RenameParams) -> types.WorkspaceEdit:
     """Return the edits that rename the symbol; an error if it cannot be renamed."""
     at = session.at(params)
-    match renamed(at.view.analysis, at.view.path, at.line, at.column, params.new_name, parse):
+    match renamed(at.view.analysis, at.view.path, at.line, at.column, params.new_name, at.view.analysis.parsed_by):
         case NotRenamable(reason=reason):
             raise JsonRpcInvalidParams(reason)
         case renaming:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote, urlsplit
@@ -17,18 +16,15 @@ from skillc.lsp.scenes import SceneCache, find_problems
 from skillc.services.libraries import load_vocabulary_with
 from skillc.services.library_files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
+from skillc_compiler.pipeline import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
-from skillc_dsl.parsing import parser
+from skillc_dsl.parsing.reparse import ParseMemo
 from skillc_dsl.source import Source
 
 if TYPE_CHECKING:
     from skillc.services.task_scenes import TaskScenes
     from skillc_compiler.resolve.individuals import Individuals
-
-REMEMBERED_FILES = 1024
-
-parse = lru_cache(REMEMBERED_FILES)(parser.parse)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +44,8 @@ class Libraries:
     buffers: dict[Path, str] = field(default_factory=dict)
     _uris: dict[Path, str] = field(default_factory=dict)
     _analyses: dict[Root, Analysis] = field(default_factory=dict)
+    _parsers: dict[Root, ParseMemo] = field(default_factory=dict)
+    _memos: dict[Root, AnalysisMemo] = field(default_factory=dict)
     _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
     _vocabularies: dict[Root, tuple[Source, ...]] = field(default_factory=dict)
     _surroundings: dict[Root, Outcome[LibraryFiles]] = field(default_factory=dict)
@@ -129,6 +127,10 @@ class Libraries:
         """Return the texts of a library by path, without analysing them."""
         return self._sources.get(root) or files.read_sources(root, self.buffers)
 
+    def parser(self, root: Root) -> ParseMemo:
+        """Return the parser of a library's files, which knows their last texts."""
+        return self._parsers.setdefault(root, ParseMemo())
+
     def open_in(self, root: Root) -> frozenset[str]:
         """Return the URIs of the open files of a library."""
         return frozenset(self._uris[file] for file in self.buffers if self.root(file) == root)
@@ -165,11 +167,13 @@ class Libraries:
         around = self._around(root).value
         sources = dict(self._sources[root])
         library = Library(around.name, sources, around.importable, terms, before, around.namespaces)
-        found = analyse(library, parse)
+        memo = self._memos.setdefault(root, AnalysisMemo())
+        parse = self.parser(root)
+        found = analyse(library, parse, memo)
         scenes = self._scene_cache.read(found.program, library.vocabulary, around, root.folder, self.buffers)
         self._scenes[root] = scenes
         now = _individuals(scenes)
-        return found if now == before else analyse(replace(library, scenes=now), parse)
+        return found if now == before else analyse(replace(library, scenes=now), parse, memo)
 
 
 def _individuals(scenes: TaskScenes | None) -> Mapping[str, Individuals]:

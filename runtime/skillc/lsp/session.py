@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import traceback
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -18,10 +19,13 @@ from skillc.lsp.libraries import FileView, Libraries
 from skillc.lsp.positions import PositionConverter
 from skillc.services import crash_reports
 from skillc_compiler.ide.analysis import Analysis
+from skillc_dsl.diagnostics import Diagnostic
 
 log = logging.getLogger(__name__)
+SHORT_PAUSE_S = 0.01
+"""The diagnostics of texts are published when nothing has been typed for this time, in s."""
 PAUSE_S = 0.15
-"""Diagnostics are published when nothing has been typed for this time, in s."""
+"""Scenes, and the tasks in them, are checked when nothing has been typed for this time, in s."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,10 +40,15 @@ class At:
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """The analysis (None if it failed) that was published last, and the files that were published."""
+    """What was published last: the analysis (None if it failed), with what was found around it, and each file's list.
+
+    Not `whole` if what is around the texts was found for an earlier analysis.
+    """
 
     analysis: Analysis | None
-    uris: frozenset[str]
+    around: tuple[Diagnostic, ...]
+    by_uri: Mapping[str, list[types.Diagnostic]]
+    whole: bool
 
 
 class PositionParams(Protocol):
@@ -84,35 +93,44 @@ class Session:
         return At(view, lines, *lines.place(view.path, params.position))
 
     def schedule_publishing(self) -> None:
-        """Publish all diagnostics when nothing has been typed for PAUSE_S."""
+        """Publish all diagnostics once nothing is typed any more: those of texts first, as scenes take longer."""
+        self._wait(SHORT_PAUSE_S, self._publish_texts)
+
+    def _wait(self, pause_s: float, publish: Callable[[], None]) -> None:
         if self._waiting is not None:
             self._waiting.cancel()
-        self._waiting = asyncio.get_running_loop().call_later(PAUSE_S, self.publish)
+        self._waiting = asyncio.get_running_loop().call_later(pause_s, publish)
 
     def publish(self) -> None:
         """Publish the diagnostics of each library that has changed, and clear those of closed libraries."""
         roots = self.libraries.roots()
         for root in self._published.keys() - set(roots):
-            self._withdraw(self._published.pop(root).uris)
+            self._send_changes(self._published.pop(root).by_uri, {})
         for root in roots:
             self._publish(root)
 
-    def _publish(self, root: Root) -> None:
-        """Publish those of one library; after an internal error, its message and the syntax errors."""
+    def _publish_texts(self) -> None:
+        """Publish the diagnostics of the texts of known libraries; those of scenes stay as they are for a moment."""
+        for root in self.libraries.roots():
+            if root in self._published:
+                self._publish(root, self._published[root].around)
+        self._wait(PAUSE_S, self.publish)
+
+    def _publish(self, root: Root, around: tuple[Diagnostic, ...] | None = None) -> None:
+        """Publish those of one library, with those `around` it if given; after an internal error, syntax errors."""
         before = self._published.get(root)
-        analysis: Analysis | None
+        whole, analysis = around is None, None
         try:
             analysis = self.libraries.analysis(root)
-            if before is not None and before.analysis is analysis:
+            if before is not None and before.analysis is analysis and (before.whole or not whole):
                 return
-            by_uri = problems.diagnostics_by_uri(self.libraries, root, analysis, self.encoding)
+            found = self.libraries.problems_around(root) if around is None else around
+            by_uri = problems.diagnostics_by_uri(self.libraries, root, analysis, found, self.encoding)
         except Exception as error:  # noqa: BLE001 - the boundary of a task
-            analysis, message = None, self._report(error)
+            analysis, found, message = None, (), self._report(error)
             by_uri = problems.diagnostics_after_failure(self.libraries, root, message, self.encoding)
-        self._withdraw(before.uris - by_uri.keys() if before else frozenset())
-        for uri, found in by_uri.items():
-            self._send(uri, found)
-        self._published[root] = Published(analysis, frozenset(by_uri))
+        self._send_changes(before.by_uri if before else {}, by_uri)
+        self._published[root] = Published(analysis, found, by_uri, whole)
 
     def _report(self, error: Exception) -> str:
         """Log an internal error and return its message; the crash report of equal errors is written once."""
@@ -130,9 +148,13 @@ class Session:
         """Return the file of a URI."""
         return self.libraries.file(uri)
 
-    def _withdraw(self, uris: frozenset[str]) -> None:
-        for uri in uris:
-            self._send(uri, [])
+    def _send_changes(
+        self, before: Mapping[str, list[types.Diagnostic]], now: Mapping[str, list[types.Diagnostic]]
+    ) -> None:
+        """Send the lists that differ from those before; a file that is not in a library any more has an empty one."""
+        for uri in (*now, *(before.keys() - now.keys())):
+            if before.get(uri) != now.get(uri, []):
+                self._send(uri, now.get(uri, []))
 
     def _send(self, uri: str, found: list[types.Diagnostic]) -> None:
         self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, found))

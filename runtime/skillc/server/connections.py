@@ -10,7 +10,9 @@ import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 MAX_CONNECTIONS = 1000
-"""The number of connections without WebSocket; one more closes the one that has been idle for longest."""
+"""The number of connections without WebSocket; with more those are closed that have been idle for longest."""
+TRIM_S = 0.02
+"""After which time it is looked whether there are too many, in s: a request that has arrived is read before."""
 REQUEST_S = 10.0
 """How long the head of a request may take to arrive, in s."""
 
@@ -30,13 +32,13 @@ class BoundedConnection(H11Protocol):
         self._expiry: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Take a connection; close another one if there are too many."""
+        """Take a connection; soon others are closed if there are too many."""
         super().connection_made(transport)
         self.idle[self] = None
         self.counted.add(self)
         self._expect()
-        if len(self.counted) > MAX_CONNECTIONS and self.idle:
-            self.idle.popitem(last=False)[0].close()
+        if len(self.counted) > MAX_CONNECTIONS:
+            self.loop.call_later(TRIM_S, self._trim)
 
     def data_received(self, data: bytes) -> None:
         """Take what the client sends."""
@@ -55,8 +57,14 @@ class BoundedConnection(H11Protocol):
 
     def on_response_complete(self) -> None:
         """Wait for the next request."""
-        self.idle[self] = None
+        if self in self.counted:
+            self.idle[self] = None
         super().on_response_complete()
+
+    def eof_received(self) -> None:
+        """The client sends nothing more: the connection is about to be closed."""
+        self._forget()
+        super().eof_received()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """The connection is gone."""
@@ -68,6 +76,12 @@ class BoundedConnection(H11Protocol):
         self._forget()
         self.connections.discard(self)
         self.transport.abort()
+
+    @classmethod
+    def _trim(cls) -> None:
+        """Close those that have been idle for longest if there are too many."""
+        while len(cls.counted) > MAX_CONNECTIONS and cls.idle:
+            cls.idle.popitem(last=False)[0].close()
 
     def _forget(self) -> None:
         self.idle.pop(self, None)

@@ -1,9 +1,10 @@
-"""How the HTTP server ends: at the first signal it lets cells come to rest, at the second one it exits at once."""
+"""How the HTTP server takes connections, and ends: at a signal once cells are at rest, at a second one at once."""
 
 from __future__ import annotations
 
 import os
 import signal
+import socket
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,10 +18,20 @@ SHELL_OFFSET = 128
 """Shells give a process that was ended by a signal this exit code plus the signal's number."""
 
 
+WAITING = 2048
+"""How many connections wait in the system until they are taken; `backlog` of the settings are taken at once."""
+
+
 class EndingServer(uvicorn.Server):
     """Ends at SIGINT, SIGTERM and SIGHUP; `ended_by` is the name of the signal. Signals that are ignored stay so."""
 
     ended_by = ""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Listen; more connections may wait than are taken at once, between which requests are answered."""
+        await super().startup(sockets)
+        for each in sockets or ():
+            each.listen(WAITING)
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:

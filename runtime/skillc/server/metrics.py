@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from itertools import accumulate
 from typing import get_args
 
 from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, Histogram, generate_latest
-from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, HistogramMetricFamily, Metric
 from prometheus_client.registry import Collector
 
 from skillc.cells.operation import CellState
+from skillc.cells.tick_intervals import BOUNDS_S
 from skillc.server.supervisor import CellSupervisor
 
 MEDIA_TYPE = CONTENT_TYPE_LATEST.partition(";")[0]
@@ -48,7 +50,14 @@ class _Collector(Collector):
         self._cells, self._count_listeners = cells, count_listeners
 
     def collect(self) -> Iterator[Metric]:
-        """Return the metrics of cells."""
+        """Return the metrics of cells and clients."""
+        yield from self._collect_states()
+        yield self._collect_intervals()
+        listeners = GaugeMetricFamily("skillc_listeners", "Clients that listen to events")
+        listeners.add_metric((), self._count_listeners())
+        yield listeners
+
+    def _collect_states(self) -> Iterator[Metric]:
         states = GaugeMetricFamily("skillc_cell_state", "1 for the state of a cell", labels=("cell", "state"))
         going = GaugeMetricFamily("skillc_operations", "Operations that have not ended", labels=("cell", "state"))
         ended = CounterMetricFamily("skillc_operations_ended", "Operations that ended", labels=("cell", "state"))
@@ -63,6 +72,12 @@ class _Collector(Collector):
                 ended.add_metric((name, state), count)
             starts.add_metric((name,), cell.starts)
         yield from (states, going, ended, starts)
-        listeners = GaugeMetricFamily("skillc_listeners", "Clients that listen to events")
-        listeners.add_metric((), self._count_listeners())
-        yield listeners
+
+    def _collect_intervals(self) -> Metric:
+        help_text = "Time between successive ticks of a cell while something goes on, since its process was started"
+        ticks = HistogramMetricFamily("skillc_tick_interval_seconds", help_text, labels=("cell",))
+        bounds = (*map(str, BOUNDS_S), "+Inf")
+        for cell in self._cells:
+            counts = accumulate(cell.alive.intervals or (0,) * len(bounds))
+            ticks.add_metric((cell.settings.name,), list(zip(bounds, counts, strict=True)), cell.alive.intervals_s)
+        return ticks

@@ -34,6 +34,8 @@ from skillc_runtime.world.state.transactions import StoreError
 KEEP_ALIVE_S = 30
 GRACE_S = 5
 """How long open requests may take when the server ends, in s."""
+TAKEN_AT_ONCE = 50
+"""How many new connections are taken at once, before requests of others are read."""
 
 
 def serve(
@@ -116,6 +118,7 @@ def _configure(application: ASGIApp, listening: Listening) -> uvicorn.Config:
         proxy_headers=False,
         timeout_keep_alive=KEEP_ALIVE_S,
         timeout_graceful_shutdown=GRACE_S,
+        backlog=TAKEN_AT_ONCE,
         ws="websockets-sansio",
         ws_max_size=2 * MAX_BODY_BYTES,
         ssl_certfile=certificate.chain if certificate else None,

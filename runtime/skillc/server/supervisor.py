@@ -37,7 +37,8 @@ class CellSupervisor:
 
     `find_obstacle` returns why its process must not be started now; empty if it may.
 
-    `starts` counts how often its process was started, `ended` the operations that ended, by state.
+    `starts` counts how often its process was started, `ended` the operations that ended, by state. `alive` is what the
+    process has said last of its loop.
     """
 
     def __init__(
@@ -52,7 +53,7 @@ class CellSupervisor:
         self.starts, self.ended = 0, Counter[State]()
         self._publish = publish
         self._cell: RemoteCell | None = None
-        self._rounds, self._heard_at = 0, time.monotonic()
+        self.alive, self._heard_at = Alive(rounds=0), time.monotonic()
         self._settled = asyncio.Event()  # whether it has started, or failed to
         self._problem = self._library_problem = ""
 
@@ -161,8 +162,9 @@ class CellSupervisor:
                 self._set_status(status)
                 self._settled.set()
             case Alive(rounds=rounds):
-                if rounds != self._rounds:
-                    self._rounds, self._heard_at = rounds, time.monotonic()
+                if rounds != self.alive.rounds:
+                    self._heard_at = time.monotonic()
+                self.alive = report
             case StartFailed(reason=reason):
                 self._problem = reason
             case CellAnswer():

@@ -32,11 +32,12 @@ class StoreChoice:
     """The store of a world (a folder, the URL of a SPARQL server, or None) and whether to empty it first.
 
     The URL may contain a password, so it is not shown; `name` is the place without it. `cancel` ends all waits for a
-    server or for other processes.
+    server or for other processes. With `writes`, a store to which only a cell may write is refused at once.
     """
 
     place: str | None = field(default=None, repr=False)
     reset: bool = False
+    writes: bool = False
     cancel: CancelToken = field(default_factory=CancelToken, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -104,6 +105,8 @@ def read_or_fill(
     DiagnosticsError or ServiceError if the scene or the store cannot be used.
     """
     try:
+        if choice.writes:
+            store.require_writable()
         return _world(store, scene, vocabulary, reporter)
     except StoreError as error:
         raise ServiceError(str(error)) from error

@@ -17,30 +17,38 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.store import facts_folder
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.journal import JournalEntry, TransactionJournal
+from skillc_runtime.store.owner import StoreOwnership
 from skillc_runtime.store.store import StoredWorld
 from skillc_runtime.store.store_lock import StoreLock
 from skillc_runtime.store.triples import triple_difference
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 
 FORMAT = "skillc store, format 1\n"
-MARK, LOCK, JOURNAL, FACTS = "skillc-store", "lock", "journal", "facts"
+MARK, LOCK, OWNER, JOURNAL, FACTS = "skillc-store", "lock", "owner", "journal", "facts"
 
 
 class DiskStore:
-    """A world in a folder that any number of processes can use at the same time."""
+    """A world in a folder, for any number of processes at the same time; if it has an owner, only that one writes."""
 
-    def __init__(self, folder: Path, reset: bool = False, cancel: CancelToken | None = None) -> None:
+    def __init__(
+        self, folder: Path, reset: bool = False, cancel: CancelToken | None = None, owner: str | None = None
+    ) -> None:
         """Open or create a store; with `reset`, delete its contents. `cancel` ends all waits for other processes.
 
-        StoreError when the folder is not a store, is damaged or not accessible, or is to be reset while others use it.
+        With `owner`, the name of who opens it, nobody else writes to it until it is closed.
+        StoreError when the folder is not a store, is damaged or not accessible, has another owner, or is to be reset
+        while others use it.
         """
         self._folder, self._facts, self._cancel = folder, folder / FACTS, cancel or CancelToken()
+        self._ownership = StoreOwnership(folder / OWNER)
         try:
             _prepare(folder)
             self._lock, self._journal = StoreLock(folder / LOCK), TransactionJournal(folder / JOURNAL, self._cancel)
         except OSError as error:
             raise StoreError(f"the store {folder} cannot be opened: {error.strerror}") from error
         try:
+            if owner is not None:
+                self._ownership.acquire(owner, self._cancel)
             self._join(reset)
         except StoreError:
             self._leave()
@@ -70,15 +78,21 @@ class DiskStore:
                 triples.pop(triple, None)
         return StoredWorld(entries[-1].sequence, stored.beginning, tuple(triples))
 
+    def require_writable(self) -> None:
+        """Raise StoreError if only somebody else may write to the store."""
+        with self._ownership.writing():
+            pass
+
     def append(self, event: ChangeEvent, after: int) -> bool:
         """Write an event as the transaction after number `after`; return False when another one has that place."""
         change = triple_difference(event)
-        if after == 0:
-            return self._fill(event.origin, change.added)
         removed, added = _as_text(change.removed), _as_text(change.added)
-        return self._journal.append(
-            JournalEntry(after + 1, event.origin, encode_changes(event.changes), removed, added)
-        )
+        with self._ownership.writing():
+            if after == 0:
+                return self._fill(event.origin, change.added)
+            return self._journal.append(
+                JournalEntry(after + 1, event.origin, encode_changes(event.changes), removed, added)
+            )
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
         """Return the transactions after number `sequence`, in order."""
@@ -96,6 +110,7 @@ class DiskStore:
     def _leave(self) -> None:
         self._journal.close()
         self._lock.release()
+        self._ownership.release()
 
     def _fill(self, origin: str, triples: Iterable[ox.Triple]) -> bool:
         with self._journal.locked():

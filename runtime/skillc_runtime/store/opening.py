@@ -16,6 +16,9 @@ class OpenStore(Store, Protocol):
     def close(self) -> None:
         """Close the store."""
 
+    def require_writable(self) -> None:
+        """Raise StoreError if only somebody else may write to the store."""
+
 
 def open_store(place: str, reset: bool = False, cancel: CancelToken | None = None) -> OpenStore:
     """Open the store in a folder or at an `http://` or `https://` address; with `reset`, delete its contents.

@@ -127,8 +127,11 @@ export const api = {
   edit: (cell: string, edits: string[], why: string) =>
     write<undefined>("POST", `/cells/${part(cell)}/world/edits`, { edits, why }),
   plan: (cell: string, wish: PlanWish) => write<PlanPreview>("POST", `/cells/${part(cell)}/plans`, wish),
-  rehearse: (cell: string, wish: PlanWish & { film?: boolean }) =>
-    write<Rehearsal>("POST", `/cells/${part(cell)}/rehearsals`, wish),
+  /** Do something in a simulated twin of the cell; its recording can be played. */
+  rehearse: (cell: string, wish: PlanWish) =>
+    write<Rehearsal>("POST", `/cells/${part(cell)}/rehearsals`, { ...wish, record: true }),
+  rehearsalRecording: async (id: string) =>
+    (await request("GET", address(`/rehearsals/${part(id)}/recording`))).arrayBuffer(),
   rehearsal: (id: string) => read<Rehearsal>(`/rehearsals/${part(id)}`),
   submit: (cell: string, wanted: OperationRequest, key: string) =>
     write<OperationStatus>("POST", `/cells/${part(cell)}/operations`, wanted, { "Idempotency-Key": key }),
@@ -147,7 +150,7 @@ export const api = {
     write<CellStatus>("PUT", `/cells/${part(cell)}/pace`, { factor }),
   acknowledge: (cell: string) => write<CellStatus>("POST", `/cells/${part(cell)}/acknowledge`),
   tree: (id: string) => read<OperationTree>(`/operations/${part(id)}/tree`),
-  why: (id: string) => read<RunExplanation>(`/operations/${part(id)}/why`),
+  why: (id: string, question: string) => read<RunExplanation>(`/operations/${part(id)}/why`, { question }),
   signals: (id: string, match: string, afterS: number | null) =>
     read<SignalRows>(`/operations/${part(id)}/signals`, { match, after_s: afterS }),
   diff: (id: string, other: string) => read<RunDiff>(`/operations/${part(id)}/diff`, { other }),

@@ -79,7 +79,8 @@ function followCoverage(cell: string): () => void {
   let isReading = false;
   const timer = window.setInterval(() => {
     const now = shownSample.peek()?.time_s ?? -1;
-    if (isReading || replay.peek() !== null || now === time || document.hidden) return;
+    const isOff = cells.peek().get(cell)?.state === "off";
+    if (isOff || isReading || replay.peek() !== null || now === time || document.hidden) return;
     isReading = true;
     read<Coverage>(`/cells/${part(cell)}/coverage`).then(
       (found) => {

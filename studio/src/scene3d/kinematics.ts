@@ -25,9 +25,14 @@ function readJoints(model: CellModel, sample: Sample): Map<string, number> {
   return values;
 }
 
-/** Return the poses of the bodies whose individuals a sample places. */
+/** Return the poses of the bodies that a sample places, by itself or by their individuals. */
 function readPoses(model: CellModel, sample: Sample): Map<number, PoseNumbers> {
   const poses = new Map<number, PoseNumbers>();
+  const recorded = sample.bodies ?? {};
+  model.bodies.forEach(({ name }, number) => {
+    const own = recorded[name];
+    if (own !== undefined) poses.set(number, own);
+  });
   for (const [iri, individual] of Object.entries(model.individuals)) {
     const own = sample.arms[iri]?.base ?? sample.things[iri];
     if (own !== undefined) poses.set(individual.body, compose(own, invert(individual.frame)));

@@ -10,10 +10,12 @@ export interface ContactForce {
   point: Vector;
 }
 
-/** A sample of a cell; `joints` has the values of joints that are no arm's by name, `forces` those on tools by IRI. */
+/** A sample of a cell; `joints` has the values of joints that are no arm's by name, `forces` those on tools by IRI.
+ *  One of a recording has the poses of all bodies that move in the world, by their names, instead of joints. */
 export interface Sample extends ApiSample {
   joints?: Readonly<Record<string, number>>;
   forces?: Readonly<Record<string, ContactForce>>;
+  bodies?: Readonly<Record<string, PoseNumbers>>;
 }
 
 export type Shape = "plane" | "sphere" | "capsule" | "ellipsoid" | "cylinder" | "box" | "mesh";

@@ -1,6 +1,6 @@
 // Feeds the signals from the server: cells and operations, the events of one operation, samples, and the world.
 import { decode } from "@msgpack/msgpack";
-import { batch, effect } from "@preact/signals";
+import { batch, computed, effect } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import { openStream } from "../api/stream";
 import type { Envelope, News, OperationStatus, Sample, WorldFact } from "../api/types";
@@ -38,8 +38,9 @@ function takeNews(news: News): void {
   }
 }
 
-/** Note how an operation is; the first one that goes on is shown. */
+/** Note how an operation is, unless that is known better: an answer may come after newer news. */
 export function takeOperation(operation: OperationStatus): void {
+  if (!isNews(studio.operations.value.get(operation.id), operation)) return;
   studio.operations.value = new Map(studio.operations.value).set(operation.id, operation);
   if (operation.cell === studio.cellName.value && !studio.ENDS.includes(operation.state))
     studio.operationId.value ??= operation.id;
@@ -50,8 +51,12 @@ function followCell(): (() => void) | undefined {
   const name = studio.cellName.value;
   if (name === null) return undefined;
   studio.sample.value = null;
-  void loadHistory(name);
+  // A server or a cell that has come back knows more about what was interrupted.
+  const isThere = computed(() => studio.connection.value.state === "open" && isOn(name));
   const ends = [
+    effect(() => {
+      if (isThere.value) void loadHistory(name);
+    }),
     openStream({
       path: "/samples",
       hello: () => ({ cell: name, rate_hz: SAMPLES_HZ }),
@@ -63,12 +68,24 @@ function followCell(): (() => void) | undefined {
   return () => ends.forEach((end) => end());
 }
 
+/** Whether what is said of an operation is not older than what is known of it. */
+export function isNews(known: OperationStatus | undefined, said: OperationStatus): boolean {
+  if (known === undefined) return true;
+  const [hasEnded, ends] = [known, said].map((each) => studio.ENDS.includes(each.state));
+  return hasEnded === ends ? said.events >= known.events : ends === true;
+}
+
+function isOn(cell: string): boolean {
+  return !["off", undefined].includes(studio.cells.value.get(cell)?.state);
+}
+
 async function loadHistory(cell: string): Promise<void> {
   const found = await persistently(() => api.operations(cell, { limit: HISTORY }), isShown(cell));
   if (found === null) return;
   batch(() => {
-    const known = new Map(found.map((each) => [each.id, each]));
-    studio.operations.value = new Map([...known, ...studio.operations.value]);
+    const known = new Map(studio.operations.value);
+    for (const each of found) if (isNews(known.get(each.id), each)) known.set(each.id, each);
+    studio.operations.value = known;
     if (studio.cellName.value === cell) studio.operationId.value ??= found[0]?.id ?? null;
   });
 }

@@ -2,12 +2,15 @@
 import { batch } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import type { Envelope } from "../api/types";
+import { Film } from "../recording/film";
 import { readRecording } from "../recording/recording";
 import { applyEvents, EMPTY, type OperationState } from "./operation";
 import { recorded } from "./signals";
 import * as studio from "./studio";
+import type { Replay } from "./studio";
 
 let envelopes: readonly Envelope[] = [];
+let film = new Film();
 let timer = 0;
 const TICK_MS = 50;
 
@@ -16,10 +19,17 @@ export async function replayOperation(id: string): Promise<void> {
   openRecording(id, await api.recording(id));
 }
 
+/** Read the recording of a rehearsal from the server, and play it from its beginning. */
+export async function replayRehearsal(id: string, name: string): Promise<void> {
+  openRecording(`rehearsal of ${name}`, await api.rehearsalRecording(id));
+  play(true);
+}
+
 /** Play a file; ApiError if it is no recording. */
 export function openRecording(name: string, content: ArrayBuffer): void {
   const found = read(content);
   envelopes = found.envelopes;
+  film = found.film;
   const times = envelopes.map((each) => each.event.time);
   const [begin, end] = [times[0] ?? 0, Math.max(...times)];
   batch(() => {
@@ -65,7 +75,13 @@ export function seek(time: number): void {
   const current = studio.replay.peek();
   if (current === null) return;
   const at = Math.min(current.end, Math.max(current.begin, time));
-  studio.replay.value = { ...current, time: at, state: stateAt(envelopes, at, current.state) };
+  show({ ...current, time: at });
+}
+
+/** Show a recording as it was at its time. */
+function show(replay: Replay): void {
+  const state = stateAt(envelopes, replay.time, replay.state);
+  studio.replay.value = { ...replay, state, sample: film.sampleAt(replay.time) };
 }
 
 export function play(playing: boolean): void {
@@ -73,7 +89,7 @@ export function play(playing: boolean): void {
   window.clearInterval(timer);
   if (current === null) return;
   const time = playing && current.time >= current.end ? current.begin : current.time;
-  studio.replay.value = { ...current, time, state: stateAt(envelopes, time, current.state), playing };
+  show({ ...current, time, playing });
   if (!playing) return;
   let last = performance.now();
   timer = window.setInterval(() => {
@@ -95,6 +111,7 @@ export function setSpeed(speed: number): void {
 export function endReplay(): void {
   window.clearInterval(timer);
   envelopes = [];
+  film = new Film();
   batch(() => {
     studio.replay.value = null;
     recorded.value = null;

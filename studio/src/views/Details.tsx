@@ -6,6 +6,7 @@ import { activeCalls, ancestors, type TreeNode } from "../state/operation";
 import { selectedNode } from "../state/selection";
 import { operation, selection, status } from "../state/studio";
 import { describeFailure, formatTime } from "../state/text";
+import { CallExplanation, Explanation } from "./Explanation";
 import { Fact, PlaceLink, ThingLink, Value } from "./links";
 import { nodeWord, NodeMark, RunBadge } from "./status";
 import { ThingDetails } from "./ThingDetails";
@@ -46,17 +47,21 @@ function OperationDetails() {
       )}
       {ended?.failure != null && <FailureText failure={ended.failure} />}
       {ended !== null && ended.status === "failed" && <FailedNodes />}
-      <Running active={activeCalls(operation.value)} />
+      <Running
+        title={ended === null ? "What runs now" : "What ran when it ended"}
+        active={activeCalls(operation.value)}
+      />
       {ended !== null && <Grounds ended={ended} />}
+      <Explanation />
       <p class="muted small">Select a node of the tree, a thing or a moment: here is why it is so.</p>
     </>
   );
 }
 
-function Running({ active }: { active: readonly TreeNode[] }) {
+function Running({ title, active }: { title: string; active: readonly TreeNode[] }) {
   if (active.length === 0) return null;
   return (
-    <Section title="What runs now">
+    <Section title={title}>
       <ul class="stack">
         {active.map((each) => (
           <li key={each.key}>
@@ -163,6 +168,7 @@ function NodeDetails({ node }: { node: TreeNode }) {
       )}
       {node.failedCall !== null && <Rejected rejected={node.failedCall.rejected ?? []} />}
       {node.choice !== null && <Choice choice={node.choice} />}
+      {node.kind === "call" && node.status !== "pending" && <CallExplanation node={node} />}
     </>
   );
 }

@@ -3,6 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { api, ApiError, type PlanWish } from "../api/client";
 import type { Rehearsal } from "../api/types";
 import { attempt } from "../state/actions";
+import { replayRehearsal } from "../state/replay";
 import { cellName, may } from "../state/studio";
 import { describeFailure, formatTime } from "../state/text";
 import { RunBadge } from "./status";
@@ -36,12 +37,12 @@ export function Rehearse({ request }: { request: PlanWish }) {
         {goesOn ? <span class="spinner" /> : null}
         Rehearse
       </button>
-      {rehearsal !== null && !goesOn && <Result rehearsal={rehearsal} />}
+      {rehearsal !== null && !goesOn && <Result rehearsal={rehearsal} name={request.task ?? "the goal"} />}
     </>
   );
 }
 
-function Result({ rehearsal }: { rehearsal: Rehearsal }) {
+function Result({ rehearsal, name }: { rehearsal: Rehearsal; name: string }) {
   const result = rehearsal.result;
   if (result === null) return <p class="notice bad rehearsed">The rehearsal ended: {rehearsal.reason}</p>;
   if (result.status === "refused")
@@ -51,6 +52,14 @@ function Result({ rehearsal }: { rehearsal: Rehearsal }) {
       <p class="row">
         Rehearsal: <RunBadge state={result.status} verified={result.verified} />
         {result.sim_time_s !== undefined && <span class="mono small">{formatTime(result.sim_time_s)}</span>}
+        {rehearsal.recording && (
+          <button
+            title="See it in all panels, before anything moves in the cell"
+            onClick={() => void attempt(() => replayRehearsal(rehearsal.id, name))}
+          >
+            Play it
+          </button>
+        )}
       </p>
       {result.cause != null && <p>{describeFailure(result.cause)}</p>}
       {result.cause == null && result.failure != null && <p>{result.failure}</p>}

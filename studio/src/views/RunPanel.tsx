@@ -5,6 +5,7 @@ import { describeFailure, describeRequest, formatTime, formatValue } from "../st
 import { Choose } from "./Choose";
 import { Icon } from "./icons";
 import { choosing } from "./layout";
+import { Planning } from "./Planning";
 import { NodeMark, RunBadge } from "./status";
 
 export function RunPanel() {
@@ -38,6 +39,7 @@ function Progress() {
       <Decisions />
       <Continue />
       <Plan />
+      {current.state === "planning" && <Planning />}
       {!isOngoing.value && (
         <button class="primary" onClick={() => (choosing.value = true)}>
           Run something else
@@ -134,13 +136,8 @@ function Decisions() {
 
 /** The plans of the operation: each step with its state, its values and its span in time. */
 function Plan() {
-  const { attempts, nodes, state, time } = operation.value;
-  if (attempts.length === 0)
-    return state === "planning" ? (
-      <p class="row muted">
-        <span class="spinner" /> Planning
-      </p>
-    ) : null;
+  const { attempts, nodes, time } = operation.value;
+  if (attempts.length === 0) return null;
   const end = Math.max(time, 0.1);
   return (
     <div class="stack">

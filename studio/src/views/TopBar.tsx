@@ -162,7 +162,7 @@ export function togglePause(): void {
 }
 
 function Transport() {
-  if (replay.value !== null) return null;
+  if (replay.value !== null) return isOngoing.value ? <StopControl /> : null;
   const resumes = allows("resume");
   const can = may("operate");
   return (
@@ -195,8 +195,15 @@ function Transport() {
         enabled={can && allows("step-out")}
         act={() => command({ type: "step-out" })}
       />
-      <Control icon="stop" label="Stop" hotkey="x" enabled={isOngoing.value} act={stop} tone="stop" wide />
+      <StopControl />
     </div>
+  );
+}
+
+/** Stops the operation that goes on, also while a recording is played. */
+function StopControl() {
+  return (
+    <Control icon="stop" label="Stop" hotkey="x" enabled={isOngoing.value} act={stop} tone="stop" wide />
   );
 }
 

@@ -1,7 +1,7 @@
 // The tree of the operation, live: only the rows in sight are drawn, whatever the size of the tree.
 import { computed, signal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
-import { activeCalls } from "../state/operation";
+import { activeCalls, ancestors } from "../state/operation";
 import { treeRows, visibleRange, type TreeRow } from "../state/rows";
 import { select } from "../state/actions";
 import { isOngoing, operation, operationId, selection } from "../state/studio";
@@ -72,6 +72,7 @@ function TreeView() {
     };
   }, []);
   useFollowing(box);
+  useSelected(box);
   const all = rows.value;
   const [first, end] = visibleRange(window_.value.top, window_.value.height, ROW, all.length);
   const current = selection.value.kind === "node" ? selection.value.key : 0;
@@ -196,6 +197,23 @@ function useFollowing(box: { current: HTMLDivElement | null }): void {
     if (element === null || at < 0 || !follows.peek() || filter.peek() !== "") return;
     reveal(element, at);
   }, [active]);
+}
+
+/** Bring the selected node into sight, whichever panel it was selected in; what is folded around it is opened. */
+function useSelected(box: { current: HTMLDivElement | null }): void {
+  const key = selection.value.kind === "node" ? selection.value.key : 0;
+  useEffect(() => {
+    if (key === 0) return undefined;
+    const isShown = rows.peek().some((each) => each.key === key);
+    const around = [...ancestors(operation.peek().nodes, key)].map((each) => [each.key, true] as const);
+    if (!isShown) folds.value = new Map([...folds.peek(), ...around]);
+    // The list has its new height in the next frame.
+    const frame = requestAnimationFrame(() => {
+      const at = rows.peek().findIndex((each) => each.key === key);
+      if (box.current !== null && at >= 0) reveal(box.current, at);
+    });
+    return () => cancelAnimationFrame(frame);
+  }, [key]);
 }
 
 function reveal(element: HTMLElement, at: number): void {

@@ -64,8 +64,15 @@ function search(): void {
   (field ?? document.querySelector<HTMLElement>(".filter"))?.focus();
 }
 
+/** Let the panel have the keyboard instead of a field in it. */
+function leaveField(): void {
+  const panel = document.activeElement?.closest<HTMLElement>("[data-panel]");
+  if (panel) panel.focus({ preventScroll: true });
+  else focusPanel("tree");
+}
+
 export function handleKey(event: KeyboardEvent): void {
-  if (event.key === "Escape" && isWriting(event)) return focusPanel(focusedPanel() ?? "tree");
+  if (event.key === "Escape" && isWriting(event)) return leaveField();
   if (event.ctrlKey || event.metaKey || event.altKey || isWriting(event)) return;
   const panel = PANELS[Number(event.key) - 1];
   const act = panel === undefined ? ACTIONS[event.key] : () => focusPanel(panel);

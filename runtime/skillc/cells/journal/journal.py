@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from collections import deque
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeAlias
 
 import msgspec
 
 from skillc.cells.database import describe_error, open_for_writing
+from skillc.cells.journal.fingerprint import FINGERPRINT, Fingerprint, encode_fingerprint
 from skillc.cells.journal.schema import SCHEMA
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc_runtime.execution.cell_loop import NotDurable
@@ -26,6 +29,10 @@ _INSERT_TRANSACTION = """INSERT INTO transactions (sequence, origin, evidence, c
 VALUES (?, ?, ?, ?, ?, ?)"""
 
 
+_Write: TypeAlias = tuple[int, ChangeEvent, int]
+"""The number of a write, what it changes, and its wall time in ns since 1970."""
+
+
 @dataclass(slots=True)
 class _Pending:
     """What has happened since the last commit."""
@@ -33,7 +40,7 @@ class _Pending:
     operations: list[tuple[str, int, bytes]] = field(default_factory=list)
     ended: list[tuple[bytes, str]] = field(default_factory=list)
     events: list[tuple[str, int, bytes]] = field(default_factory=list)
-    writes: list[tuple[int, ChangeEvent, int]] = field(default_factory=list)
+    writes: list[_Write] = field(default_factory=list)
     states: dict[str, bytes] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
@@ -44,7 +51,8 @@ class CellJournal:
     """The journal of a cell, to which only its process writes; it is a log of its world, in front of the store.
 
     Events and writes to the world are collected until `commit` makes them durable together. The store of the world
-    gets the writes after that, each with its number in one atomic update; `catch_up` gives it those that it missed.
+    gets the writes after that, each with its number in one atomic update; `restore_world` gives it those that it missed
+    when the process ended. The journal has the fingerprint of the world, so that writes of others are found.
     """
 
     def __init__(self, path: Path, store: TransactionLog) -> None:
@@ -53,6 +61,8 @@ class CellJournal:
         self._connection = open_for_writing(path, SCHEMA)
         self._encoder = msgspec.json.Encoder()
         self._pending = _Pending()
+        self._not_stored: deque[_Write] = deque()
+        self._fingerprint: Fingerprint | None = None
 
     def __str__(self) -> str:
         return str(self.path)
@@ -82,6 +92,11 @@ class CellJournal:
         """Record an event; a recorder for the publisher of a run."""
         self._pending.events.append((envelope.run, envelope.sequence, self._encoder.encode(envelope)))
 
+    def set_fingerprint(self, fingerprint: Fingerprint) -> None:
+        """Record which facts the world has after its last write; that of later writes follows by itself."""
+        self._fingerprint = fingerprint
+        self.set_state(FINGERPRINT, encode_fingerprint(fingerprint))
+
     def set_state(self, name: str, value: bytes) -> None:
         """Record what the cell needs when it is started again, in place of what was recorded under this name."""
         self._pending.states[name] = value
@@ -103,31 +118,37 @@ class CellJournal:
     def commit(self) -> None:
         """Make all that was recorded durable, then give the writes to the store.
 
-        NotDurable if it cannot be written; everything is kept then, for the next commit. NotDurable if the store cannot
-        be written; `catch_up` makes up for that when the cell is started again.
+        NotDurable if the journal or the store cannot be written; everything is kept then, for the next commit.
         """
-        pending = self._pending
-        if not pending:
-            return
-        try:
-            self._write(pending)
-        except sqlite3.Error as error:
-            raise NotDurable(str(describe_error(self.path, error))) from error
-        self._pending = _Pending()
-        self._pass_on(pending.writes)
+        if self._pending:
+            try:
+                self._write(self._pending)
+            except sqlite3.Error as error:
+                raise NotDurable(str(describe_error(self.path, error))) from error
+            except StoreError as error:
+                raise NotDurable(str(error)) from error
+            self._not_stored.extend(self._pending.writes)
+            self._pending = _Pending()
+        self._pass_on()
 
-    def _pass_on(self, writes: list[tuple[int, ChangeEvent, int]]) -> None:
-        """Give durable writes to the store."""
-        for sequence, event, _ in writes:
+    def _pass_on(self) -> None:
+        """Give durable writes to the store, in order."""
+        while self._not_stored:
+            sequence, event, _ = self._not_stored[0]
             try:
                 accepted = self._store.append(event, sequence - 1)
             except StoreError as error:
                 raise NotDurable(str(error)) from error
             if not accepted:
-                raise NotDurable(f"{self._store} was written to by others; only the cell may write to it")
+                raise NotDurable(
+                    f"{self._store} was written to by others, and the cell cannot go on with it: end the cell; "
+                    "what to do then is said when it starts again"
+                )
+            self._not_stored.popleft()
 
     def _write(self, pending: _Pending) -> None:
         rows = [_make_row(*each) for each in pending.writes]
+        fingerprint = self._advance_fingerprint(pending)
         self._connection.execute("BEGIN IMMEDIATE")
         try:
             self._connection.executemany(_INSERT_OPERATION, pending.operations)
@@ -140,6 +161,17 @@ class CellJournal:
             if self._connection.in_transaction:
                 self._connection.execute("ROLLBACK")
             raise
+        self._fingerprint = fingerprint
+
+    def _advance_fingerprint(self, pending: _Pending) -> Fingerprint | None:
+        """Return the fingerprint after all pending writes, and let the commit record it."""
+        fingerprint = self._fingerprint
+        if fingerprint is None or not pending.writes:
+            return fingerprint
+        for _, event, _ in pending.writes:
+            fingerprint = fingerprint.after(event)
+        pending.states[FINGERPRINT] = encode_fingerprint(fingerprint)
+        return fingerprint
 
 
 def _make_row(sequence: int, event: ChangeEvent, written_ns: int) -> tuple[int, str, str | None, str, str, int]:

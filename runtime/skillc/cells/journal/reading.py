@@ -23,6 +23,8 @@ MAX_EVENTS = 1000
 """The largest number of events that one query returns."""
 LATEST_NS = 2**63 - 1
 """A wall time after all others: the clock may have been set back since something was recorded."""
+LATEST_WRITE = 2**63 - 1
+"""A number after those of all writes."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -131,7 +131,7 @@ def command(
     from skillc.services.running import RunOptions
     from skillc.services.stores import StoreChoice
 
-    kept = StoreChoice(store, reset)
+    kept = StoreChoice(store, reset, writes=True)
     request = task_loading.TaskRequest(task, scene, goal, skill, library, kept, arguments).with_defaults()
     remark_default(task, request.task)
     request.check()

@@ -1,4 +1,4 @@
-"""Back up, restore or prune the state of a server, or print its audit log."""
+"""Back up, restore, repair or prune the state of a server, or print its audit log."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Size(click.ParamType[int]):
 
 @click.group(cls=Group)
 def command() -> None:
-    """Back up, restore or prune what `skillc serve` keeps in its state folder, or print its audit log."""
+    """Back up, restore, repair or prune what `skillc serve` keeps in its state folder, or print its audit log."""
 
 
 @command.command(cls=Command)
@@ -62,6 +62,23 @@ def restore(backup: Path, state: Path) -> None:
     former = restore_state(backup, state)
     kept = f"; the former one is {former}" if former is not None else ""
     print_remark(f"{state} is as it was when {backup} was made{kept}")
+
+
+@command.command(cls=Command)
+@click.argument("cell")
+@click.option("--why", required=True, metavar="TEXT", help="Why the facts in the store are right; the history says so.")
+@STATE
+def adopt(cell: str, why: str, state: Path) -> None:
+    """Let CELL, which does not start because others wrote to its store, go on with the facts that are there.
+
+    They count as given by a person then. Also while a server uses the state: it starts the cell within a minute.
+    """
+    from getpass import getuser
+
+    from skillc.server.adopting import adopt as adopt_facts
+
+    adopt_facts(state, cell, getuser(), why)
+    print_remark(f"{cell} goes on with the facts in its store")
 
 
 @command.command(cls=Command)

@@ -1,0 +1,87 @@
+"""Parses a file again after an edit: only the declarations that were edited, with the same result as from nothing."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.encoding import MOST_CHARACTERS, REPLACEMENT
+from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse
+from skillc_dsl.source import Source
+
+_KEYWORDS = "class|relation|property|function|skill|impl|task"
+_DECLARATION = re.compile(rf"^(?:[ \t]*#[^\n]*\n)*(?:{_KEYWORDS})\b", re.MULTILINE)
+_REMEMBERED = 3
+
+
+@dataclass
+class ParseMemo:
+    """A parser that knows, of each file, the last texts and the last one without errors."""
+
+    _recent: dict[str, tuple[tuple[str, Outcome[s.File]], ...]] = field(default_factory=dict)
+    _clean: dict[str, tuple[Source, s.File]] = field(default_factory=dict)
+
+    def __call__(self, source: Source) -> Outcome[s.File]:
+        """Return what `parse` returns."""
+        recent = self._recent.get(source.path, ())
+        known = next((outcome for text, outcome in recent if text == source.text), None)
+        if known is None:
+            clean = self._clean.get(source.path)
+            known = (reparse(*clean, source) if clean else None) or parse(source)
+        others = tuple(each for each in recent if each[0] != source.text)
+        self._recent[source.path] = ((source.text, known), *others[: _REMEMBERED - 1])
+        if not known.diagnostics and not known.value.errors:
+            self._clean[source.path] = source, known.value
+        return known
+
+
+def reparse(before: Source, file: s.File, source: Source) -> Outcome[s.File] | None:
+    """Return what `parse` returns for `source`, given the tree of the text before, which has no errors.
+
+    The edited declarations are parsed with the one below them, which shows where their errors end. None if lines have
+    moved, or if the errors go on below.
+    """
+    old, new = _chunks(before.text), _chunks(source.text)
+    above = _common(old, new)
+    below = _common(old[above:][::-1], new[above:][::-1])
+    window, rest = new[above : len(new) - below], new[len(new) - below :]
+    first = 1 + sum(chunk.count("\n") for chunk in new[:above])
+    end = first + sum(chunk.count("\n") for chunk in window)
+    moved = end != first + sum(chunk.count("\n") for chunk in old[above : len(old) - below])
+    if moved or len(source.text) > MOST_CHARACTERS or REPLACEMENT in source.text or "\0" in source.text:
+        return None
+    found = parse(Source(source.path, "\n" * (first - 1) + "".join((*window, *rest[:1]))))
+    following = [each for each in file.declarations if rest and each.span.line >= end]
+    if not _ends_before(found, following, end if rest else None) or (above and found.value.header):
+        return None
+    edited = (each for each in found.value.declarations if not rest or each.span.line < end)
+    kept = (each for each in file.declarations if each.span.line < first)
+    header = file.header if above else found.value.header
+    return Outcome(replace(found.value, header=header, declarations=(*kept, *edited, *following)), found.diagnostics)
+
+
+def _ends_before(found: Outcome[s.File], following: Sequence[s.Declaration], end: int | None) -> bool:
+    """Whether no error goes on at the line `end`, where the first of the following declarations begins."""
+    if len(found.diagnostics) >= MOST_PROBLEMS:
+        return False
+    if end is None:
+        return True
+    places = (*(each.span for each in found.diagnostics), *(each.span for each in found.value.errors))
+    below = [each for each in found.value.declarations if each.span.line >= end]
+    return all(place.end_line < end for place in places) and below == following[: len(below)] and bool(below)
+
+
+def _chunks(text: str) -> list[str]:
+    """Return the text in parts: what is above the declarations, and each declaration with the comments above it."""
+    starts = [0, *(match.start() for match in _DECLARATION.finditer(text)), len(text)]
+    return [text[start:end] for start, end in pairwise(starts)]
+
+
+def _common(one: Sequence[str], other: Sequence[str]) -> int:
+    """Return how many parts both begin with."""
+    pairs = zip(one, other, strict=False)
+    return next((number for number, (left, right) in enumerate(pairs) if left != right), min(len(one), len(other)))

@@ -1,0 +1,95 @@
+// What `skillc why` says of the operation that is shown, and what it answers: sentences whose names are links.
+import { signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { api } from "../api/client";
+import type { RunExplanation } from "../api/types";
+import { attempt, select } from "../state/actions";
+import { ATTEMPT, type TreeNode } from "../state/operation";
+import { operation, operationId, replay } from "../state/studio";
+import { LinkedLine } from "./LinkedLine";
+
+const QUESTIONS = "2, 2.1, Pick, gripper, 2.gripper";
+
+const explanation = signal<{ id: string; events: number; found: RunExplanation } | null>(null);
+const question = signal("");
+
+/** Ask about the operation that is shown; without a question, for the overview. */
+async function ask(id: string): Promise<void> {
+  const events = operation.peek().lastEvent;
+  const found = await api.why(id, question.peek().trim());
+  if (operationId.peek() === id) explanation.value = { id, events, found };
+}
+
+/** A field for questions with the answer, below what is said of the operation. */
+export function Explanation() {
+  const id = operationId.value;
+  useEffect(() => {
+    question.value = "";
+    explanation.value = null;
+  }, [id]);
+  if (id === null || replay.value !== null) return null;
+  const known = explanation.value?.found ?? null;
+  return (
+    <section class="details-section explanation">
+      <h3>Ask why</h3>
+      <form
+        class="row"
+        onSubmit={(event) => {
+          event.preventDefault();
+          void attempt(() => ask(id));
+        }}
+      >
+        <input
+          class="grow mono"
+          aria-label="Question"
+          placeholder={QUESTIONS}
+          title="A step, a call inside it, a skill, an implementation or a parameter; nothing for an overview"
+          value={question.value}
+          onInput={(event) => (question.value = event.currentTarget.value)}
+        />
+        <button>Ask</button>
+      </form>
+      {known !== null && <Lines lines={known.answer.length > 0 ? known.answer : known.lines} known={known} />}
+    </section>
+  );
+}
+
+/** What `skillc why` says of a call; read when it is wanted, as the operation may be large. */
+export function CallExplanation({ node }: { node: TreeNode }) {
+  const id = operationId.value;
+  if (id === null || replay.value !== null || operation.value.attempts.length !== 1) return null;
+  const known = explanation.value?.id === id ? explanation.value : null;
+  const call = known?.found.calls.find((each) => each.node === node.key % ATTEMPT);
+  const isNew = known?.events === operation.value.lastEvent;
+  if (call === undefined || known === null || !isNew)
+    return (
+      <button class="link small" onClick={() => void attempt(() => ask(id))}>
+        Explain in sentences
+      </button>
+    );
+  return (
+    <section class="details-section explanation">
+      <h3>{`Call ${call.number}`}</h3>
+      <Lines lines={call.lines} known={known.found} />
+    </section>
+  );
+}
+
+function Lines({ lines, known }: { lines: readonly string[]; known: RunExplanation }) {
+  const selectCall = (number: string): void => {
+    const call = known.calls.find((each) => each.number === number);
+    if (call?.node) select({ kind: "node", key: call.node });
+  };
+  // Numbers of nodes begin again with each plan.
+  const hasOnePlan = operation.value.attempts.length === 1;
+  const numbers = new Set(
+    (hasOnePlan ? known.calls : []).filter((each) => each.node).map((each) => each.number),
+  );
+  return (
+    <div class="explained small" role="status">
+      {lines.map((each, index) => (
+        <LinkedLine key={index} line={each} calls={numbers} onCall={selectCall} />
+      ))}
+    </div>
+  );
+}

@@ -1,0 +1,139 @@
+"""An author at work: random edits of a library, files that come and go, other terms and scenes; repeatable by seed."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import cache
+
+import msgspec
+from shipped import library, shelf, vocabulary
+from single_edits import apply_edits, single_edit
+from test_libraries import LIBRARIES, text_of
+
+from skillc_compiler.ide.analysis import Library
+from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.types import Vocabulary
+
+STEPS = 12
+
+
+@cache
+def beginnings() -> tuple[Mapping[str, Source], ...]:
+    """Return the libraries to begin with: the shipped ones as one library, and those of other authors."""
+    standard = [Source(name, source.text) for name, source in shelf().items()]
+    shipped = [*standard, *library("wiping")]
+    others = [[Source("m.skill", text_of(path.stem))] for path in LIBRARIES]
+    return tuple({each.path: each for each in sources} for sources in (shipped, shipped[-4:], *others))
+
+
+def edited_libraries(seed: int) -> Iterator[Library]:
+    """Yield the states of a library between the edits of a random sequence."""
+    chance = random.Random(seed)
+    now = Library("mine", dict(chance.choice(beginnings())), shelf(), vocabulary())
+    yield now
+    for _ in range(STEPS):
+        now = chance.choices(list(_STEPS), list(_STEPS.values()))[0](now, chance)
+        yield now
+
+
+def _write(now: Library, path: str, text: str) -> Library:
+    return replace(now, sources={**now.sources, path: Source(path, text)})
+
+
+def _edit(now: Library, chance: random.Random) -> Library:
+    """Make a mistake, or a change, somewhere."""
+    path = chance.choice(sorted(now.sources))
+    text = now.sources[path].text
+    try:
+        return _write(now, path, apply_edits(text, [single_edit(text, chance.randrange(10**6))]))
+    except IndexError:  # a text without anything to edit
+        return now
+
+
+def _correct(now: Library, chance: random.Random) -> Library:
+    """Write a file as it was at the beginning."""
+    files = [source for each in beginnings() for source in each.values() if source.path in now.sources]
+    source = chance.choice(files or list(shelf().values()))
+    return _write(now, source.path, source.text)
+
+
+def _insert_line(now: Library, chance: random.Random) -> Library:
+    """Move everything below a line."""
+    path = chance.choice(sorted(now.sources))
+    lines = now.sources[path].text.split("\n")
+    lines.insert(chance.randrange(len(lines)), chance.choice(["", "# a comment"]))
+    return _write(now, path, "\n".join(lines))
+
+
+def _add(now: Library, chance: random.Random) -> Library:
+    """Add a file, or a copy of one, whose declarations then exist twice."""
+    files = [source for each in beginnings() for source in each.values()]
+    source = chance.choice(
+        [*files, Source("new.skill", "skill New {\n    in thing: Thing\n    post thing is Thing\n}\n")]
+    )
+    return _write(now, f"{chance.choice('abc')}_{source.path}" if chance.random() < 0.3 else source.path, source.text)
+
+
+def _remove(now: Library, chance: random.Random) -> Library:
+    gone = chance.choice(sorted(now.sources))
+    rest = {path: source for path, source in now.sources.items() if path != gone}
+    return replace(now, sources=rest) if rest else now
+
+
+def _rename(now: Library, chance: random.Random) -> Library:
+    old = chance.choice(sorted(now.sources))
+    text = now.sources[old].text
+    return _write(_remove_path(now, old), f"{chance.choice('az')}{old}", text)
+
+
+def _remove_path(now: Library, path: str) -> Library:
+    return replace(now, sources={other: source for other, source in now.sources.items() if other != path})
+
+
+def _change_terms(now: Library, chance: random.Random) -> Library:
+    """Take a term from the vocabulary, or change an axiom of one."""
+    terms: Vocabulary = vocabulary()
+    iri = chance.choice(sorted(terms.relations))
+    toggled = msgspec.structs.replace(terms.relations[iri], functional=not terms.relations[iri].functional)
+    changed: list[Vocabulary] = [
+        terms,
+        msgspec.structs.replace(terms, relations={**terms.relations, iri: toggled}),
+        msgspec.structs.replace(terms, relations={key: one for key, one in terms.relations.items() if key != iri}),
+        msgspec.structs.replace(terms, properties=dict(list(terms.properties.items())[chance.randrange(5) :])),
+    ]
+    return replace(now, vocabulary=chance.choice(changed))
+
+
+def _change_scenes(now: Library, chance: random.Random) -> Library:
+    """Give the tasks other individuals, or none."""
+    words = {word.strip("(),.") for source in now.sources.values() for word in source.text.split() if ":" in word}
+    named = sorted(word for word in words if not word.endswith(":"))
+    classes = sorted(now.vocabulary.classes)
+    some = chance.sample(named, min(len(named), 3))
+    iris = [_iri(now.vocabulary, word) for word in some]
+    scene = {iri: [chance.choice(classes)] for iri in iris}
+    tasks = [line.split()[1] for source in now.sources.values() for line in source.text.split("\n") if _is_task(line)]
+    return replace(now, scenes={task: scene for task in tasks if chance.random() < 0.7})
+
+
+def _iri(terms: Vocabulary, word: str) -> str:
+    prefix, _, local = word.partition(":")
+    return terms.prefixes.get(prefix, "http://example.org/") + local
+
+
+def _is_task(line: str) -> bool:
+    return line.startswith("task ") and len(line.split()) > 1
+
+
+_STEPS: Mapping[Callable[[Library, random.Random], Library], int] = {
+    _edit: 10,
+    _correct: 5,
+    _insert_line: 2,
+    _add: 2,
+    _remove: 1,
+    _rename: 1,
+    _change_terms: 1,
+    _change_scenes: 1,
+}
