@@ -123,7 +123,7 @@ def test_a_simulation_that_cannot_be_read_is_refused_with_a_sentence(tmp_path: P
     with open_cell(settings, SilentReporter()) as host:
         host.tick()
     with closing(sqlite3.connect(settings.journal, isolation_level=None)) as database:
-        database.execute("UPDATE cell_state SET value = x'00'")
+        database.execute("UPDATE cell_state SET value = x'00' WHERE name = 'reality'")
     with (
         pytest.raises(DatabaseError, match=r"journal\.sqlite has a simulation that cannot be read .*restore a backup"),
         open_cell(settings, SilentReporter()),

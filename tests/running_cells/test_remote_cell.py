@@ -101,7 +101,7 @@ def test_what_cannot_be_done_says_why(tmp_path: Path) -> None:
         async with serving(write_yard(tmp_path)) as (cell, server):
             for number, (message, request) in enumerate(requests.items()):
                 refused = (await cell.request(Submit(operation=f"op-{number}", request=request))).refused
-                assert refused is not None and message in refused.reason, refused
+                assert refused is not None and message in refused.describe(), refused
             assert server.operations == {}
 
     asyncio.run(operate())

@@ -7,7 +7,7 @@ from functools import partial
 
 from playwright.sync_api import Page
 
-from server.running import RunningServer
+from server.running import RunningServer, wait_until
 
 EXPECTED_ERRORS = (
     "401 (Unauthorized)",
@@ -15,6 +15,7 @@ EXPECTED_ERRORS = (
     "WebSocket connection to",
     "409 (Conflict)",
     "422 (Unprocessable",
+    "503 (Service Unavailable)",
 )
 """What browsers write to the console for answers and losses that the page shows itself."""
 
@@ -43,12 +44,13 @@ def open_studio(page: Page, server: RunningServer) -> None:
 
 
 def warm_up(server: RunningServer) -> None:
-    """Let the workers of a server start, which takes them several seconds."""
+    """Let the workers of a server start, which takes them several seconds; a server that is busy refuses meanwhile."""
     get = partial(server.client.get, timeout=120.0)
     with ThreadPoolExecutor() as together:
-        asked = [together.submit(get, f"/cells/yard/{each}") for each in ("library", "world")]
-        for each in asked:
-            each.result().raise_for_status()
+        asked = [partial(get, f"/cells/yard/{part}") for part in ("library", "world")]
+        answers = [together.submit(wait_until, each, lambda answer: answer.is_success) for each in asked]
+    for each in answers:
+        each.result()
 
 
 def choose(page: Page, task: str) -> None:

@@ -11,7 +11,7 @@ from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalledWrite, JournalReader
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.world.state.difference import changes_between
-from skillc_runtime.world.state.evidence import Evidence, EvidenceLedger
+from skillc_runtime.world.state.evidence import Evidence, EvidenceLedger, UndoableWrite
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -69,13 +69,11 @@ def read_merged(reader: JournalReader) -> MergedWrites | None:
 def restore_evidence(
     ledger: EvidenceLedger, state: WorldState, merged: MergedWrites | None, writes: Sequence[JournalledWrite]
 ) -> None:
-    """Add the merged writes, and those after them that led to `state`, to a ledger, each with its versions."""
-    versions = [state]
-    for write in reversed(writes):
-        versions.append(versions[-1].with_changes(write.undo))
+    """Add the merged writes, and those after them that led to `state`, to a ledger."""
+    kept = list[UndoableWrite]()
     if merged is not None:
-        scene = versions[-1].with_changes(decode_changes(merged.undo))
-        ledger.add(decode_changes(merged.changes), scene, versions[-1], merged.evidence, merged.origin)
-    for write, before, after in zip(writes, versions[:0:-1], versions[-2::-1], strict=True):
-        transaction = write.transaction
-        ledger.add(transaction.changes, before, after, write.evidence, transaction.origin)
+        changes, undo = decode_changes(merged.changes), decode_changes(merged.undo)
+        kept.append(UndoableWrite(merged.evidence, merged.origin, changes, undo))
+    for each in writes:
+        kept.append(UndoableWrite(each.evidence, each.transaction.origin, each.transaction.changes, each.undo))
+    ledger.restore(state, kept)

@@ -15,17 +15,16 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.disturbing import resolve_names
 from skillc.cells.editing import edit_world
 from skillc.cells.evidence import EvidenceKeeper
-from skillc.cells.geometry_reader import GeometryReader
 from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.fingerprint import make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.library import decode_library, load_library
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
-from skillc.cells.reality import RealityKeeper, build_again, report_devices
+from skillc.cells.reality import report_devices
 from skillc.cells.recordings import CellRecordings
-from skillc.cells.samples import Sampler
 from skillc.cells.settings import WORLD, CellSettings
+from skillc.cells.simulation import CellSimulation
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
@@ -47,7 +46,6 @@ from skillc_runtime.execution.preparation import prepare_after
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.execution.tree.gate import Gate, format_breakpoints
 from skillc_runtime.execution.world_edit import recorded_changes
-from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
@@ -81,16 +79,12 @@ class CellHost:
         """Build the cell; SheetError or FrameError if its scene cannot be simulated, DatabaseError of `build_again`."""
         self.settings, self.library = settings, library
         self.world, self._journal, self._reader = world, journal, reader
-        self._backend = build_again(settings.backend, world, settings.seed, reader)
-        self._reality = RealityKeeper(self._backend, journal)
+        self.simulation = CellSimulation(settings, world, journal, reader)
         self._evidence = EvidenceKeeper(world, journal, reader)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
-        self._recordings = CellRecordings(Path(settings.folder), self._backend, origin, reporter)
-        self.loop = CellLoop(self._backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
-        place_standing_bases(self._backend.cell)
+        self._recordings = CellRecordings(Path(settings.folder), self.simulation, origin, reporter)
+        self.loop = CellLoop(self.simulation.backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
         self._condition = CellCondition(settings.name, self.loop, journal, reader)
-        self.sampler = Sampler(settings.name, self._backend)
-        self.geometry = GeometryReader(self._backend)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
 
@@ -160,7 +154,7 @@ class CellHost:
 
     def take_twin(self) -> bytes:
         """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that."""
-        return encode_snapshot(self._describe_known(report_devices(self._backend)))
+        return encode_snapshot(self._describe_known(report_devices(self.simulation.backend)))
 
     def edit(self, edits: Sequence[str], who: str, why: str) -> None:
         """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
@@ -170,15 +164,15 @@ class CellHost:
 
     def disturb(self, disturbance: Disturbance, who: str) -> None:
         """Let something happen to the simulated cell; RequestError if it is not possible."""
-        if (broken := self._backend.broken) is not None:
+        if (broken := self.simulation.backend.broken) is not None:
             raise RequestError(f"nothing moves any more: {broken}")
         try:
             found = resolve_names(disturbance, self.world.snapshot())
-            self._backend.disturber.disturb(found)
+            self.simulation.backend.disturber.disturb(found)
         except (NoSuchName, DisturbanceRefused) as error:
             raise RequestError(str(error)) from error
-        self._reality.has_changed()
-        event = Disturbed(time=self._backend.clock.now, disturbance=found, tick=self.loop.ticks, who=who)
+        self.simulation.keeper.has_changed()
+        event = Disturbed(time=self.loop.backend.clock.now, disturbance=found, tick=self.loop.ticks, who=who)
         for submitted in self._operations.values():
             submitted.publisher(event)
         self._condition.update()
@@ -222,7 +216,7 @@ class CellHost:
         with suppress(NotDurable):
             self._commit()
         self._recordings.close()
-        self._backend.close()
+        self.simulation.backend.close()
 
     def _describe_known(self, devices: bytes) -> CellSnapshot:
         world, backend = self.world, self.settings.backend
@@ -230,7 +224,7 @@ class CellHost:
 
     def _commit(self) -> None:
         """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""
-        self._reality.keep(standing=not self.loop.runs)
+        self.simulation.keeper.keep(standing=not self.loop.runs)
         self._evidence.keep()
         self._journal.commit()
 
@@ -246,7 +240,7 @@ class CellHost:
             raise RequestError(str(error)) from error
         submitted = self._submit(operation, request, continuation)
         if continuation.assumed:
-            with recorded_changes(self.world, submitted.publisher, self._backend.clock.now):
+            with recorded_changes(self.world, submitted.publisher, self.loop.backend.clock.now):
                 self.world.commit(continuation.assumed, f"{request.owner}: {request.why}", "assumed")
         assert earlier.ended is not None, "it was interrupted"
         self._journal.end_operation(structs.replace(earlier.ended, decisions=(), continued_by=operation))
@@ -262,7 +256,10 @@ class CellHost:
         prepared, plan = continuation.prepared, self.loop.start_preparation
         start = plan if prepared is None else prepare_after(prepared, plan)
         self._journal.add_operation(operation, request)
-        recorders = self._recordings.begin(operation, request, self.library)
+        beginning = self.simulation.begin(self._operations)
+        self.loop.backend = self.simulation.backend
+        self._recordings.note_company(operation)
+        recorders = self._recordings.begin(operation, request, self.library, beginning, self.loop.ticks)
         publisher = Publisher(operation, (self._journal.record, *recorders))
         run = self.loop.submit(continuation.assignment, (publisher,), settings, gate, operation, start)
         self._operations[operation] = SubmittedOperation(request, run, publisher, self.library.hash)

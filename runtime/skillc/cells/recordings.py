@@ -9,14 +9,15 @@ from pathlib import Path
 import msgspec
 
 from skillc.cells.operation import OperationRequest
+from skillc.cells.simulation import Beginning, CellSimulation
 from skillc.cells.submitted import SubmittedOperation
 from skillc.services.reporting import Reporter
-from skillc.services.run_recordings import describe_contents, make_recorded_cell
+from skillc.services.run_recordings import KnownStart, describe_contents
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.recording.envelope import Recorder
 from skillc_runtime.recording.events import Note
+from skillc_runtime.recording.mcap.contents import NOT_REPEATABLE
 from skillc_runtime.recording.mcap.recording_file import CLOSE_S, RecordingFile
 from skillc_runtime.recording.states import State
 from skillc_runtime.scene.load import load_sheets
@@ -36,30 +37,38 @@ def recording_file(cell: Path, operation: str) -> Path:
 class CellRecordings:
     """Records the operations of a cell. The loop never waits; what cannot be written is reported, not raised."""
 
-    def __init__(self, folder: Path, simulation: Simulation, origin: CellOrigin, reporter: Reporter) -> None:
+    def __init__(self, folder: Path, simulation: CellSimulation, origin: CellOrigin, reporter: Reporter) -> None:
         """`folder` is that of the cell."""
         self._folder, self._simulation, self._origin, self._reporter = folder, simulation, origin, reporter
-        self._cell, self._sheets = (
-            make_recorded_cell(simulation),
-            load_sheets(simulation.cell.world.snapshot().vocabulary),
-        )
+        self._sheets = load_sheets(simulation.backend.cell.world.snapshot().vocabulary)
         self._going: dict[str, RecordingFile] = {}
         self._ending: list[RecordingFile] = []
 
-    def begin(self, operation: str, request: OperationRequest, library: SkillLibrary) -> tuple[Recorder, ...]:
-        """Begin a recording and return who gets the events; nobody if that is not possible."""
-        state = self._simulation.cell.world.snapshot()
+    def begin(
+        self, operation: str, request: OperationRequest, library: SkillLibrary, beginning: Beginning, ticks: int
+    ) -> tuple[Recorder, ...]:
+        """Begin a recording and return who gets the events; nobody if that is not possible.
+
+        The operation begins as `beginning` says, with the tick of that number.
+        """
+        world = self._simulation.backend.cell.world
+        start = KnownStart(world.snapshot(), world.ledger.writes, ticks, beginning.checkpoint, beginning.obstacle)
         task = request.task or request.goal or request.call or ""
         settings = msgspec.to_builtins(request)
-        describe = partial(describe_contents, operation, task, library, state, self._origin, settings, self._sheets)
+        describe = partial(describe_contents, operation, task, library, start, self._origin, settings, self._sheets)
         path = recording_file(self._folder, operation)
         try:
             path.parent.mkdir(exist_ok=True)
-            self._going[operation] = RecordingFile(path, describe, self._cell)
+            self._going[operation] = RecordingFile(path, describe, self._simulation.recorded)
         except OSError as error:
             self._reporter.say(f"warning: {path} cannot be written: {error.strerror or error}")
             return ()
         return (self._going[operation],)
+
+    def note_company(self, operation: str) -> None:
+        """Note in the recordings of all others that this operation goes on in the same cell."""
+        for recording in self._going.values():
+            recording.add_metadata({NOT_REPEATABLE: f"the operation {operation} went on in the same cell"})
 
     def update(self, submitted: SubmittedOperation) -> None:
         """Record signals as the state of an operation wants it; note in it that its recording has ended early."""
@@ -69,7 +78,7 @@ class CellRecordings:
             return
         if recording.problem is not None and not submitted.run.ended:
             self.end(operation)
-            submitted.publisher(Note(time=self._simulation.clock.now, message=f"warning: {recording.problem}"))
+            submitted.publisher(Note(time=self._simulation.backend.clock.now, message=f"warning: {recording.problem}"))
         else:
             recording.sample(submitted.run.state in MOVING)
 

@@ -171,11 +171,11 @@ class CellService:
             case TakeSnapshot(devices=devices):
                 return self._host.take_twin() if devices else self._host.take_snapshot()
             case TakeSample():
-                return msgspec.msgpack.encode(self._host.sampler.take())
+                return msgspec.msgpack.encode(self._host.simulation.sampler.take())
             case TakeGeometry():
-                return self._host.geometry.take_model()
+                return self._host.simulation.geometry.take_model()
             case TakeCoverage():
-                return self._host.geometry.take_coverage()
+                return self._host.simulation.geometry.take_coverage()
             case _:
                 assert_never(message)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -21,29 +22,53 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.recording.envelope import Recorder
-from skillc_runtime.recording.mcap.contents import LIBRARY, SCENE, SETTINGS, RunContents
+from skillc_runtime.recording.mcap.contents import LIBRARY, NOT_REPEATABLE, SCENE, SETTINGS, START, RunContents
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
 from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SignalTap
+from skillc_runtime.recording.run_start import encode_start
 from skillc_runtime.recording.signals.channels import name_devices
 from skillc_runtime.scene.load import load_sheets
 from skillc_runtime.scene.saving import SaveError, format_scene
+from skillc_runtime.world.state.evidence import LedgerWrite
+from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class KnownStart:
+    """What is known of the start of a run: the world, and for a cell that goes on from run to run all that follows.
+
+    That are the `writes` that led to the world, the number `ticks` of the first tick, and the `checkpoint` from which
+    the cell was built; `obstacle` is why there is none.
+    """
+
+    state: WorldState
+    writes: tuple[LedgerWrite, ...] = ()
+    ticks: int = 0
+    checkpoint: bytes = b""
+    obstacle: str = ""
 
 
 def describe_contents(
     run: str,
     task: str,
     library: SkillLibrary,
-    state: WorldState,
+    start: KnownStart,
     origin: CellOrigin,
     settings: Mapping[str, Any],
     sheets: WorldState | None = None,
 ) -> RunContents:
-    """Return what a run is made of: with its library, its world at the start as a scene, and its settings.
+    """Return what a run is made of: with its library, its start, the world then also as a scene, and its settings.
 
     `sheets` are the facts of data sheets, which a scene does not state; they are loaded unless they are given.
     """
     attachments = {LIBRARY: dumps(library), SETTINGS: msgspec.json.encode(dict(settings))}
+    state, obstacle = start.state, start.obstacle
+    if start.checkpoint:
+        try:
+            attachments[START] = encode_start(state, library.vocabulary, start.writes, start.ticks, start.checkpoint)
+        except StoreError as error:
+            obstacle = f"its start cannot be recorded: {error}"
     try:
         attachments[SCENE] = format_scene(state, sheets or load_sheets(state.vocabulary)).encode()
     except SaveError as error:
@@ -58,6 +83,8 @@ def describe_contents(
         "seed": str(origin.seed),
         "backend": origin.backend,
     }
+    if obstacle:
+        metadata[NOT_REPEATABLE] = obstacle
     return RunContents(metadata, attachments, _read_event_schema())
 
 

@@ -80,7 +80,8 @@ def report_run(
     trees = [attempt.tree for attempt in execution.attempts]
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
     record = RunRecord(trees, choices, state, truth, samples.trace)
-    result = summarise_run(execution, choices, library, record.wipings, simulation, measure_work(record))
+    works, began_s = measure_work(record), samples.trace.began_s
+    result = summarise_run(execution, choices, library, record.wipings, simulation, works, began_s)
     if folder is None or samples.film is None:
         return RunResult(result)
     drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in record.wipings)

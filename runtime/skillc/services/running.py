@@ -16,7 +16,7 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
-from skillc.services.run_recordings import describe_contents, recorded_in
+from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, RunSamples, make_samples, report_run
 from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
 from skillc.services.store_polling import StorePoller
@@ -162,8 +162,8 @@ class _Run:
             "step": options.step,
             "pause_at": options.pause_at,
         }
-        name = task.assignment.name
-        describe = partial(describe_contents, run_id, name, task.library, state, origin, settings)
+        name, start = task.assignment.name, KnownStart(state, checkpoint=options.saved or b"")
+        describe = partial(describe_contents, run_id, name, task.library, start, origin, settings)
         return recorded_in(folder, describe, self.cell, self.reporter)
 
     def _describe_recording(self, run_id: str, recorders: tuple[Recorder, ...]) -> RecordingOptions:

@@ -10,7 +10,7 @@ from skillc.services.errors import ServiceError
 from skillc.services.files import writing_to
 from skillc.services.recordings import NAME
 from skillc.services.reporting import Reporter
-from skillc.services.run_recordings import describe_contents, recorded_in
+from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.run_report import RunResult
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -53,7 +53,7 @@ def _record(task: LoadedTask, path: Path, result: TaskResult, reporter: Reporter
     stopped = result.status == "stopped"
     failure = Failure(kind="halted" if stopped else "plan", message=result.failure or "")
     run, state, origin = make_run_id(result.task), task.world.snapshot(), CellOrigin(task.scene, result.seed)
-    describe = partial(describe_contents, run, result.task, task.library, state, origin, {})
+    describe = partial(describe_contents, run, result.task, task.library, KnownStart(state), origin, {})
     with (
         recorded_in(path.parent, describe, None, reporter) as recorders,
         TraceWriter(path) as writer,

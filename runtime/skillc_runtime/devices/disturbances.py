@@ -58,3 +58,8 @@ class Disturber(Protocol):
     def disturb(self, disturbance: Disturbance) -> None:
         """Let something happen between two ticks; DisturbanceRefused if it is not possible."""
         ...
+
+    @property
+    def acts(self) -> bool:
+        """Whether a disturbance is not over."""
+        ...

@@ -63,17 +63,20 @@ def repeat_run(
     listeners: Sequence[Listener] = (),
     after_tick: Sequence[Callable[[], None]] = (),
     disturb: Callable[[Disturbance], None] | None = None,
+    ticks: int = 0,
 ) -> Repetition:
-    """Run a task again as `recorded`, all events of one run; `backend` is a cell built from its scene and seed.
+    """Run a task again as `recorded`, all events of one run; `backend` is a cell as it was at its start.
+
+    `ticks` is the number of its first tick.
 
     `listeners` get its events, `after_tick` are called whenever time has passed. `disturb` lets the recorded
     disturbances happen to the cell.
 
     A recording that ends before its run, or because the process died, is repeated up to its last event. Only a run that
-    had its cell for itself from the start of the cell can be repeated. NotRepeatable otherwise, if the library is
-    another one, if a plan of the recording does not work with it, or if the cell cannot be disturbed as it was.
+    had its cell for itself can be repeated. NotRepeatable if the cell is not as old as that of the run, if the library
+    is another one, if a plan of the recording does not work with it, or if the cell cannot be disturbed as it was.
     """
-    player = _Player(recorded, library, backend, listeners, after_tick, disturb)
+    player = _Player(recorded, library, backend, listeners, after_tick, disturb, ticks)
     try:
         player.play()
     except PlanError as error:
@@ -95,6 +98,7 @@ class _Player:
         listeners: Sequence[Listener],
         after_tick: Sequence[Callable[[], None]],
         disturb: Callable[[Disturbance], None] | None,
+        ticks: int,
     ) -> None:
         started = _find_start(recorded, library, backend)
         self.events: list[Event] = []
@@ -105,9 +109,8 @@ class _Player:
         self._inputs = deque(event for event in recorded if isinstance(event, Requested | Disturbed))
         self._disturb, self._listeners = disturb, (self._compare, *listeners)
         self._arrivals = deque(event for event in recorded if isinstance(event, PlanArrived))
-        self.loop = CellLoop(
-            backend, library, self._prepare, CellOrigin(started.scene, started.seed, started.backend), after_tick
-        )
+        origin = CellOrigin(started.scene, started.seed, started.backend)
+        self.loop = CellLoop(backend, library, self._prepare, origin, after_tick, ticks=ticks)
         gate = Gate(map(read_breakpoint, started.breakpoints))
         if started.stepped:
             gate.step("into", ())
@@ -211,7 +214,7 @@ def _find_start(recorded: Sequence[Event], library: SkillLibrary, backend: Backe
         )
     if started.time != backend.clock.now:
         raise NotRepeatable(
-            f"the run began {started.time:g} s after its cell; only the first run of a cell is repeated"
+            f"the run began at {started.time:g} s of its cell, and the recording does not have how the cell was then"
         )
     return started
 

@@ -158,7 +158,8 @@ class Film:
         marks = ForceMarks(frames, self._truth, self.speed_up)
         with self._renderer(model, WIDTH, HEIGHT, "still") as scene:
             for moment in moments:
-                at = min(round(moment.time * FRAMES_PER_S / self.speed_up), len(frames) - 1)
+                since_s = moment.time - frames[0].time
+                at = min(round(since_s * FRAMES_PER_S / self.speed_up), len(frames) - 1)
                 view = framing.hand_view(at, moment.arm)
                 yield scene.picture(frames[at], view, replace(frames[at].annotations, arrows=marks.arrows(at)))
 

@@ -64,16 +64,18 @@ class FrameSampler:
         self._surfaces = [each for each in sorted(state.instances(SURFACE)) if self._truth.is_present(each)]
         self._seconds = dict.fromkeys(self._surfaces, 0.0)
         self._shades: dict[str, Shades] = {}
+        self._began_s = self._clock.now
         self.speed_up = LEAST_SPEED_UP
         self.frames: list[Frame] = []
 
     def sample(self) -> None:
         """Sample a frame if one is due."""
-        if self._clock.now * FRAMES_PER_S < len(self.frames) * self.speed_up:
+        due = (self._clock.now - self._began_s) * FRAMES_PER_S
+        if due < len(self.frames) * self.speed_up:
             return
         if len(self.frames) == int(LONGEST_S * FRAMES_PER_S):
             self.frames, self.speed_up = self.frames[::2], 2 * self.speed_up
-            if self._clock.now * FRAMES_PER_S < len(self.frames) * self.speed_up:
+            if due < len(self.frames) * self.speed_up:
                 return
         hands = {arm: self._mark(gripper) for arm, gripper in self._hands.items()}
         shades = {each: self._shade(each) for each in self._surfaces}

@@ -108,37 +108,55 @@ function followWorld(name: string): void {
     studio.ENDS.includes(each.state),
   ).length;
   if (cell === undefined || cell.state === "off") return;
-  worldWanted = `${name} ${changes} ${ends}`;
-  void readWorld(name);
+  const version = `${changes} ${ends}`;
+  if (worldWanted.cell === name && worldWanted.version === version) return;
+  worldWanted = { cell: name, version };
+  void readWorld();
 }
 
-let worldWanted = "";
-let worldRead = "";
+let worldWanted = { cell: "", version: "" };
+let worldRead = worldWanted;
 let isReading = false;
 
-/** Read all facts, page by page; once more if something has changed meanwhile. */
-export async function readWorld(name: string, force = false): Promise<void> {
-  if (force) worldWanted += " again";
-  if (isReading || worldWanted === worldRead) return;
+/** Read all facts of the cell that is shown; once more if something has changed meanwhile. */
+export async function readWorld(isChanged = false): Promise<void> {
+  if (isChanged) worldWanted = { ...worldWanted };
+  if (isReading) return;
   isReading = true;
-  const wanted = worldWanted;
   try {
-    const found: WorldFact[] = [];
-    let sequence = 0;
-    for (let total = Infinity; found.length < total;) {
-      const page = await api.world(name, { offset: found.length, limit: PAGE });
-      found.push(...page.facts);
-      [total, sequence] = [page.facts.length === 0 ? 0 : page.total, page.sequence];
+    while (worldWanted !== worldRead) {
+      const wanted = worldWanted;
+      const found = await persistently(() => readFacts(wanted.cell), isShown(wanted.cell));
+      if (found !== null) showFacts(found);
+      worldRead = wanted;
     }
-    batch(() => {
-      studio.facts.value = found;
-      studio.worldSequence.value = sequence;
-    });
-    worldRead = wanted;
   } finally {
     isReading = false;
   }
-  if (worldWanted !== worldRead) await readWorld(name);
+}
+
+interface Facts {
+  facts: WorldFact[];
+  sequence: number;
+}
+
+function showFacts({ facts, sequence }: Facts): void {
+  batch(() => {
+    studio.facts.value = facts;
+    studio.worldSequence.value = sequence;
+  });
+}
+
+/** Read all facts of a cell, page by page. */
+async function readFacts(name: string): Promise<Facts> {
+  const facts: WorldFact[] = [];
+  let sequence = 0;
+  for (let total = Infinity; facts.length < total;) {
+    const page = await api.world(name, { offset: facts.length, limit: PAGE });
+    facts.push(...page.facts);
+    [total, sequence] = [page.facts.length === 0 ? 0 : page.total, page.sequence];
+  }
+  return { facts, sequence };
 }
 
 /** Follow the events of the operation that is chosen, from the first one. */

@@ -131,7 +131,7 @@ function EditForm() {
     if (name === null) return;
     if (await attempt(() => api.edit(name, edits, why), `${edits.length} changed in the world.`)) {
       editing.value = false;
-      await readWorld(name, true);
+      await readWorld(true);
     }
   };
   return (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
@@ -9,12 +10,13 @@ import msgspec
 
 from skillc.services.backends import BackendName, make_backend
 from skillc.services.errors import ServiceError
-from skillc.services.replaying.inputs import RunInputs, read_inputs
+from skillc.services.replaying.inputs import RunInputs, build_beginning, read_inputs
 from skillc.services.reporting import Reporter
+from skillc_runtime.backends.simulation.checkpoint import CheckpointError
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.execution.consistency import check_events
-from skillc_runtime.execution.repeat import Difference, NotRepeatable, repeat_run
-from skillc_runtime.recording.events import Event
+from skillc_runtime.execution.repeat import Difference, NotRepeatable, Repetition, repeat_run
+from skillc_runtime.recording.events import Event, Listener
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
@@ -56,6 +58,8 @@ def check_run(run: Path, library: Path | None, reporter: Reporter) -> ReplayChec
     """
     inputs = read_inputs(run, library, reporter)
     count = len(inputs.events)
+    if inputs.obstacle:  # what others did meanwhile is not recorded, and an event may follow from that
+        return ReplayCheck(run=str(run), events=count, note=inputs.obstacle)
     impossible = check_events(inputs.events, inputs.library, inputs.world)
     if impossible is not None:
         return ReplayCheck(run=str(run), events=count, impossible=str(impossible), note="the events are impossible")
@@ -74,11 +78,23 @@ def _repeat(inputs: RunInputs) -> tuple[DifferentEvent | None, int]:
     """Run again; return the first event that differs, and how many were the same. NotRepeatable; ServiceError."""
     cell = build_cell(inputs)
     try:
-        repetition = repeat_run(inputs.events, inputs.library, cell, disturb=cell.disturber.disturb)
+        repetition = repeat(inputs, cell)
     finally:
         cell.close()
     found = repetition.difference
     return (None if found is None else _describe(found)), len(repetition.events) if found is None else found.number - 1
+
+
+def repeat(
+    inputs: RunInputs,
+    cell: Simulation,
+    listeners: Sequence[Listener] = (),
+    after_tick: Sequence[Callable[[], None]] = (),
+) -> Repetition:
+    """Run again in a cell that `build_cell` returned; arguments and errors as of `repeat_run`."""
+    ticks = inputs.beginning.ticks if inputs.beginning is not None else 0
+    disturb = cell.disturber.disturb
+    return repeat_run(inputs.events, inputs.library, cell, listeners, after_tick, disturb, ticks)
 
 
 def build_cell(inputs: RunInputs) -> Simulation:
@@ -87,9 +103,12 @@ def build_cell(inputs: RunInputs) -> Simulation:
     name = next((each for each in get_args(BackendName) if each == start.backend), None)
     if name is None:
         raise ServiceError(f"the cell of the run is no simulation ({start.backend or 'a program built it'})")
+    beginning, world = inputs.beginning, WorldModel(inputs.world)
+    if beginning is not None:
+        world = build_beginning(beginning, inputs.library, Path(start.scene))
     try:
-        return make_backend(name, WorldModel(inputs.world), start.seed)
-    except (SheetError, FrameError) as error:
+        return make_backend(name, world, start.seed, beginning.simulation if beginning is not None else None)
+    except (SheetError, FrameError, CheckpointError) as error:
         raise ServiceError(f"the scene of the run cannot be simulated: {error}") from error
 
 

@@ -18,11 +18,14 @@ from skillc.services.reporting import Reporter
 from skillc_model.codec import LibraryError, loads
 from skillc_model.skills import Primitive, SkillLibrary
 from skillc_runtime.recording.events import Event, TaskStarted
-from skillc_runtime.recording.mcap.contents import LIBRARY, SCENE
+from skillc_runtime.recording.mcap.contents import LIBRARY, NOT_REPEATABLE, SCENE, START
 from skillc_runtime.recording.mcap.reader import read_recording
 from skillc_runtime.recording.reader import TraceError
+from skillc_runtime.recording.run_start import RunStart, StartError, build_world_again, decode_start
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
 
 SHIPPED_CODE = ("skillc", "skillc_runtime", "skillc_skills")
@@ -33,7 +36,8 @@ SHIPPED_CODE = ("skillc", "skillc_runtime", "skillc_skills")
 class RunInputs:
     """A recorded run: all its events, the first of which is `start`, its library, and its world before the first.
 
-    `wall_time_s` is how long it took on the wall clock.
+    `wall_time_s` is how long it took on the wall clock. `beginning` is what it began from in a cell that had run
+    before, None for a new cell; `obstacle` is why it cannot be repeated, empty if it can.
     """
 
     start: TaskStarted
@@ -41,6 +45,8 @@ class RunInputs:
     library: SkillLibrary
     world: WorldState
     wall_time_s: float
+    beginning: RunStart | None = None
+    obstacle: str = ""
 
 
 def read_inputs(run: Path, library: Path | SkillLibrary | None, reporter: Reporter) -> RunInputs:
@@ -57,17 +63,40 @@ def read_inputs(run: Path, library: Path | SkillLibrary | None, reporter: Report
     if not events or not isinstance(events[0], TaskStarted):
         raise ServiceError(f"{path} does not begin with the start of a task")
     start = events[0]
-    attachments = _read_attachments(path)
+    metadata, attachments = _read_contents(path)
     found = _find_library(start, attachments, library, path)
     wall_time_s = (envelopes[-1].wall_time_ns - envelopes[0].wall_time_ns) * 1e-9
-    return RunInputs(start, events, found, _load_world(start, attachments, found, path), wall_time_s)
+    beginning = _read_beginning(attachments, path)
+    if beginning is None:
+        world = _load_world(start, attachments, found, path)
+    else:
+        world = build_beginning(beginning, found, path).snapshot()
+    return RunInputs(start, events, found, world, wall_time_s, beginning, metadata.get(NOT_REPEATABLE, ""))
 
 
-def _read_attachments(path: Path) -> Mapping[str, bytes]:
-    """Return the files in the recording of a run, by name; none if it has only events."""
-    mcap = path if is_mcap(path) else find_mcap(path.parent)
+def build_beginning(beginning: RunStart, library: SkillLibrary, path: Path) -> WorldModel:
+    """Return the world from which a run began, with its evidence; ServiceError if the recording does not have it."""
     try:
-        return {} if mcap is None else read_recording(mcap).attachments
+        return build_world_again(beginning, library.vocabulary)
+    except (StartError, StoreError) as error:
+        raise ServiceError(f"the world at the start of {path} cannot be read: {error}") from error
+
+
+def _read_beginning(attachments: Mapping[str, bytes], path: Path) -> RunStart | None:
+    try:
+        return decode_start(attachments[START]) if START in attachments else None
+    except StartError as error:
+        raise ServiceError(f"the start in {path} cannot be read: {error}") from error
+
+
+def _read_contents(path: Path) -> tuple[Mapping[str, str], Mapping[str, bytes]]:
+    """Return the metadata and the files in the recording of a run, by name; none if it has only events."""
+    mcap = path if is_mcap(path) else find_mcap(path.parent)
+    if mcap is None:
+        return {}, {}
+    try:
+        recording = read_recording(mcap)
+        return recording.metadata, recording.attachments
     except TraceError as error:
         raise ServiceError(str(error)) from error
     except OSError as error:

@@ -7,14 +7,14 @@ from pathlib import Path
 
 from skillc.services.errors import ServiceError
 from skillc.services.files import writing_to
-from skillc.services.replaying.check import build_cell
+from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
 from skillc.services.run_report import RunResult, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.execution.execute import describe_execution
-from skillc_runtime.execution.repeat import NotRepeatable, repeat_run
+from skillc_runtime.execution.repeat import NotRepeatable
 
 
 def report_recorded(
@@ -25,13 +25,13 @@ def report_recorded(
     ServiceError if it cannot be repeated, or has no end; what `read_inputs` raises.
     """
     inputs = read_inputs(run, library, reporter)
+    if inputs.obstacle:
+        raise ServiceError(f"no report can be made of {run}: {inputs.obstacle}, so it cannot be repeated")
     reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
     with closing(build_cell(inputs)) as cell:
         samples, choices = make_samples(cell, looks, True, gif), ChoiceListener()
         try:
-            repeated = repeat_run(
-                inputs.events, inputs.library, cell, (choices,), (samples.sample,), cell.disturber.disturb
-            )
+            repeated = repeat(inputs, cell, (choices,), (samples.sample,))
         except NotRepeatable as error:
             raise ServiceError(f"no report can be made: {error}") from error
         if repeated.difference is not None:

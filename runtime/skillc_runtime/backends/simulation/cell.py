@@ -74,6 +74,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._world, self.scene, self.variation, self._restored = world, scene, variation, checkpoint
         self.model: Any = build_model(scene, variation, timestep_s)
         self.data: Any = mujoco.MjData(self.model)
+        self.data.time = checkpoint.time_s if checkpoint is not None else 0.0
         self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
         self._broken: str | None = None
         self._reports: list[tuple[Sequence[Change], str, Evidence]] = []
@@ -109,12 +110,14 @@ class ModelledCell(ABC, Generic[A, G]):
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)
-        idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(self._drivers)]
-        world.commit(idle, "start of the cell", "reported")
+        state = world.snapshot()
+        idle = [SetProperty(a, DEVICE_STATE, "Idle") for a in sorted(drivers) if state.value(a, DEVICE_STATE) != "Idle"]
+        if idle:
+            world.commit(idle, "start of the cell", "reported")
 
     @property
     def now(self) -> float:
-        """The simulated time in s since the cell started."""
+        """The simulated time in s since the cell was first built."""
         return float(self.data.time)
 
     @property

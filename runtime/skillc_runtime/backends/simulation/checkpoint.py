@@ -59,7 +59,7 @@ class SavedGripper(msgspec.Struct, frozen=True):
 
 
 class Checkpoint(msgspec.Struct, frozen=True):
-    """The true state of a cell at one instant, at rest; things are named by IRI, joints as in the MuJoCo model.
+    """The true state of a cell at `time_s` of its clock, at rest; things are named by IRI, joints as in the model.
 
     places: where things were believed to be when the cell was first built, from which the true differences follow;
     joints: coordinates in m, rad and quaternions; bases: poses in the world; worked: for how long, in s, tools have
@@ -71,6 +71,7 @@ class Checkpoint(msgspec.Struct, frozen=True):
     bases: dict[str, PoseNumbers]
     grippers: dict[str, SavedGripper]
     worked: dict[str, bytes]
+    time_s: float = 0.0
 
 
 def encode_checkpoint(checkpoint: Checkpoint) -> bytes:
@@ -126,6 +127,7 @@ def save_cell(
         joints={name: tuple(data.qpos[span].tolist()) for name, span in _list_joints(model)},
         bases={robot: list_numbers(each.pose) for robot, each in bases.items()},
         grippers={gripper: each.save() for gripper, each in grippers.items()},
+        time_s=float(data.time),
         worked={surface: zlib.compress(dose.astype("<f4").tobytes(), 1) for surface, dose in doses.items()},
     )
 

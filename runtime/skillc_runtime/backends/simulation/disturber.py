@@ -45,6 +45,11 @@ class SimulatedDisturber:
             case _:
                 assert_never(disturbance)
 
+    @property
+    def acts(self) -> bool:
+        """Whether somebody still pushes."""
+        return bool(self._pushes)
+
     def step(self, now: float) -> None:
         """Apply the forces of the step that begins at `now` s."""
         for arm, (push, ends) in tuple(self._pushes.items()):

@@ -13,7 +13,8 @@ def keep_reported(saved: bytes, prefixes: Iterable[str]) -> bytes:
     """Return a checkpoint with only what devices report: postures, openings, and what grippers count as held.
 
     `prefixes` are those of the names of all parts of arms and grippers. Where other things are, how a base really
-    stands and what was wiped is left to the facts. CheckpointError if the checkpoint cannot be read.
+    stands and what was wiped is left to the facts, and the clock begins anew. CheckpointError if the checkpoint cannot
+    be read.
     """
     checkpoint = decode_checkpoint(saved)
     held = {each.counted for each in checkpoint.grippers.values() if each.counted}
@@ -23,5 +24,6 @@ def keep_reported(saved: bytes, prefixes: Iterable[str]) -> bytes:
         joints={name: values for name, values in checkpoint.joints.items() if name.startswith(tuple(prefixes))},
         bases={},
         worked={},
+        time_s=0.0,
     )
     return encode_checkpoint(reported)

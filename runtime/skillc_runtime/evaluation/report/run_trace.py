@@ -9,9 +9,10 @@ from skillc_runtime.evaluation.report.hand_trace import HandTrace
 
 
 class RunTrace:
-    """Samples a cell; `sample` is to be called in every tick."""
+    """Samples a cell; `sample` is to be called in every tick. `began_s` is the time of the cell at the start, in s."""
 
     def __init__(self, simulation: Simulation) -> None:
+        self.began_s = simulation.clock.now
         self.arms, self.hands, self.bases = ArmTrace(simulation), HandTrace(simulation), BaseTrace(simulation)
 
     def sample(self) -> None:

@@ -47,20 +47,24 @@ def summarise_run(
     wipings: Sequence[Wiping],
     simulation: Simulation,
     works: tuple[WorkResult, ...] = (),
+    began_s: float = 0.0,
 ) -> TaskResult:
-    """Return the result of a task for reports, tables and JSON; `wipings` and `works` were found in it."""
+    """Return the result of a task for reports, tables and JSON; `wipings` and `works` were found in it.
+
+    The task began at `began_s` of its cell.
+    """
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
     handlings = find_handlings((each.tree for each in execution.attempts), choices, state)
     judged = tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
-    now, wall = simulation.clock.now, execution.wall_time_s
+    took_s, wall = simulation.clock.now - began_s, execution.wall_time_s
     result = structs.replace(
         summarise_start(execution.task, simulation),
         status=_find_status(execution),
         verified=execution.verified,
         facts=execution.facts,
-        sim_time_s=now,
+        sim_time_s=took_s,
         wall_time_s=wall,
-        real_time_factor=now / wall if wall else 0.0,
+        real_time_factor=took_s / wall if wall else 0.0,
         wiping=judged[0] if judged else None,
         wipings=judged,
         placements=measure_placements(simulation.cell.world, truth, find_targets(handlings)),

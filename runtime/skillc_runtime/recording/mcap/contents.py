@@ -20,8 +20,11 @@ METADATA = "skillc"
 
 ENVELOPE_SCHEMA, BLOCK_SCHEMA = "skillc.Envelope", "skillc.SignalBlock"
 
-LIBRARY, SCENE, SETTINGS = "library.json", "scene.ttl", "settings.json"
-"""The attachments."""
+NOT_REPEATABLE = "not_repeatable"
+"""What says in the metadata why a run cannot be repeated; it may come after the events."""
+
+LIBRARY, SCENE, SETTINGS, START = "library.json", "scene.ttl", "settings.json", "start.msgpack"
+"""The attachments; `START` is in the recordings of cells that go on from run to run."""
 
 PACKED = ".gz"
 """What the names of attachments end with in the file: they are compressed with gzip."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gzip
 import time
-from typing import BinaryIO, assert_never
+from typing import BinaryIO, TypeAlias, assert_never
 
 import msgspec
 from mcap.writer import Writer
@@ -29,6 +29,9 @@ from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
 
 CHUNK_BYTES = 1 << 20
 
+Metadata: TypeAlias = dict[str, str]
+"""Metadata of a run, by name, in addition to what it began with."""
+
 
 class McapStream:
     """An MCAP file that is being written; OSError of all methods if that fails."""
@@ -51,8 +54,8 @@ class McapStream:
                     self._channels[topic] = self._writer.register_channel(topic, "json", schema)
         file.flush()
 
-    def add(self, item: Envelope | SampledBlock) -> None:
-        """Add an event or a block of samples."""
+    def add(self, item: Envelope | SampledBlock | Metadata) -> None:
+        """Add an event, a block of samples, or metadata."""
         match item:
             case Envelope():
                 content, moment = self._json.encode(item), round(item.cell_time_s * 1e9)
@@ -62,6 +65,8 @@ class McapStream:
                 for topic, first_ns, value in self._samples.make(item):
                     encode = self._msgpack.encode if topic == SIGNALS else self._json.encode
                     self._writer.add_message(self._channels[topic], first_ns, encode(value), time.time_ns())
+            case dict():
+                self._writer.add_metadata(METADATA, item)
             case _:
                 assert_never(item)
 

@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.mcap.contents import RunContents
-from skillc_runtime.recording.mcap.mcap_stream import McapStream
+from skillc_runtime.recording.mcap.mcap_stream import McapStream, Metadata
 from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
 
 MAX_EVENTS, MAX_BLOCKS = 100_000, 200
@@ -29,7 +29,7 @@ class _End:
     """Nothing more is recorded."""
 
 
-Item: TypeAlias = Envelope | SampledBlock | _End
+Item: TypeAlias = Envelope | SampledBlock | Metadata | _End
 
 
 class RecordingFile:
@@ -56,6 +56,10 @@ class RecordingFile:
     def __call__(self, envelope: Envelope) -> None:
         """Record an event."""
         self._put(envelope)
+
+    def add_metadata(self, metadata: Metadata) -> None:
+        """Record what has turned out about the run."""
+        self._put(metadata)
 
     def sample(self, wanted: bool = True) -> None:
         """Record the signals from now on, or no more."""
@@ -92,7 +96,7 @@ class RecordingFile:
             self._give_up("the disk is too slow")
         self._put(block)
 
-    def _put(self, item: Envelope | SampledBlock) -> None:
+    def _put(self, item: Envelope | SampledBlock | Metadata) -> None:
         if self._ended or self.problem is not None:
             return
         try:

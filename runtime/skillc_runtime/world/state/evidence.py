@@ -60,14 +60,24 @@ def describe_evidence(known: DecidingWrite | None) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Merged:
-    """Writes that are kept as one, with the weakest evidence; they lead from one version to another."""
+class LedgerWrite:
+    """A write, or several that are kept as one with the weakest evidence; they lead from one version to another."""
 
     evidence: Evidence | None
     origin: str
     changes: tuple[Change, ...]
     before: WorldState
     after: WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class UndoableWrite:
+    """A write as it is stored: its evidence, its origin, its changes, and those that lead back."""
+
+    evidence: Evidence | None
+    origin: str
+    changes: tuple[Change, ...]
+    undo: tuple[Change, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,12 +110,22 @@ class EvidenceLedger:
             self._entries[:2] = [_merge(*self._entries[:2])]
 
     @property
-    def merged(self) -> Merged | None:
+    def writes(self) -> tuple[LedgerWrite, ...]:
+        """All writes, the oldest first: that one may stand for several."""
+        return tuple(LedgerWrite(e.write.evidence, e.write.origin, e.changes, e.before, e.after) for e in self._entries)
+
+    @property
+    def merged(self) -> LedgerWrite | None:
         """The oldest writes, as one; None if there are none."""
-        if not self._entries:
-            return None
-        oldest = self._entries[0]
-        return Merged(oldest.write.evidence, oldest.write.origin, oldest.changes, oldest.before, oldest.after)
+        return self.writes[0] if self._entries else None
+
+    def restore(self, state: WorldState, writes: Sequence[UndoableWrite]) -> None:
+        """Add writes, the last of which led to `state`, each with the versions before and after it."""
+        versions = [state]
+        for write in reversed(writes):
+            versions.append(versions[-1].with_changes(write.undo))
+        for write, before, after in zip(writes, versions[:0:-1], versions[-2::-1], strict=True):
+            self.add(write.changes, before, after, write.evidence, write.origin)
 
     @property
     def separate(self) -> int:

@@ -1,0 +1,63 @@
+"""The simulation of a cell, and who reads it: an operation that has it alone begins where it can be begun again."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from skillc.cells.geometry_reader import GeometryReader
+from skillc.cells.journal.journal import CellJournal
+from skillc.cells.journal.reading import JournalReader
+from skillc.cells.reality import RealityKeeper, build_again
+from skillc.cells.samples import Sampler
+from skillc.cells.settings import CellSettings
+from skillc.services.backends import make_backend
+from skillc.services.run_recordings import make_recorded_cell
+from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.primitives.standing_bases import place_standing_bases
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+
+
+@dataclass(frozen=True, slots=True)
+class Beginning:
+    """The checkpoint from which a simulation was built when an operation began; `obstacle` is why there is none."""
+
+    checkpoint: bytes = b""
+    obstacle: str = ""
+
+
+class CellSimulation:
+    """The simulation of a cell. `backend`, and who reads it, are others after `begin`."""
+
+    def __init__(self, settings: CellSettings, world: WorldModel, journal: CellJournal, reader: JournalReader) -> None:
+        """Build it as it was when the cell ended; errors of `build_again`."""
+        self._settings, self._world, self._journal = settings, world, journal
+        self._use(build_again(settings.backend, world, settings.seed, reader))
+
+    def begin(self, others: Collection[str]) -> Beginning:
+        """Build the simulation again from its true state, as whoever repeats the operation that begins now.
+
+        Motors, controllers and noise carry nothing over then that a checkpoint does not have. That is not possible
+        while `others` go on.
+        """
+        if others:
+            return Beginning(obstacle=f"the operation {min(others)} went on in the cell when it began")
+        if self.backend.disturber.acts:
+            return Beginning(obstacle="the cell was being disturbed when it began")
+        checkpoint = self.backend.save()
+        try:
+            backend = make_backend(self._settings.backend, self._world, self._settings.seed, checkpoint)
+        except (SheetError, FrameError) as error:
+            return Beginning(obstacle=f"its cell cannot be built from the facts that were known when it began: {error}")
+        self.backend.close()
+        self._use(backend)
+        return Beginning(checkpoint)
+
+    def _use(self, backend: Simulation) -> None:
+        self.backend = backend
+        self.keeper = RealityKeeper(backend, self._journal)
+        self.sampler, self.geometry = Sampler(self._settings.name, backend), GeometryReader(backend)
+        self.recorded = make_recorded_cell(backend)
+        place_standing_bases(backend.cell)
