@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
 
 import click
@@ -13,7 +14,7 @@ import msgspec
 from skillc.cli.server_connection import asked_cell
 
 if TYPE_CHECKING:
-    from skillc.workers.jobs import WorldFact, WorldWrite
+    from skillc.workers.jobs import WorldFact, WorldFormat, WorldWrite
     from skillc_runtime.evaluation.trials.series import Series
     from skillc_runtime.evaluation.trials.trial import Disturbance
 
@@ -70,8 +71,8 @@ def run_trials(
         ).series
 
 
-def show_world(sparql: str | None, individual: str | None, history: bool, as_json: bool) -> None:
-    """Print the answer to a query, the facts, those about an individual, or who has written them."""
+def show_world(sparql: str | None, individuals: Sequence[str], words: str | None, history: bool, as_json: bool) -> None:
+    """Print the answer to a query, the facts, those about individuals, or who has written them."""
     from skillc.cli.console import page_of, print_result, print_text
     from skillc.cli.scene_output import format_answer
     from skillc_runtime.scene.query import QueryAnswer
@@ -81,13 +82,41 @@ def show_world(sparql: str | None, individual: str | None, history: bool, as_jso
             rows = cell.query(sparql)
             print_result(format_answer(QueryAnswer(rows.columns, rows.rows), as_json, page_of(sys.stdout)))
             return
-        found = cell.world_history() if history else cell.facts(individual)
+        subjects: Sequence[str | None] = individuals or (None,)
+        facts = [fact for each in subjects for fact in cell.facts(each, search=words)] if not history else []
+        found = cell.world_history() if history else facts
     if as_json:
         click.echo(msgspec.json.format(msgspec.json.encode(found)))
     elif history:
         print_text("\n".join(map(_format_write, cast("Sequence[WorldWrite]", found))))
     else:
         print_text("\n".join(map(_format_fact, cast("Sequence[WorldFact]", found))))
+
+
+def export_world(format: str, everything: bool, file: Path | None) -> None:
+    """Print the world of a cell in a format, or write it to a file, whose path is printed."""
+    from skillc.services.files import write_file
+
+    with asked_cell() as cell:
+        text = cell.export(cast("WorldFormat", format), everything)
+    if file is None:
+        click.echo(text, nl=False)
+    else:
+        write_file(file, text)
+        click.echo(file)
+
+
+def show_things(folder: Path, as_json: bool) -> None:
+    """List the things of a cell with their poses, as it is believed, and draw them from above into a folder."""
+    from skillc.cli.console import page_of, print_remark, print_result
+    from skillc.cli.scene_output import format_placed
+    from skillc.services.files import write_file
+
+    with asked_cell() as cell:
+        print_result(format_placed(cell.things(), as_json, page_of(sys.stdout)))
+        picture, file = cell.export("top-view"), folder / f"{cell.name}.svg"
+    write_file(file, picture)
+    print_remark(str(file))
 
 
 def edit_world(edits: Sequence[str], why: str | None) -> None:

@@ -30,6 +30,7 @@ from skillc.server.orders.order import Missed, Order, OrderRequest
 from skillc.server.rehearsals import Rehearsal
 from skillc.server.trials.store import TrialSeries
 from skillc.services.errors import RequestError
+from skillc.services.placed_thing import PlacedThing
 from skillc.workers.jobs import (
     PlanPreview,
     QueryRows,
@@ -37,6 +38,8 @@ from skillc.workers.jobs import (
     TrialsRequest,
     WorldFact,
     WorldFacts,
+    WorldFormat,
+    WorldText,
     WorldWrite,
 )
 from skillc.workers.libraries import LibraryDescription
@@ -255,12 +258,23 @@ class AsyncCell:
         )
         return Trials(await run_trials(self._connection, self._path("trials"), request, watch))
 
-    async def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
-        """Return the facts about all individuals, about one, or about those of a class, with how each is known."""
+    async def facts(
+        self, subject: str | None = None, type: str | None = None, search: str | None = None
+    ) -> tuple[WorldFact, ...]:
+        """Return the facts about all individuals, about one, or about those of a class, with how each is known.
+
+        With `search` only those about individuals whose names, labels, classes or texts contain these words.
+        """
         found: list[WorldFact] = []
         while True:
             page = await self._connection.get(
-                self._path("world"), WorldFacts, subject=subject, type=type, offset=len(found), limit=FACTS
+                self._path("world"),
+                WorldFacts,
+                subject=subject,
+                type=type,
+                search=search,
+                offset=len(found),
+                limit=FACTS,
             )
             found += page.facts
             if len(found) >= page.total or not page.facts:
@@ -270,6 +284,19 @@ class AsyncCell:
         """Answer a SPARQL query about its world."""
         query = WorldQuery(require_text(sparql, "the query"))
         return await self._connection.send("POST", self._path("world", "query"), QueryRows, query)
+
+    async def export(self, format: WorldFormat = "turtle", everything: bool = False) -> str:
+        """Return its world as RDF, or as the picture `graph` or `top-view`, an SVG document.
+
+        RDF has the facts of data sheets with `everything`.
+        """
+        choice = require_choice(format, WorldFormat, "`format`")
+        query = {"format": choice, "everything": str(everything).lower()}
+        return (await self._connection.get(self._path("world", "document"), WorldText, **query)).text
+
+    async def things(self) -> tuple[PlacedThing, ...]:
+        """Return what has a place or a size in it, as it is believed."""
+        return await self._connection.get(self._path("things"), tuple[PlacedThing, ...])
 
     async def edit(self, *edits: str, why: str) -> None:
         """Change its world in one transaction, as you state, by edits as of `skillc scene edit`; `why` is recorded."""

@@ -18,7 +18,8 @@ from skillc.server.api_types import DeviceStatus
 from skillc.server.orders.order import Missed, Order
 from skillc.server.rehearsals import Rehearsal
 from skillc.server.trials.store import TrialSeries
-from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldWrite
+from skillc.services.placed_thing import PlacedThing
+from skillc.workers.jobs import PlanPreview, QueryRows, WorldFact, WorldFormat, WorldWrite
 from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.evaluation.trials.trial import Disturbance as TrialDisturbance
@@ -199,9 +200,25 @@ class ServerCell:
         )
         return self._loop.run(running)
 
-    def facts(self, subject: str | None = None, type: str | None = None) -> tuple[WorldFact, ...]:
-        """Return the facts about all individuals, about one, or about those of a class, with how each is known."""
-        return self._loop.run(self._cell.facts(subject, type))
+    def facts(
+        self, subject: str | None = None, type: str | None = None, search: str | None = None
+    ) -> tuple[WorldFact, ...]:
+        """Return the facts about all individuals, about one, or about those of a class, with how each is known.
+
+        With `search` only those about individuals whose names, labels, classes or texts contain these words.
+        """
+        return self._loop.run(self._cell.facts(subject, type, search))
+
+    def export(self, format: WorldFormat = "turtle", everything: bool = False) -> str:
+        """Return its world as RDF, or as the picture `graph` or `top-view`, an SVG document.
+
+        RDF has the facts of data sheets with `everything`.
+        """
+        return self._loop.run(self._cell.export(format, everything))
+
+    def things(self) -> tuple[PlacedThing, ...]:
+        """Return what has a place or a size in it, as it is believed."""
+        return self._loop.run(self._cell.things())
 
     def query(self, sparql: str) -> QueryRows:
         """Answer a SPARQL query about its world."""

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from skillc.services.files import writing_to
+from skillc.services.placed_thing import PlacedThing
 from skillc.services.scenes import OpenScene
 from skillc.services.top_view import Outline, draw_top_view
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
@@ -47,22 +48,6 @@ AWAY = 1.4
 
 
 @dataclass(frozen=True, slots=True)
-class PlacedThing:
-    """A thing: name, classes, what its pose is stated relative to, pose in the world in m and degrees, size in m.
-
-    `problem` says why its pose is not known; then position and angles are empty.
-    """
-
-    name: str
-    classes: tuple[str, ...]
-    stated: str
-    position: tuple[float, ...]
-    angles: tuple[float, ...]
-    size: tuple[float, ...]
-    problem: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class DrawnScene:
     """The files that were written, and why there is no rendered picture among them, None if there is."""
 
@@ -82,18 +67,26 @@ def draw_pictures(scene: OpenScene, folder: Path) -> DrawnScene:
 
     ServiceError if the folder cannot be written to.
     """
-    title = scene.path.name if scene.path else scene.document.path
-    stem = Path(title).stem
+    stem = Path(_title(scene)).stem
     svg, png = folder / f"{stem}.svg", folder / f"{stem}.png"
     with writing_to(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        svg.write_text(draw_top_view(_outlines(scene), title), encoding="utf-8")
+        svg.write_text(draw_from_above(scene), encoding="utf-8")
         try:
             _render(scene, png)
         except (RenderingError, SheetError, FrameError) as error:
             png.unlink(missing_ok=True)
             return DrawnScene((svg,), str(error))
     return DrawnScene((svg, png), None)
+
+
+def draw_from_above(scene: OpenScene) -> str:
+    """Return the view of a scene from above, an SVG document."""
+    return draw_top_view(_outlines(scene), _title(scene))
+
+
+def _title(scene: OpenScene) -> str:
+    return scene.path.name if scene.path else scene.document.path
 
 
 def _placed(state: WorldState, thing: str) -> PlacedThing:

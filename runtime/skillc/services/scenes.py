@@ -124,6 +124,13 @@ def open_scene(
         yield OpenScene(path, compiled, world, document, state, labels, meant)
 
 
+def view_world(name: str, library: SkillLibrary, state: WorldState) -> OpenScene:
+    """Return a version of a world as an open scene of a name."""
+    document = describe_state(name, state)
+    own = read_contents([document]).subjects & state.individuals
+    return OpenScene(None, library, WorldModel(state), document, state, read_contents(sheet_documents()).labels, own)
+
+
 def find_individuals(scene: OpenScene, words: str | None) -> tuple[Element, ...]:
     """Return the stated facts about all individuals, or about those whose names, labels, classes or texts match."""
     if words is None:

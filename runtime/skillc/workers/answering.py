@@ -17,7 +17,9 @@ from skillc.cells.snapshot import CellSnapshot, decode_snapshot
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.diagnosis import diagnose
 from skillc.services.errors import DiagnosticsError, ServiceError
-from skillc.services.scenes import describe_state, query_document
+from skillc.services.placed_thing import PlacedThing
+from skillc.services.scene_show import list_placed
+from skillc.services.scenes import describe_state, find_individuals, query_document, view_world
 from skillc.workers.devices import Device, list_devices
 from skillc.workers.jobs import (
     CheckOperation,
@@ -28,6 +30,7 @@ from skillc.workers.jobs import (
     ListDevices,
     ListFacts,
     ListPoses,
+    ListThings,
     ListWrites,
     MakeReport,
     PlanPreview,
@@ -39,13 +42,16 @@ from skillc.workers.jobs import (
     SimulationJob,
     WorldFact,
     WorldFacts,
+    WorldText,
     WorldWrite,
+    WriteWorld,
 )
 from skillc.workers.libraries import LibraryDescription, describe_library
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
 from skillc.workers.reporting import make_report
 from skillc.workers.trying import check_trials, run_trial
+from skillc.workers.world_text import write_world
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.platforms.memory import limit_memory
@@ -66,6 +72,8 @@ MAX_ROWS = 10_000
 JobAnswer: TypeAlias = (
     QueryRows
     | WorldFacts
+    | WorldText
+    | tuple[PlacedThing, ...]
     | tuple[WorldWrite, ...]
     | LibraryDescription
     | tuple[Device, ...]
@@ -101,6 +109,10 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return _query(sparql, known)
         case ListFacts():
             return _list_facts(job, known)
+        case WriteWorld():
+            return write_world(job, known)
+        case ListThings():
+            return list_placed(view_world("world", known.library, known.state))
         case PreviewPlan():
             return preview_plan(job, known)
         case ListWrites():
@@ -173,6 +185,9 @@ def _find_facts(job: ListFacts, known: CellSnapshot) -> Iterator[Fact]:
     else:
         shipped = _find_shipped(known)
         every = find_elements(state, job.cls) if job.cls is not None else elements_of(state, state.individuals)
+        if job.words is not None:
+            chosen = {each.iri for each in find_individuals(view_world("world", known.library, state), job.words)}
+            every = tuple(each for each in every if each.iri in chosen)
         found = tuple(each for each in every if each.iri not in shipped)
     for each in found:
         if job.cls is None or each.is_a(job.cls):

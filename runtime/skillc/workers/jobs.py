@@ -21,13 +21,31 @@ class QueryWorld(msgspec.Struct, frozen=True, tag="query"):
 class ListFacts(msgspec.Struct, frozen=True, tag="facts"):
     """List the stated facts about the individuals of a class, or about one, but not those of data sheets.
 
-    Names are IRIs or `prefix:name`; None stands for all.
+    Names are IRIs or `prefix:name`; None stands for all. With `words`, those whose names, labels, classes or texts
+    contain them.
     """
 
     subject: str | None
     cls: str | None
+    words: str | None
     offset: int
     limit: int
+
+
+WorldFormat: TypeAlias = Literal["turtle", "rdfxml", "jsonld", "ntriples", "trig", "graph", "top-view"]
+"""The forms of RDF, and pictures as SVG: the individuals with their relations, and what is where from above."""
+
+
+class WriteWorld(msgspec.Struct, frozen=True, tag="write-world"):
+    """Write the world of the cell of a name in a format; RDF with the facts of data sheets if `everything`."""
+
+    cell: str
+    format: WorldFormat
+    everything: bool
+
+
+class ListThings(msgspec.Struct, frozen=True, tag="things"):
+    """List the things that have a pose of their own or a size."""
 
 
 class ListWrites(msgspec.Struct, frozen=True, tag="writes"):
@@ -100,7 +118,16 @@ class RunTrial(msgspec.Struct, frozen=True, tag="trial"):
 
 
 Question: TypeAlias = (
-    QueryWorld | ListFacts | ListWrites | DescribeLibrary | ListDevices | ListPoses | CheckOperation | PreviewPlan
+    QueryWorld
+    | ListFacts
+    | WriteWorld
+    | ListThings
+    | ListWrites
+    | DescribeLibrary
+    | ListDevices
+    | ListPoses
+    | CheckOperation
+    | PreviewPlan
 )
 SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial
 Job: TypeAlias = Question | SimulationJob
@@ -153,6 +180,13 @@ class WorldFact(msgspec.Struct, frozen=True, omit_defaults=True):
     fact: LabelledFact
     evidence: Evidence | None = None
     origin: str = ""
+
+
+class WorldText(msgspec.Struct, frozen=True):
+    """A world after the write `sequence`, as text."""
+
+    sequence: int
+    text: str
 
 
 class WorldFacts(msgspec.Struct, frozen=True):

@@ -1762,6 +1762,30 @@ export interface components {
             origin?: string;
         };
         /**
+         * WorldText
+         * @description A world after the write `sequence`, as text.
+         */
+        WorldText: {
+            sequence: number;
+            text: string;
+        };
+        /**
+         * PlacedThing
+         * @description A thing: name, classes, what its pose is stated relative to, pose in the world in m and degrees, size in m.
+         *
+         *         `problem` says why its pose is not known; then position and angles are empty.
+         */
+        PlacedThing: {
+            name: string;
+            classes: string[];
+            stated: string;
+            position: number[];
+            angles: number[];
+            size: number[];
+            /** @default null */
+            problem?: string | null;
+        };
+        /**
          * QueryRows
          * @description The answer to a query, of the world after the write `sequence`; `truncated` if there were more rows.
          */

@@ -95,6 +95,21 @@ def _opened(scene: Path, library: Path | None) -> Iterator[tuple[Path, WorldStat
         yield opened.path, opened.state
 
 
+def _refuse_cell(context: click.Context, _option: click.Parameter, value: str | None) -> None:
+    if value is not None:
+        raise click.UsageError(
+            f"`skillc scene {context.info_name}` writes a file, which no cell that runs reads again; "
+            "`skillc scene edit --cell NAME --why TEXT EDIT...` changes the world of a cell"
+        )
+
+
+def file_only(function: Function) -> Function:
+    """Refuse the options of a cell, with what can be done instead."""
+    for name in ("--cell", "--server"):
+        function = click.option(name, hidden=True, expose_value=False, is_eager=True, callback=_refuse_cell)(function)
+    return function
+
+
 LIBRARY = click.option(
     "--library", type=PATH, help="The library whose terms the scene uses; by default the one beside it, else shipped."
 )
@@ -108,6 +123,7 @@ def command() -> None:
 @command.command(cls=Command)
 @click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.option("--arm", metavar="CLASS", help="Start with an arm of this class on a pedestal, with its gripper.")
+@file_only
 def new(scene: Path, arm: str | None) -> None:
     """Create the file SCENE: a workstation, and an arm if one is named."""
     from skillc.services.new_scene import create_scene
@@ -127,6 +143,7 @@ def new(scene: Path, arm: str | None) -> None:
 @click.option("--in", "inside", metavar="PLACE", help="The place that contains the thing.")
 @pose_options
 @LIBRARY
+@file_only
 def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) -> None:
     """Add a thing NAME of a CLASS at the end of SCENE.
 
@@ -146,6 +163,7 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
 @click.argument("name")
 @pose_options
 @LIBRARY
+@file_only
 def move(scene: Path, name: str, library: Path | None, **given: Any) -> None:
     """Move the thing NAME of SCENE. What is not stated stays as it is written."""
     from skillc.services.scene_things import move_thing
@@ -158,6 +176,7 @@ def move(scene: Path, name: str, library: Path | None, **given: Any) -> None:
 @click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.argument("names", nargs=-1, required=True)
 @LIBRARY
+@file_only
 def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
     """Remove things, and all statements about them, from SCENE."""
     from skillc.services.scene_things import remove_things
@@ -202,6 +221,7 @@ def edit(scene: str | None, edits: tuple[str, ...], library: Path | None, why: s
 @click.argument("source", metavar="FILE", type=PATH)
 @pose_options
 @LIBRARY
+@file_only
 def import_(scene: Path, source: Path, library: Path | None, **given: Any) -> None:
     """Add the solids of an MJCF, URDF or SDF FILE to SCENE, as fixed things.
 
@@ -219,15 +239,29 @@ def import_(scene: Path, source: Path, library: Path | None, **given: Any) -> No
 
 
 @command.command(cls=Command)
-@click.argument("scene", type=PATH, shell_complete=complete_scene)
+@click.argument("scene", required=False, type=PATH, shell_complete=complete_scene)
 @click.option("--out", type=FOLDER, default="out/scene", show_default=True, help="The folder for the pictures.")
 @LIBRARY
+@cell_options
 @json_option
-def show(scene: Path, out: Path, library: Path | None, as_json: bool) -> None:
+def show(scene: Path | None, out: Path, library: Path | None, as_json: bool) -> None:
     """List the things of SCENE with their poses in the world, and draw them.
 
     The view from above is an SVG file. A PNG picture is rendered as well if there is a GL library.
+
+    With --cell or --server and without SCENE, these are the things of a cell that runs, where they are believed to be;
+    the view from above is drawn.
     """
+    if asks_cell():
+        from skillc.cli import cell_questions
+
+        refuse_options(library=library)
+        if scene is not None:
+            raise click.UsageError("SCENE cannot be named with a cell of a server")
+        cell_questions.show_things(out, as_json)
+        return
+    if scene is None:
+        raise click.UsageError("name SCENE, or --cell")
     from skillc.cli.console import Terminal, page_of, print_result
     from skillc.cli.scene_output import format_placed
     from skillc.services import scene_show, scenes

@@ -89,7 +89,8 @@ def command(
     subclasses, ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. (Conditions of the skill language include
     subclasses and sub-relations.)
 
-    With --cell or --server it shows the world of a cell that runs, with how each fact is known.
+    With --cell or --server it shows the world of a cell that runs, with how each fact is known. --query, --search,
+    --show, --graph and --export are answered there.
 
     `skillc scene` writes scenes.
     """
@@ -107,19 +108,13 @@ def command(
     if output and not form:
         raise click.UsageError("--output requires --export FORMAT")
     if asks_cell():
-        refuse_options(
-            search=words,
-            diff=other,
-            graph=graph,
-            export=form,
-            library=library,
-            store=store,
-            reset=reset,
-            all=everything,
-        )
-        if scene is not None or len(names) > 1:
-            raise click.UsageError("name neither SCENE nor several individuals with a cell of a server")
-        cell_questions.show_world(sparql, names[0] if names else None, history, as_json)
+        refuse_options(diff=other, library=library, store=store, reset=reset, all=everything and not form)
+        if scene is not None:
+            raise click.UsageError("SCENE cannot be named with a cell of a server")
+        if graph or form:
+            cell_questions.export_world(form or "graph", everything, graph or output)
+        else:
+            cell_questions.show_world(sparql, names, words, history, as_json)
         return
     if history:
         raise click.UsageError("--history requires --cell or --server")

@@ -12,7 +12,19 @@ from skillc.server.api_types import WorldEdit, WorldQuery
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell
-from skillc.workers.jobs import ListFacts, ListWrites, QueryRows, QueryWorld, WorldFacts, WorldWrite
+from skillc.services.placed_thing import PlacedThing
+from skillc.workers.jobs import (
+    ListFacts,
+    ListThings,
+    ListWrites,
+    QueryRows,
+    QueryWorld,
+    WorldFacts,
+    WorldFormat,
+    WorldText,
+    WorldWrite,
+    WriteWorld,
+)
 
 QUERY_S = 10.0
 """How long the answer to a query may take."""
@@ -21,12 +33,26 @@ Name = Annotated[str, msgspec.Meta(max_length=500)]
 
 
 class FactPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which facts: about an individual, or those of a class; names are IRIs or `prefix:name`."""
+    """Which facts: about an individual, or those of a class; names are IRIs or `prefix:name`.
+
+    With `search` only those about individuals whose names, labels, classes or texts contain these words.
+    """
 
     subject: Name | None = None
     type: Name | None = None
+    search: Name | None = None
     offset: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
     limit: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 200
+
+
+class DocumentForm(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """RDF in a format, `graph`, a picture of individuals and relations, or `top-view`; both pictures are SVG.
+
+    With `everything` RDF has the facts of data sheets, too.
+    """
+
+    format: WorldFormat = "turtle"
+    everything: bool = False
 
 
 class WritePage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -38,7 +64,18 @@ class WritePage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 async def list_facts(call: ApiCall) -> WorldFacts:
     page: FactPage = call.query
-    return await ask_about(call, ListFacts(page.subject, page.type, page.offset, page.limit), WorldFacts, QUERY_S)
+    job = ListFacts(page.subject, page.type, page.search, page.offset, page.limit)
+    return await ask_about(call, job, WorldFacts, QUERY_S)
+
+
+async def write_world(call: ApiCall) -> WorldText:
+    wanted: DocumentForm = call.query
+    cell = call.server.find_cell(call.path["cell"]).settings.name
+    return await ask_about(call, WriteWorld(cell, wanted.format, wanted.everything), WorldText, QUERY_S)
+
+
+async def list_things(call: ApiCall) -> tuple[PlacedThing, ...]:
+    return await ask_about(call, ListThings(), tuple[PlacedThing, ...], QUERY_S)
 
 
 async def query_world(call: ApiCall) -> QueryRows:
@@ -65,6 +102,14 @@ ENDPOINTS = (
     ApiEndpoint(
         "GET", PATH, "view", "List facts of the world of a cell", list_facts, WorldFacts, query=FactPage,
         refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "GET", f"{PATH}/document", "view", "Write the world of a cell as RDF or as a picture", write_world, WorldText,
+        query=DocumentForm, refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "GET", "/cells/{cell}/things", "view", "List what has a place or a size in a cell, as it is believed",
+        list_things, tuple[PlacedThing, ...], refusals=REFUSALS,
     ),
     ApiEndpoint(
         "POST", f"{PATH}/query", "view", "Answer a SPARQL query about the world of a cell", query_world, QueryRows,
