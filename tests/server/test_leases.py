@@ -53,7 +53,7 @@ def test_the_audit_log_has_who_changed_what_and_what_was_refused(server: Running
         assert mallory.post("/cells/yard/operations", json={"task": "carry_all"}).status_code == 403
     found = server.client.get("/audit", params={"after": after}).json()
     assert [(each["who"], each["action"], each["status"]) for each in found] == [
-        ("admin", "POST /api/v1/tokens", 201),
+        ("admin", 'POST /api/v1/tokens {"name":"mallory","role":"view"}', 201),
         ("mallory", "POST /api/v1/cells/yard/operations", 403),
         ("admin", "DELETE /api/v1/tokens/mallory", 204),
     ]

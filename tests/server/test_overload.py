@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import resource
 import socket
+from collections import Counter
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -49,6 +50,29 @@ def test_a_stop_takes_effect_while_costly_requests_still_wait(server: RunningSer
     state, waiting, statuses = asyncio.run(flood())
     assert state == "stopped" and waiting > FLOOD // 2, "the stop did not wait for them"
     assert statuses == {409}
+
+
+def test_too_many_requests_of_a_client_are_refused_but_no_stop(server: RunningServer) -> None:
+    server.put_back()
+    operation = server.submit(task="carry_all")["id"]
+    server.wait_for(operation, "running")
+    token = server.client.post("/tokens", json={"name": "busy", "role": "view"}).json()["token"]
+
+    async def ask_on() -> tuple[Counter[int], set[int], set[str]]:
+        headers = {"Authorization": f"Bearer {token}"}
+        async with httpx.AsyncClient(base_url=server.url, headers=headers, timeout=60.0) as client:
+            statuses, stops, after = Counter[int](), set[int](), set[str]()
+            while statuses[429] < 10:
+                answers = await asyncio.gather(*(client.get("/cells") for _ in range(50)))
+                statuses.update(each.status_code for each in answers)
+                after |= {each.headers.get("Retry-After", "") for each in answers if each.status_code == 429}
+                stops.add((await client.post(f"/operations/{operation}/stop", json={})).status_code)
+            return statuses, stops, after
+
+    statuses, stops, after = asyncio.run(ask_on())
+    server.client.delete("/tokens/busy")
+    assert set(statuses) == {200, 429} and stops == {200} and after == {"1"}
+    server.wait_for(operation, "stopped")
 
 
 def test_bodies_that_do_not_arrive_keep_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:

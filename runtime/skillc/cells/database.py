@@ -13,6 +13,10 @@ BUSY_TIMEOUT_MS = 5000
 """How long a statement waits for another connection that holds the file, in ms."""
 
 
+PRIVATE = 0o600
+"""The permissions of a database."""
+
+
 class DatabaseError(RuntimeError):
     """A database that cannot be used; the message names the file, the problem and what to do."""
 
@@ -30,12 +34,13 @@ class Schema:
 
 
 def open_for_writing(path: Path, schema: Schema) -> sqlite3.Connection:
-    """Open a database, or create it, in autocommit mode; commits are durable.
+    """Open a database, or create it, in autocommit mode; commits are durable. Only its owner can read it from then on.
 
     One of an older format is migrated, and a copy `NAME.format-N` kept. DatabaseError if it is of a newer format, is of
     something else, or cannot be written.
     """
     try:
+        _keep_private(path)
         connection = _connect(path)
         try:
             _prepare(connection, path, schema)
@@ -90,6 +95,15 @@ def _connect(path: Path) -> sqlite3.Connection:
     connection = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
     connection.execute(f"PRAGMA busy_timeout = {BUSY_TIMEOUT_MS}")
     return connection
+
+
+def _keep_private(path: Path) -> None:
+    """Create an empty file, or take a file from all but its owner; SQLite makes its other files like it."""
+    try:
+        path.touch(mode=PRIVATE)
+        path.chmod(PRIVATE)
+    except OSError as error:
+        raise DatabaseError(f"{path} cannot be used: {error.strerror or error}") from error
 
 
 def _prepare(connection: sqlite3.Connection, path: Path, schema: Schema) -> None:

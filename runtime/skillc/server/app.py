@@ -86,9 +86,7 @@ class Application:
         try:
             noted.client = find_known_client(self._server, request)
             self._check_allowed(endpoint, noted.client)
-            if endpoint.method != "GET" and not endpoint.unlimited:
-                noted.begin()
-            response = await self._carry_out(endpoint, noted.client, request)
+            response = await self._carry_out(endpoint, noted.client, noted, request)
         except ApiRefusal as refused:
             response, noted.detail = refuse(refused), refused.problem.detail
         except (DatabaseError, sqlite3.Error) as error:
@@ -118,18 +116,23 @@ class Application:
         if self._ongoing[client.name] >= MAX_ONGOING:
             raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"at most {MAX_ONGOING} requests at the same time")
 
-    async def _carry_out(self, endpoint: ApiEndpoint, client: Client, request: Request) -> Response:
+    async def _carry_out(
+        self, endpoint: ApiEndpoint, client: Client, noted: AuditedRequest, request: Request
+    ) -> Response:
         self._ongoing[client.name] += not endpoint.unlimited
         try:
-            return await self._call(endpoint, client, request)
+            return await self._call(endpoint, client, noted, request)
         finally:
             self._ongoing[client.name] -= not endpoint.unlimited
 
-    async def _call(self, endpoint: ApiEndpoint, client: Client, request: Request) -> Response:
+    async def _call(self, endpoint: ApiEndpoint, client: Client, noted: AuditedRequest, request: Request) -> Response:
         query = read_query(request, endpoint.query)
         content = b"" if endpoint.body is None else await read_body(request)
         body = None if endpoint.body is None else decode_body(content, endpoint.body)
         key = read_key(request) if endpoint.takes_key else None
+        noted.content = content
+        if endpoint.method != "GET" and not endpoint.unlimited:
+            noted.begin()
         leave = partial(wait_until_gone, request)
         session = find_cookie(request), read_session(request)
         call = ApiCall(self._server, client, request.path_params, query, body, content, key, leave, *session)

@@ -24,7 +24,7 @@ CREATE TABLE audit (
     wall_ns INTEGER NOT NULL,
     who     TEXT NOT NULL,                     -- the name of a token; empty for requests without a valid one
     origin  TEXT NOT NULL,                     -- the address of the client
-    action  TEXT NOT NULL,                     -- the method and path of the request
+    action  TEXT NOT NULL,                     -- the method, the path and the body of the request, cut
     status  INTEGER NOT NULL,                  -- the status of the answer; 0 if it is not known
     detail  TEXT NOT NULL                      -- why it was refused; empty otherwise
 )
@@ -93,12 +93,16 @@ class AuditLog:
 
 @dataclass(slots=True)
 class AuditedRequest:
-    """A request, or a WebSocket, as the audit log has it: `client` made it, `detail` is why it is refused."""
+    """A request, or a WebSocket, as the audit log has it: `client` made it, `detail` is why it is refused.
+
+    `content` is its body once that is known to be one of its endpoint; bodies have no secrets.
+    """
 
     server: ServerContext
     connection: HTTPConnection
     client: Client | None = None
     detail: str = ""
+    content: bytes = b""
     _number: int | None = None
 
     def begin(self) -> None:
@@ -121,7 +125,10 @@ class AuditedRequest:
         connection, who = self.connection, self.client.name if self.client is not None else ""
         method = connection.scope.get("method", "WebSocket")
         origin = connection.client.host if connection.client else ""
-        return self.server.audit.add(who, origin, f"{method} {connection.url.path}", status, self.detail)
+        body = " ".join(self.content[:MAX_TEXT].decode("utf-8", "replace").split())
+        return self.server.audit.add(
+            who, origin, f"{method} {connection.url.path} {body}".rstrip(), status, self.detail
+        )
 
 
 def _clean(text: str) -> str:
