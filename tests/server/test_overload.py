@@ -98,7 +98,7 @@ def test_a_server_whose_disk_is_full_refuses_changes_and_stops_all_the_same(tmp_
             server.client.post("/cells/yard/operations", json=CARRY),
             server.client.post("/cells/yard/operations", json=CARRY, headers={"Idempotency-Key": "a"}),
             server.client.post("/tokens", json={"name": "eve", "role": "view"}),
-            server.client.post("/cells/yard/orders", json={"request": CARRY}),
+            server.client.post("/cells/yard/orders", json={"request": CARRY, "at": "2099-01-01T00:00:00Z"}),
         ]
         assert [each.status_code for each in refused] == [503] * len(refused)
         assert all("free some space" in each.json()["detail"] for each in refused)
