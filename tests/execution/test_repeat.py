@@ -105,7 +105,7 @@ def test_a_recording_without_a_beginning_is_refused() -> None:
 def test_a_run_that_was_not_the_first_of_its_cell_is_refused() -> None:
     events = recording()
     events[0] = structs.replace(events[0], time=5.0)
-    with pytest.raises(NotRepeatable, match="the run began 5 s after its cell"):
+    with pytest.raises(NotRepeatable, match="the run began at 5 s of its cell, and the recording does not"):
         repeated(events)
 
 

@@ -96,7 +96,7 @@ def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
         (("plan", "carry_al", "--cell", "yard"), 1, "did you mean `carry_all`"),
         (("plan", "carry_all", "--cell", "yard", "--scene", "other.ttl"), 2, "--scene cannot be used with a cell"),
         (("world", "--cell", "barn"), 2, "there is no cell `barn`"),
-        (("world", "yard.ttl", "--cell", "yard"), 2, "name neither SCENE nor several individuals"),
+        (("world", "yard.ttl", "--cell", "yard"), 2, "SCENE cannot be named with a cell of a server"),
         (("world", "--cell", "yard", "--show", "lab:crat-1"), 1, "did you mean lab:crate-1"),
         (("world", "--cell", "yard", "--query", "SELECT"), 1, "line 1, column 7"),
         (("world", "--cell", "yard", "--history", "--query", "ASK {}"), 2, "--export and --history cannot be combined"),

@@ -110,10 +110,15 @@ class ModelledCell(ABC, Generic[A, G]):
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)
-        state = world.snapshot()
-        idle = [SetProperty(a, DEVICE_STATE, "Idle") for a in sorted(drivers) if state.value(a, DEVICE_STATE) != "Idle"]
-        if idle:
-            world.commit(idle, "start of the cell", "reported")
+        self._report_idle()
+
+    def _report_idle(self) -> None:
+        """Report that arms are idle; one that goes on from a checkpoint has reported it unless it was busy then."""
+        first, state = self._restored is None, self._world.snapshot()
+        busy = [arm for arm in sorted(self._drivers) if first or state.value(arm, DEVICE_STATE) != "Idle"]
+        if busy:
+            idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in busy]
+            self._world.commit(idle, "start of the cell", "reported")
 
     @property
     def now(self) -> float:
