@@ -15,5 +15,9 @@ COPY skills_src skills_src
 COPY studio studio
 RUN pip install --no-cache-dir --constraint constraints.txt '.[planner,temporal,motion,fast,meshes,video,data,editor,server]'
 
+# The user and the state folder of `skillc serve`; a new volume that is mounted there gets its owner.
+RUN useradd --create-home skillc && install --directory --owner skillc --group skillc --mode 700 /var/lib/skillc
+EXPOSE 8421
+
 WORKDIR /work
 ENTRYPOINT ["skillc"]
