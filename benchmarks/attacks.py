@@ -20,7 +20,7 @@ from prometheus_client.parser import text_string_to_metric_families
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 
-from server.attacking import ATTACKS
+from server.attacking import ATTACKS, make_attacker
 from server.running import RunningServer, serving
 
 STOPS = 10
@@ -35,12 +35,12 @@ Counts = dict[float, float]
 
 def measure(server: RunningServer, attack: Callable[[RunningServer], object]) -> tuple[float, float, float]:
     """Return the p99 of the interval between ticks, the median and the longest time until a stop was taken, in s."""
-    before, ended = read_intervals(server), threading.Event()
+    attacker, before, ended = make_attacker(server), read_intervals(server), threading.Event()
 
     def attack_on() -> None:
         while not ended.is_set():
             with suppress(OSError, httpx.HTTPError):  # the connections of an attacker may be cut
-                attack(server)
+                attack(attacker)
 
     with ThreadPoolExecutor() as pool:
         attacking = pool.submit(attack_on)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import socket
+import time
 from collections.abc import Callable, Mapping
+from copy import copy
 from types import MappingProxyType
 
 import httpx
@@ -16,6 +18,15 @@ COSTLY = " and ".join(["lab:Goal contain lab:crate-0"] * 1500 + ["lab:Goal conta
 ENDLESS = 'SELECT * { ?a ?b ?c . ?d ?e ?f . ?g ?h ?i . FILTER(STR(?c) = CONCAT(STR(?f), STR(?i), "x")) }'
 Attack = Callable[[RunningServer], list[int]]
 """Attacks a server; returns the statuses of its answers."""
+
+
+def make_attacker(server: RunningServer) -> RunningServer:
+    """Return a server as an attacker sees it who has a token of an administrator, and so a rate of his own."""
+    name = f"attacker-{time.time_ns()}"
+    attacker = copy(server)
+    attacker.token = server.client.post("/tokens", json={"name": name, "role": "admin"}).json()["token"]
+    attacker.client = server.client_of(attacker.token)
+    return attacker
 
 
 def send(server: RunningServer, content: bytes) -> int:
