@@ -13,7 +13,7 @@ BOUNDS_S = (0.001, 0.0025, 0.005, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.05, 0.1, 0
 class TickIntervals:
     """Counts the intervals between the beginnings of successive ticks, by BOUNDS_S.
 
-    Only ticks between which nothing was waited for count: `pause` begins anew.
+    After `pause` the interval up to the next tick does not count.
     """
 
     def __init__(self, wall_clock: Callable[[], float] = time.monotonic) -> None:

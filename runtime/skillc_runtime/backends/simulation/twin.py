@@ -13,7 +13,7 @@ def keep_reported(saved: bytes, prefixes: Iterable[str]) -> bytes:
     """Return a checkpoint with only what devices report: postures, openings, and what grippers count as held.
 
     `prefixes` are those of the names of all parts of arms and grippers. Where other things are, how a base really
-    stands and what was wiped is left to the facts, and the clock begins anew. CheckpointError if the checkpoint cannot
+    stands and what was wiped is left to the facts, and the clock starts at 0. CheckpointError if the checkpoint cannot
     be read.
     """
     checkpoint = decode_checkpoint(saved)
