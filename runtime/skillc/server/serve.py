@@ -28,6 +28,7 @@ from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import ServiceError
 from skillc.services.reporting import Reporter
+from skillc_dsl.garbage import exempt_from_gc
 from skillc_runtime.platforms.open_files import raise_open_files_limit
 from skillc_runtime.world.state.transactions import StoreError
 
@@ -90,6 +91,7 @@ async def _serve(
     if on_ready is not None:
         context.run_readers.warm()
         going.append(asyncio.create_task(asyncio.to_thread(on_ready, context, address)))
+    exempt_from_gc()
     try:
         with announced(state, address):
             await server.serve(sockets=[listener])
