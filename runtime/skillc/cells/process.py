@@ -16,7 +16,7 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
 from skillc.cells.host import open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
-from skillc.cells.messages import StartFailed
+from skillc.cells.messages import Preparing, StartFailed
 from skillc.cells.service import CellService
 from skillc.cells.settings import CellSettings
 from skillc.services.errors import DiagnosticsError, ServiceError
@@ -24,6 +24,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import exempt_from_gc
 from skillc_dsl.source import Source
 from skillc_runtime.execution.cell_loop import NotDurable
+from skillc_runtime.motion.numerics.compiled import compile_imported, has_stored_code
 from skillc_runtime.platforms.memory import limit_memory, physical_bytes
 from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -58,6 +59,9 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
         return 1
     try:
         with open_cell(settings, _Log()) as host:
+            if not has_stored_code():
+                send_frame(requests, Preparing(reason="the control laws are compiled"))
+            compile_imported()
             outbox = Outbox(requests)
             listen_for_stops(stops, lambda request: host.stop(request.operation, request.reason))
             service = CellService(host, Inbox(requests, outbox), outbox)

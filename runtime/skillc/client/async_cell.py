@@ -30,7 +30,7 @@ from skillc.client.requests import (
     describe_trials,
 )
 from skillc.server.access.leases import Lease
-from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopAll, WorldEdit, WorldQuery
+from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopReason, WorldEdit, WorldQuery
 from skillc.server.orders.order import Missed, Order
 from skillc.server.rehearsals import Rehearsal
 from skillc.server.trials.store import TrialSeries
@@ -275,7 +275,7 @@ class AsyncCell:
 
     async def stop(self, reason: str = "stopped") -> CellStatus:
         """Stop all its operations."""
-        return await self._connection.send("POST", self._path("stop"), CellStatus, StopAll(reason), repeatable=True)
+        return await self._connection.send("POST", self._path("stop"), CellStatus, StopReason(reason), repeatable=True)
 
     async def lease(self) -> Lease:
         """Return who alone may command it now."""

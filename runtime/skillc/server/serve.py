@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import socket
 from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
@@ -35,6 +36,8 @@ from skillc_runtime.world.state.transactions import StoreError
 KEEP_ALIVE_S = 30
 GRACE_S = 5
 """How long open requests may take when the server ends, in s."""
+OWNER_ONLY = 0o077
+"""What is masked in the permissions of all that the server and its cells write."""
 TAKEN_AT_ONCE = 50
 """How many new connections are taken at once, before requests of others are read."""
 
@@ -53,6 +56,7 @@ def serve(
     ServiceError if the address or the state folder cannot be used.
     """
     raise_open_files_limit()
+    os.umask(OWNER_ONLY)
     try:
         with state as opened, listening.open_socket() as listener:
             asyncio.run(_serve(opened, served, listening, listener, reporter, on_ready))

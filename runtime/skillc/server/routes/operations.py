@@ -17,7 +17,7 @@ from skillc.server.api_types import StopReason
 from skillc.server.context import open_journal
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
-from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused
+from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.execution.task_state import ENDS
@@ -83,6 +83,8 @@ async def show_operation(call: ApiCall) -> OperationStatus:
 
 async def give_command(call: ApiCall) -> OperationStatus:
     cell, operation = _find_running(call)
+    if call.client.agent and isinstance(call.body, commands.Approve) and operation.request.owner == call.client.name:
+        raise ApiRefusal(HTTPStatus.FORBIDDEN, "an agent cannot approve its own operation; somebody else has to")
     await command_cell(call, cell, Give(operation=operation.id, command=_sign(call.body, call.client.name)))
     return call.server.find_operation(operation.id)[1]
 
@@ -90,7 +92,7 @@ async def give_command(call: ApiCall) -> OperationStatus:
 async def stop_operation(call: ApiCall) -> OperationStatus:
     cell, operation = call.server.find_operation(call.path["operation"])
     if operation.state not in ENDS:
-        cell.stop(f"{call.client.name}: {call.body.reason}", operation.id)
+        cell.stop(f"{call.client.name}: {call.body.shown}", operation.id)
     return operation
 
 
@@ -101,7 +103,7 @@ async def list_events(call: ApiCall) -> tuple[Envelope, ...]:
 
 
 async def _submit(call: ApiCall, cell: CellSupervisor, operation: str) -> OperationStatus:
-    request: OperationRequest = structs.replace(call.body, owner=call.client.name)
+    request = sign_request(call.body, call.client)
     answer = await cell.request(Submit(operation=operation, request=request))
     if isinstance(answer, Refused) and call.key is not None and answer.kind != "off":
         call.server.keys.release(call.client.name, call.key)
@@ -192,6 +194,7 @@ ENDPOINTS = (
         stop_operation,
         OperationStatus,
         body=StopReason,
+        needs_body=False,
         refusals=(NOT_FOUND,),
         unlimited=True,
     ),
