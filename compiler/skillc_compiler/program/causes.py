@@ -68,6 +68,8 @@ def _uses(program: Program) -> Mapping[Span, list[Span]]:
         if value.declared is not None:
             found[value.declared].append(value.span)
     for call in all_calls(program):
+        if call.skill is not None:
+            found[call.skill.name_span].append(call.written.skill.span)
         for argument in call.arguments:
             parameter = call.skill.parameter(argument.name.text) if call.skill else None
             if parameter is not None:

@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
 
 from skillc_compiler.program.spans import is_within_lines
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.spelling import alike_names, close_names, did_you_mean
 
+UnknownKind: TypeAlias = Literal[
+    "class", "relation", "property", "type", "prefix", "individual", "value",
+    "function", "skill", "implementation", "parameter", "argument",
+]  # fmt: skip
 LIBRARY = ""
 """The owner of names that a library declares outside of skills."""
 
@@ -25,14 +30,14 @@ class HeaderLine:
 
 @dataclass(frozen=True, slots=True)
 class UnknownName:
-    """A name without a declaration; `diagnostic` is what it is reported as.
+    """A name without a declaration, and the kind of what it should be the name of.
 
     `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill or `task NAME`
     that should declare it, LIBRARY, or None if there is nothing to declare. `line` is what its file lacks, if that is
     known. `passed` if it is the name of an argument.
     """
 
-    diagnostic: str
+    kind: UnknownKind
     written: s.Name
     message: str
     candidates: tuple[str, ...] = ()
@@ -41,6 +46,11 @@ class UnknownName:
     owner: str | None = None
     line: HeaderLine | None = None
     passed: bool = False
+
+    @property
+    def diagnostic(self) -> str:
+        """The name of the problem."""
+        return f"unknown-{self.kind}"
 
     @property
     def close(self) -> tuple[str, ...]:
@@ -62,7 +72,8 @@ class UnknownName:
 class LostNames:
     """What other errors may have removed: names by skill and of the library, and lines from the headers of files.
 
-    `declarations` if whole declarations may be missing; `twice` are the skills that are declared more than once.
+    `declarations` if whole declarations may be missing; `twice` are the skills and functions that are declared more
+    than once.
     """
 
     names: Mapping[str, frozenset[str]] = field(default_factory=dict)

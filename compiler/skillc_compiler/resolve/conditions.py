@@ -192,9 +192,7 @@ def _resolve_given(context: FileContext, scope: Scope, name: s.Name, span: Span)
     if known is None or known.origin != "parameter":
         parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
         message = f"{scope.owner} has no parameter `{name.text}`"
-        context.report_unknown(
-            "unknown-parameter", name, message, parameters, "declare it with `opt`", owner=scope.skill
-        )
+        context.report_unknown("parameter", name, message, parameters, "declare it with `opt`", owner=scope.skill)
     return TypedCondition(Given(name.text), span)
 
 
