@@ -12,7 +12,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("not-scoped",)
-NEEDS = Need.DECLARATION
+NEEDS = Need.TYPES
 READS = Reads.DECLARATION
 
 

@@ -50,7 +50,7 @@ def _by_declaration(errors: Mapping[Line, Diagnostic], program: Program) -> Iter
     wrong = {
         place: count
         for place, count in times.items()
-        if count > 1 and place in uses and all(_line(use) in errors for use in uses[place])
+        if count > 1 and place in uses and all(_line(use) in errors or use in times for use in uses[place])
     }
     groups: dict[Span, list[Diagnostic]] = defaultdict(list)
     for error, labelled in zip(errors.values(), places, strict=True):

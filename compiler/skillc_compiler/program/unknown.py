@@ -72,13 +72,13 @@ class UnknownName:
 class LostNames:
     """What other errors may have removed: names by skill and of the library, and lines from the headers of files.
 
-    `declarations` if whole declarations may be missing; `twice` are the skills and functions that are declared more
-    than once.
+    `declarations` are the files of which whole declarations may be missing; `twice` are the skills and functions that
+    are declared more than once.
     """
 
     names: Mapping[str, frozenset[str]] = field(default_factory=dict)
     headers: frozenset[str] = frozenset()
-    declarations: bool = False
+    declarations: frozenset[str] = frozenset()
     twice: frozenset[str] = frozenset()
 
     def explains(self, unknown: UnknownName) -> bool:
@@ -95,15 +95,16 @@ class LostNames:
             return unknown.owner in self.names and not unknown.is_misspelt
         if unknown.written.span.path in self.headers and not unknown.is_misspelt:
             return True
-        missing = self.declarations or bool(self.twice)
-        return missing and unknown.line is None and not unknown.is_misspelt
+        missing = bool(self.declarations or self.twice)
+        is_lost = unknown.line is None or unknown.written.span.path in self.declarations
+        return missing and is_lost and not unknown.is_misspelt
 
 
 def find_lost(files: Iterable[s.File]) -> LostNames:
     """Return what the syntax errors of the files may have removed."""
     names: dict[str, set[str]] = defaultdict(set)
     headers: set[str] = set()
-    outside = False
+    outside: set[str] = set()
     for file in files:
         for error in file.errors:
             owner = next((d for d in file.declarations if is_within_lines(error.span, d.span)), None)
@@ -116,9 +117,12 @@ def find_lost(files: Iterable[s.File]) -> LostNames:
                     headers.add(file.path)
                 case _:
                     pass
-            outside = outside or owner is None
-            names[LIBRARY] |= error.names if owner is None else set()
-    return LostNames({owner: frozenset(found) for owner, found in names.items()}, frozenset(headers), outside)
+            if owner is None:
+                outside.add(file.path)
+                names[LIBRARY] |= error.names
+    return LostNames(
+        {owner: frozenset(found) for owner, found in names.items()}, frozenset(headers), frozenset(outside)
+    )
 
 
 def _is_in_header(error: s.ErrorNode, declarations: Sequence[s.Declaration]) -> bool:
