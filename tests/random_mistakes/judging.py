@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import traceback
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal, TypeAlias
@@ -15,7 +15,8 @@ from test_libraries import LIBRARIES, text_of
 
 from skillc_compiler.ide.analysis import Library, analyse
 from skillc_compiler.pipeline import AnalysisMemo, compile, find_problems, lower_and_report
-from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
+from skillc_dsl.edits import apply_fixes
 from skillc_dsl.parsing.reparse import ParseMemo
 from skillc_dsl.source import Source
 
@@ -28,7 +29,8 @@ class Verdict:
     """What is reported for the mistakes of a seed.
 
     `warnings` are those that the library has not without them. `is_near` if each mistake has an error within one line
-    of it, or an error that points there. `crash` is the traceback, if the compiler crashed. `words` describe all.
+    of it, or an error that points there. `fixes` are offered, `bad_fixes` of them leave as many errors as there were.
+    `crash` is the traceback, if the compiler crashed. `words` describe all.
     """
 
     seed: int
@@ -37,6 +39,8 @@ class Verdict:
     warnings: int
     is_near: bool
     words: str
+    fixes: int = 0
+    bad_fixes: int = 0
     crash: str = ""
 
     @property
@@ -79,14 +83,30 @@ def judge(origin: Origin, seed: int, count: int = 1) -> Verdict | None:
     ]
     near = all(any(_is_near(edited, edit, edits, error) for error in errors) for edit in edits)
     shown = ", ".join(f"{each.span.path}:{each.span.line}:{each.name}" for each in (*errors, *others))
-    return Verdict(seed, count, len(errors), len(others), near, f"{words} => {shown}")
+    fixes = [each.fix for each in errors if each.fix is not None]
+    changed = _changed(sources, edited, edits)
+    left = [len(_errors(_check(sources, _fixed(changed, fix)))) for fix in fixes]
+    bad = sum(each >= len(errors) for each in left)
+    return Verdict(seed, count, len(errors), len(others), near, f"{words} => {shown}", len(fixes), bad)
+
+
+def _changed(sources: Sequence[Source], edited: Source, edits: Sequence[Edit]) -> dict[str, Source]:
+    new = Source(edited.path, apply_edits(edited.text, edits))
+    return {each.path: new if each is edited else each for each in sources}
+
+
+def _fixed(sources: Mapping[str, Source], fix: Fix) -> dict[str, Source]:
+    path = fix.span.path
+    return {**sources, path: Source(path, apply_fixes(sources[path].text, [fix]))}
 
 
 def _problems(sources: Sequence[Source], edited: Source, edits: Sequence[Edit]) -> tuple[Diagnostic, ...]:
+    return _check(sources, _changed(sources, edited, edits))
+
+
+def _check(sources: Sequence[Source], changed: dict[str, Source]) -> tuple[Diagnostic, ...]:
     """Return what is reported; a library is lowered only if it has errors, to see that this does not crash."""
-    new = Source(edited.path, apply_edits(edited.text, edits))
-    changed = {each.path: new if each is edited else each for each in sources}
-    parser, memo = _memory(tuple(sources))
+    parser, memo = _memory(sources)
     analysis = analyse(Library("own", changed, shelf(), vocabulary()), parser, memo)
     found = find_problems(analysis.files, analysis.resolved, memo)
     if not _errors(found):
@@ -102,7 +122,7 @@ def _warned(sources: tuple[Source, ...]) -> frozenset[tuple[str, str]]:
 
 
 @cache
-def _memory(library: tuple[Source, ...]) -> tuple[ParseMemo, AnalysisMemo]:
+def _memory(library: Sequence[Source]) -> tuple[ParseMemo, AnalysisMemo]:
     """Return what is kept from one analysis of a library to the next."""
     return ParseMemo(), AnalysisMemo()
 
