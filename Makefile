@@ -24,7 +24,10 @@ SEQUENCES := 5000
 # How often a server is attacked in each way in `make soak`, while an operation goes on and is stopped.
 ROUNDS := 20
 
-.PHONY: help demo test check reasoners sim browser wheel fuzz soak peers bench editors studio docs pictures accept lock clean
+# How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
+EDITS := 10000
+
+.PHONY: help demo test check reasoners sim browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -58,6 +61,9 @@ wheel: .venv/.dev ## build the wheel and use it in a clean environment
 
 fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; failing inputs are saved in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
+
+mistakes: .venv/.dev ## make EDITS=10000 random mistakes in libraries from SEED=0, one, two and three at once; each has to be one error
+	PYTHONPATH=tests:tests/compiler $(BIN)/python -m random_mistakes --edits $(EDITS) --seed $(SEED)
 
 soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)

@@ -41,7 +41,8 @@ def find_problems(
     marks = Marks(program.value, ())
     unknown = (problem for problem in report_unknown_names(program.value) if marks.allow(Need.TEXT, problem))
     known = (*syntax, *unknown)
-    resolving = [problem for problem in program.diagnostics if marks.allow(Need.TEXT, problem)]
+    allowed = (problem for problem in program.diagnostics if marks.allow(Need.TEXT, problem))
+    resolving = [problem for problem in allowed if not marks.blames_broken(problem)]
     return (*known, *run_checks(program.value, known, resolving, memo.checks if memo else None, paths))
 
 

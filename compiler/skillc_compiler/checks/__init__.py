@@ -138,6 +138,6 @@ def run_checks(
         checks = [one for one in load_checks() if need == one.NEEDS]
         allowed = [problem for one in checks for problem in everything[one.__name__] if marks.allow(need, problem)]
         earlier = resolving if need == Need.NAMES else ()
-        found = group_by_cause((*earlier, *allowed), program) if need in (Need.NAMES, Need.BODY) else allowed
+        found = group_by_cause((*earlier, *allowed), program)
         yield from found
         marks.add(found)

@@ -61,6 +61,10 @@ class Marks:
         """Whether there is an error on the lines of a declaration."""
         return self._index.any_on_lines_of(declaration)
 
+    def blames_broken(self, problem: Diagnostic) -> bool:
+        """Whether a problem points to a declaration that has a syntax error, so that part of it may be missing."""
+        return any(self._enclosing.enclosing(label.span) in self._broken for label in problem.labels)
+
     def allow(self, need: Need, problem: Diagnostic) -> bool:
         """Whether a problem is independent of the known errors, if it was found by a check with this need."""
         places = (problem.span, *(label.span for label in problem.labels))
@@ -112,10 +116,16 @@ class Marks:
         return SpanIndex(self._places)
 
     @cached_property
+    def _broken(self) -> frozenset[Span]:
+        """The declarations with a syntax error."""
+        spans = (d.span for d in self._declarations) if self._syntax else ()
+        return frozenset(span for span in spans if any(is_within_lines(place, span) for place in self._syntax))
+
+    @cached_property
     def _incomplete(self) -> frozenset[Span]:
         """The declarations with a syntax error, or of a skill that is declared twice, and their implementations."""
-        broken = {d.span for d in self._declarations if any(is_within_lines(place, d.span) for place in self._syntax)}
-        skills = {d.name.text for d in self._declarations if isinstance(d, s.SkillDeclaration) and d.span in broken}
+        broken, kind = self._broken, s.SkillDeclaration
+        skills = {d.name.text for d in self._declarations if isinstance(d, kind) and d.span in broken}
         skills |= self._program.lost.twice
         of = (d.span for d in self._declarations if skill_of(d) in skills)
         return frozenset({*broken, *of})
