@@ -44,11 +44,13 @@ Command = (
 class HistoryPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Which part of a history: what was submitted before a wall time, in ns since 1970, and how much at most.
 
-    `ongoing` for all operations that have not ended instead, in the order of their submission.
+    With `search` only those in which these words occur: in the id, in what was requested and by whom, or in how it
+    ended. `ongoing` for all operations that have not ended instead, in the order of their submission.
     """
 
     before_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] | None = None
     limit: Limit = 100
+    search: Annotated[str, msgspec.Meta(max_length=200)] = ""
     ongoing: bool = False
 
 
@@ -125,7 +127,7 @@ def _read_history(cell: CellSupervisor, page: HistoryPage) -> Iterable[Operation
         return
     with closing(open_journal(cell)) as reader:
         before_ns = LATEST_NS if page.before_ns is None else page.before_ns
-        for each in reader.latest(before_ns, page.limit):
+        for each in reader.latest(before_ns, page.limit, page.search.split()):
             found = each.ended or cell.operations.get(each.id)
             if found is not None:
                 yield found
