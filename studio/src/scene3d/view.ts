@@ -26,7 +26,6 @@ import type {
   SceneHandle,
   SceneOptions,
   SceneSources,
-  SceneStatistics,
   Tool,
 } from "./types";
 
@@ -100,10 +99,6 @@ export class SceneView implements SceneHandle {
     this.overlay.root.dataset["tool"] = tool;
     this.mover.begin(tool, this.sources.model.value, this.sources.selected.value[0]);
     this.refresh();
-  }
-
-  statistics(): SceneStatistics {
-    return this.stage.statistics();
   }
 
   dispose(): void {
@@ -187,8 +182,6 @@ export class SceneView implements SceneHandle {
     this.bodies = model === null ? null : new SceneBodies(model, this.theme);
     if (this.bodies !== null) this.stage.scene.add(this.bodies.group);
     this.update();
-    if (this.bodies !== null)
-      this.stage.lights.cover(this.bodies.boxOf(this.poses).getBoundingSphere(new three.Sphere()));
     this.refresh();
   }
 
@@ -249,7 +242,6 @@ export class SceneView implements SceneHandle {
     );
     this.axes.show(axes);
     this.dashes.show(dashes);
-    this.stage.moveShadows();
   }
 
   private place(asBelieved: boolean): void {
