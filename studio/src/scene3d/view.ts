@@ -9,7 +9,7 @@ import { CoverageLayer } from "./coverage";
 import { frameThese, projectTo } from "./framing";
 import { findForces, ForceArrows, type DrawnForce } from "./forces";
 import { placeBodies, poseOf } from "./kinematics";
-import { LabelLayer } from "./labels";
+import { LabelLayer, type Box } from "./labels";
 import { Lines } from "./lines";
 import { Mover } from "./mover";
 import { makeOverlay, showControls, type Overlay } from "./overlay";
@@ -51,6 +51,7 @@ export class SceneView implements SceneHandle {
   private misbeliefs: Misbelief[] = [];
   private forces: DrawnForce[] = [];
   private measured: three.Vector3[] = [];
+  private covered: readonly Box[] = [];
   private frame = 0;
   private isStale = true;
 
@@ -73,8 +74,9 @@ export class SceneView implements SceneHandle {
     this.showControls();
     this.followTheme();
     this.ends.push(
-      this.overlay.onResize((width, height) => {
+      this.overlay.onResize((width, height, covered) => {
         this.stage.setSize(width, height);
+        this.covered = covered;
         this.request();
       }),
     );
@@ -269,7 +271,11 @@ export class SceneView implements SceneHandle {
       options: this.options.value,
     });
     const width = this.stage.width / (isBeside ? 2 : 1);
-    this.labels.show(labels, (at) => projectTo(this.camera.camera, width, this.stage.height, at));
+    this.labels.show(
+      labels,
+      (at) => projectTo(this.camera.camera, width, this.stage.height, at),
+      this.covered,
+    );
   }
 
   private framed(): three.Sphere {
