@@ -113,6 +113,17 @@ class WorldEdit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     why: Annotated[str, msgspec.Meta(min_length=1, max_length=500, pattern=r"\S")]
 
 
+class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Where a thing is, and why this is said: its position in m and a quaternion (w, x, y, z), in the world.
+
+    It stays with what carries it. `thing` is an IRI or `prefix:name`.
+    """
+
+    thing: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
+    pose: tuple[float, float, float, float, float, float, float]
+    why: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
+
+
 class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """For how long a client wants to command a cell alone, in s; `takeover` ends the lease of another client."""
 

@@ -1803,6 +1803,25 @@ export interface components {
             why: string;
         };
         /**
+         * WorldPlacement
+         * @description Where a thing is, and why this is said: its position in m and a quaternion (w, x, y, z), in the world.
+         *
+         *         It stays with what carries it. `thing` is an IRI or `prefix:name`.
+         */
+        WorldPlacement: {
+            thing: string;
+            pose: [
+                number,
+                number,
+                number,
+                number,
+                number,
+                number,
+                number
+            ];
+            why: string;
+        };
+        /**
          * WorldWrite
          * @description A write to the world: its number, when it was made, who or what made it, how that is known, and the changes.
          *
