@@ -1,6 +1,7 @@
 """A check that goes on from the last one finds what a check of everything finds; `SEQUENCES=300` tries so many."""
 
 import os
+import pickle
 import random
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +17,8 @@ from skillc.services.edit_checks import check_edits
 from skillc.services.known_checks import check_and_store
 from skillc.services.library_checks import check_library
 from skillc.services.library_files import LibraryFiles, find_library
+from skillc_dsl.cache import store
+from skillc_dsl.diagnostics import Diagnostic
 
 SEQUENCES = int(os.environ.get("SEQUENCES", "4"))
 STEPS = 10
@@ -124,6 +127,42 @@ def test_a_check_after_edits_equals_one_of_everything(
     assert not gone_on[0]
 
 
+def check(folder: Path) -> tuple[Diagnostic, ...]:
+    """Check a library as `skillc check` does, and store what was found."""
+    return check_and_store(CheckCacheEntry.of(find_library(folder), None), None)
+
+
 def _goes_on(library: LibraryFiles) -> bool:
     before = snapshots.load_snapshot(CheckCacheEntry.of(library, None).around)
     return before is not None and check_edits(library, before, parse_cache.parse_cached) is not None
+
+
+@pytest.mark.parametrize("damage", [b"", b"x" * 200, pickle.dumps(1), pickle.dumps({"a": 1}), pickle.dumps(Path())])
+@pytest.mark.parametrize("whole", [True, False])
+def test_what_is_damaged_is_found_anew(tmp_path: Path, cache_folder: Path, damage: bytes, whole: bool) -> None:
+    author = Author(tmp_path / "mine", random.Random(0))
+    author.folder.mkdir()
+    (author.folder / "m.skill").write_text(text_of(LIBRARIES[0].stem), "utf-8")
+    check(author.folder)
+    kept = [file for file in cache_folder.rglob("*") if file.is_file() and file.parent.name != "checks"]
+    assert {file.parent.name for file in kept} >= {"snapshots", "findings", "parsed"}
+    for file in kept:
+        if whole:
+            file.write_bytes(damage)
+        else:
+            store(file, damage)
+    parse_cache.parse_cached.cache_clear()
+    author.edit()
+    assert check(author.folder) == check_library(find_library(author.folder), None)
+
+
+def test_another_version_goes_on_from_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    file = folder / "m.skill"
+    file.write_text(text_of(LIBRARIES[0].stem), "utf-8")
+    check(folder)
+    file.write_text(f"{file.read_text('utf-8')}# it is a comment\n", "utf-8")
+    assert _goes_on(find_library(folder))
+    monkeypatch.setattr(check_cache, "describe_installation", lambda: ("another one",))
+    assert not _goes_on(find_library(folder))
