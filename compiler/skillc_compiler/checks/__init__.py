@@ -6,7 +6,7 @@ what it depends on, and `check`. manual/NAME.md explains each diagnostic.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib import import_module
@@ -17,7 +17,7 @@ from skillc_compiler.analysis.proof import ProofMemo, prove
 from skillc_compiler.program.causes import group_by_cause
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.memo import Memo
-from skillc_compiler.program.parts import Part, Reads, parts_of
+from skillc_compiler.program.parts import Part, Reads, only_in, parts_of
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -53,17 +53,32 @@ def load_checks() -> tuple[CheckModule, ...]:
     return tuple(cast(CheckModule, import_module(f"{__name__}.{name}")) for name in names)
 
 
-def find_all(program: Program, memo: CheckMemo) -> FoundBy:
-    """Return what each check finds; a declaration is checked again only if what its checks read has changed."""
-    proofs = prove(program, memo.proofs)
+def find_all(program: Program, memo: CheckMemo, paths: Collection[str] | None = None) -> FoundBy:
+    """Return what each check finds; a declaration is checked again only if what its checks read has changed.
+
+    With `paths`, only the declarations in these files are complete, and only these are checked.
+    """
+    proofs = prove(program, memo.proofs, paths)
     found: dict[str, list[Diagnostic]] = {check.__name__: [] for check in load_checks()}
     memo.parts.begin()
-    for part in parts_of(program):
+    for part in parts_of(program, paths):
         for name, problems in memo.parts.recall(part.of, partial(_check_part, part)).items():
             found[name] += problems
+    chosen = program if paths is None else only_in(program, paths)
     for check in load_checks():
-        if check.READS is not Reads.DECLARATION:
-            found[check.__name__] += check.check(proofs if check.READS is Reads.PROOFS else program)
+        match check.READS:
+            case Reads.PYTHON:
+                found[check.__name__] += check.check(chosen)
+            case Reads.PROOFS:
+                found[check.__name__] += check.check(proofs)
+            case Reads.NEIGHBOURS:
+                found[check.__name__] += (
+                    one for one in check.check(program) if paths is None or one.span.path in paths
+                )
+            case Reads.LIBRARY if paths is None:
+                found[check.__name__] += check.check(program)
+            case _:
+                pass
     return found
 
 
@@ -79,13 +94,14 @@ def run_checks(
     errors: Iterable[Diagnostic],
     resolving: Sequence[Diagnostic] = (),
     memo: CheckMemo | None = None,
+    paths: Collection[str] | None = None,
 ) -> Iterator[Diagnostic]:
     """Yield the problems that any check finds and that are independent of known errors, together with `resolving`.
 
     Checks that need least come first; what they find is known to the others. `resolving` are problems with names and
-    types that were found before.
+    types that were found before. With `paths`, only the declarations in these files are checked.
     """
-    everything = find_all(program, memo or CheckMemo())
+    everything = find_all(program, memo or CheckMemo(), paths)
     marks = Marks(program, (*errors, *resolving))
     for need in Need:
         checks = [one for one in load_checks() if need == one.NEEDS]
