@@ -19,7 +19,6 @@ from contextlib import contextmanager
 from http import HTTPStatus
 from pathlib import Path
 from statistics import median, quantiles
-from typing import Any
 
 import httpx
 from websockets.asyncio.client import connect
@@ -40,11 +39,11 @@ READY_S = 60.0
 
 
 @contextmanager
-def serving(folder: Path) -> Iterator[tuple[httpx.Client, int, float]]:
-    """Serve the cell; yield a client, the id of the process of the server, and the time until it was ready, in s."""
+def serving(folder: Path, cell: str = CELL, backend: str = "kinematic") -> Iterator[tuple[httpx.Client, int, float]]:
+    """Serve a cell; yield a client, the id of the process of the server, and the time until it was ready, in s."""
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    command = (sys.executable, "-m", "skillc", "serve", "wiping", "--cell", f"{CELL}.ttl", "--backend", "kinematic")
+    command = (sys.executable, "-m", "skillc", "serve", "wiping", "--cell", f"{cell}.ttl", "--backend", backend)
     process = subprocess.Popen((*command, "--state", folder, "--bind", f"127.0.0.1:{port}"), stderr=subprocess.DEVNULL)
     url = f"http://127.0.0.1:{port}/api/v1"
     try:
@@ -52,7 +51,7 @@ def serving(folder: Path) -> Iterator[tuple[httpx.Client, int, float]]:
         wait_for(lambda: is_up(url))
         token = (folder / "admin.token").read_text().strip()
         with httpx.Client(base_url=url, headers={"Authorization": f"Bearer {token}"}, timeout=60.0) as client:
-            wait_for(lambda: client.get(f"/cells/{CELL}").json()["state"] == "operational")
+            wait_for(lambda: client.get(f"/cells/{cell}").json()["state"] == "operational")
             yield client, process.pid, time.monotonic() - began
     finally:
         process.send_signal(signal.SIGTERM)
@@ -255,9 +254,9 @@ def run_for_a_while(client: httpx.Client) -> None:
     time.sleep(1.0)
 
 
-def submit(client: httpx.Client, **more: Any) -> str:
-    """Submit the task; return the id of the operation."""
-    answer = client.post(f"/cells/{CELL}/operations", json={"task": TASK, **more})
+def submit(client: httpx.Client, cell: str = CELL, task: str = TASK) -> str:
+    """Submit a task; return the id of the operation."""
+    answer = client.post(f"/cells/{cell}/operations", json={"task": task})
     assert answer.status_code == 201, answer.text
     return str(answer.json()["id"])
 

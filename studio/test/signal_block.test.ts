@@ -30,9 +30,12 @@ test("a damaged column is refused", () => {
   expect(() => decodeColumn([1, 0, 0, [], new Uint8Array(3)], 10)).toThrow();
 });
 
-test("the length of a force and contact forces are plotted", () => {
+test("the lengths of a force and a speed, and contact forces are plotted", () => {
   const plot = new PlotColumns(
     [
+      "Arm/estimate/tool_vx_m_s",
+      "Arm/estimate/tool_vy_m_s",
+      "Arm/estimate/tool_vz_m_s",
       "Arm/sensor/force_x_n",
       "Arm/sensor/force_y_n",
       "Arm/sensor/force_z_n",
@@ -43,6 +46,9 @@ test("the length of a force and contact forces are plotted", () => {
   plot.add(
     [0, 1, 2],
     [
+      [0.3, 0, 1],
+      [0, 0, 0],
+      [0.4, 0, 0],
       [3, 0, 0],
       [4, 0, 0],
       [0, 0, 2],
@@ -51,9 +57,10 @@ test("the length of a force and contact forces are plotted", () => {
     ],
     2,
   );
-  expect(plot.lines.map((each) => each.name)).toEqual(["force at Arm", "contact of Tool"]);
+  expect(plot.lines.map((each) => each.name)).toEqual(["speed of Arm", "force at Arm", "contact of Tool"]);
   expect(plot.columns).toEqual([
     [0, 2],
+    [0.5, 1],
     [5, 2],
     [7, 9],
   ]);

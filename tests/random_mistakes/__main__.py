@@ -49,7 +49,7 @@ def _row(origin: str, count: int, verdicts: Sequence[Verdict]) -> str:
 
 
 def _show(each: Verdict) -> None:
-    """Print to stderr what is not as it should be: the number of errors E, places N, warnings W, fixes F."""
+    """Print to stderr what is not as it should be: E the number of errors, N places, W warnings, F fixes."""
     flags = (
         ("-", "E")[not each.is_exact],
         ("-", "N")[not each.is_near],

@@ -20,6 +20,7 @@ import httpx
 import uvicorn
 
 from running_cells.yard import write_yard
+from skillc.services.library_files import SHIPPED
 
 READY_S = 120.0
 CLIENT_S = 60.0
@@ -101,6 +102,17 @@ def serving(
     finally:
         process.send_signal(signal.SIGTERM)
         process.wait(30.0)
+
+
+@contextmanager
+def serving_bench(folder: Path) -> Iterator[RunningServer]:
+    """Serve a yard, and the cell `bench` with an arm and parts."""
+    scene = (SHIPPED / "sorting" / "panda.ttl").read_text(encoding="utf-8")
+    scene = scene.replace("sorting:WorkPart", "skiros:Product").replace("sorting:Box", "skiros:Container")
+    (folder / "bench.ttl").write_text(scene, encoding="utf-8")
+    with serving(folder, options=("--cell", "bench.ttl")) as running:
+        wait_until(lambda: running.client.get("/cells/bench").json(), lambda it: it["state"] == "operational")
+        yield running
 
 
 def start_server(

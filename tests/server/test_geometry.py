@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, serving_bench
 from server.test_leases import client_of
-from skillc.services.library_files import SHIPPED
 
 PART, TABLE = "http://example.org/lab#Part-A", "http://example.org/lab#Table"
 
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    """Serve a yard and a bench with an arm and parts."""
-    folder = tmp_path_factory.mktemp("bench")
-    scene = (SHIPPED / "sorting" / "panda.ttl").read_text()
-    scene = scene.replace("sorting:WorkPart", "skiros:Product").replace("sorting:Box", "skiros:Container")
-    (folder / "bench.ttl").write_text(scene)
-    with serving(folder, options=("--cell", "bench.ttl")) as running:
-        wait_until(lambda: running.client.get("/cells/bench").json(), lambda it: it["state"] == "operational")
+    with serving_bench(tmp_path_factory.mktemp("bench")) as running:
         yield running
 
 
@@ -47,6 +41,38 @@ def test_believed_poses_are_those_of_the_facts_also_where_they_are_wrong(bench: 
     seen = bench.client.post("/cells/bench/world/edits", json={"edits": edits, "why": "somebody moved it"})
     assert seen.status_code == 204, seen.text
     assert np.allclose(bench.client.get("/cells/bench/poses").json()[PART][0], before[0] + 0.1)
+
+
+def test_where_somebody_says_that_a_thing_is(bench: RunningServer) -> None:
+    before = bench.client.get("/cells/bench/poses").json()
+    x, y, z, *turn = before[PART]
+    placed = {"thing": "lab:Part-A", "pose": [x - 0.05, y, z, *turn], "why": "I have seen it there"}
+    with client_of(bench, "bob", "operate") as bob:
+        assert bob.post("/cells/bench/world/placements", json=placed).status_code == 403
+    answer = bench.client.post("/cells/bench/world/placements", json=placed)
+    assert answer.status_code == 204, answer.text
+    after = bench.client.get("/cells/bench/poses").json()
+    assert np.allclose(after[PART], placed["pose"]) and after.keys() == before.keys()
+    assert np.allclose(after[TABLE], before[TABLE])
+    written = bench.client.get("/cells/bench/world/history", params={"limit": 1}).json()[0]
+    assert written["origin"].endswith(": I have seen it there")
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"thing": "lab:Nobody"}, "Nobody"),
+        ({"pose": [0.0] * 7}, "a quaternion (w, x, y, z) whose length is not 0"),
+        ({"pose": [0.0] * 6}, "pose"),
+        ({"why": ""}, "why"),
+    ],
+)
+def test_a_placement_that_says_nothing_is_refused(bench: RunningServer, change: dict[str, Any], said: str) -> None:
+    before = bench.client.get("/cells/bench/poses").json()
+    placed = {"thing": "lab:Part-A", "pose": [0.3, 0.0, 0.5, 1.0, 0.0, 0.0, 0.0], "why": "seen", **change}
+    answer = bench.client.post("/cells/bench/world/placements", json=placed)
+    assert 400 <= answer.status_code < 500 and said in answer.text
+    assert bench.client.get("/cells/bench/poses").json() == before
 
 
 def test_a_cell_that_does_not_exist_has_no_model(bench: RunningServer) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,16 +13,20 @@ from skillc.server.studio_page import STUDIO_FILES
 playwright_api = pytest.importorskip("playwright.sync_api", reason="the tests of the studio need playwright")
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect, sync_playwright  # noqa: E402
 
-from studio.opening import EXPECTED_ERRORS, open_studio, warm_up  # noqa: E402
+from studio.chromium import CHROMIUM, launch  # noqa: E402
+from studio.opening import EXPECTED_ERRORS, open_studio, put_back, warm_up  # noqa: E402
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-FLAGS = (
-    *("--no-sandbox", "--disable-background-networking", "--disable-component-update", "--disable-sync"),
-    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
-)
-PATIENCE = 3
+PATIENCE = 10
 """How many times as long as on a machine of its own something may take."""
+WAITS = 3000
+"""How many steps the task `many` of the fragile server has."""
 OUT = Path(__file__).parents[2] / "out" / "studio"
+
+
+def write_many() -> str:
+    """Return a task of WAITS steps, none of which takes long."""
+    steps = "\n".join(f"        wait {1 + number % 2} ms" for number in range(WAITS))
+    return f'task many {{\n    scene "yard.ttl"\n    do seq {{\n{steps}\n    }}\n}}\n'
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -41,7 +44,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def browser() -> Iterator[Browser]:
     expect.set_options(timeout=8_000 * PATIENCE)
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
+        browser = launch(playwright)
         yield browser
         browser.close()
 
@@ -51,6 +54,20 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
     with serving(tmp_path_factory.mktemp("studio")) as running:
         warm_up(running)
         yield running
+
+
+@pytest.fixture(scope="package")
+def fragile(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    """A server to break, with a task of many steps; what is killed has to be started again, and be its `process`."""
+    folder = tmp_path_factory.mktemp("fragile")
+    (folder / "many.skill").write_text(write_many(), encoding="utf-8")
+    with serving(folder, takes_ms=2000) as running:
+        warm_up(running)
+        try:
+            yield running
+        finally:
+            running.process.terminate()
+            running.process.wait(30.0)
 
 
 @pytest.fixture
@@ -72,7 +89,7 @@ def describe(message: ConsoleMessage) -> str:
 @pytest.fixture
 def page(context: BrowserContext, server: RunningServer, request: pytest.FixtureRequest) -> Iterator[Page]:
     """The page, logged in, with all crates at the start."""
-    server.put_back()
+    put_back(server)
     server.client.put("/cells/yard/pace", json={"factor": None})
     page = context.new_page()
     problems: list[str] = []

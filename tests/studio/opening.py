@@ -7,6 +7,7 @@ from functools import partial
 
 from playwright.sync_api import Page
 
+from running_cells.yard import CRATES
 from server.running import RunningServer, wait_until
 
 EXPECTED_ERRORS = (
@@ -20,6 +21,7 @@ EXPECTED_ERRORS = (
 """What browsers write to the console for answers and losses that the page shows itself."""
 
 
+ENDS = ("succeeded", "failed", "stopped", "interrupted")
 FINISHED = "finished, not verified"
 """The end of a task in the yard, where nobody looks whether the crates are there."""
 
@@ -53,6 +55,29 @@ def warm_up(server: RunningServer) -> None:
         each.result()
 
 
+def put_back(server: RunningServer) -> None:
+    """Stop what goes on, and say that all crates are where they were at first; the pace is real then."""
+    client = server.client
+    for each in client.get("/cells/yard/operations").json():
+        if each["state"] not in ENDS:
+            client.post(f"/operations/{each['id']}/stop", json={"reason": "the next test begins"})
+            server.wait_for(each["id"], *ENDS)
+    facts = client.get("/cells/yard/world", params={"limit": 1000}).json()["facts"]
+    contained = [each["fact"] for each in facts if each["fact"].get("relation", {}).get("label") == "contain"]
+    moved = {each["object"]["label"]: each["subject"]["label"] for each in contained}
+    edits = [
+        edit
+        for crate, place in moved.items()
+        if place != "lab:Start"
+        for edit in (f"not {place} skiros:contain {crate}", f"lab:Start skiros:contain {crate}")
+    ]
+    if edits:
+        answer = client.post("/cells/yard/world/edits", json={"edits": edits, "why": "the next test begins"})
+        assert answer.status_code == 204, answer.text
+    assert len(moved) == CRATES
+    client.put("/cells/yard/pace", json={"factor": 1.0})
+
+
 def choose(page: Page, task: str) -> None:
     """Choose a task, and wait for its plan."""
     page.keyboard.press("r")
@@ -62,8 +87,15 @@ def choose(page: Page, task: str) -> None:
 def start(page: Page, task: str) -> None:
     """Choose a task, see its plan, and start it."""
     choose(page, task)
-    page.get_by_role("region", name="Plan").or_(page.locator(".plan")).first.wait_for()
-    page.get_by_role("button", name="Start", exact=True).click()
+    page.locator(".preview-step").first.wait_for()
+    press_start(page)
+
+
+def press_start(page: Page) -> None:
+    """Start what is chosen; return when the page shows it instead of what ran before."""
+    button = page.get_by_role("button", name="Start", exact=True)
+    button.click()
+    button.wait_for(state="detached")
 
 
 def wait_for_state(page: Page, state: str, task: str = "carry_all") -> None:

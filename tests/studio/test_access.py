@@ -5,7 +5,7 @@ from __future__ import annotations
 from playwright.sync_api import BrowserContext, Page, expect
 
 from server.running import RunningServer
-from studio.opening import make_code, origin_of
+from studio.opening import make_code, origin_of, put_back
 
 
 def test_a_code_is_good_once_and_leaves_the_address(context: BrowserContext, server: RunningServer) -> None:
@@ -33,7 +33,7 @@ def test_a_token_that_is_wrong_is_refused_with_a_reason(context: BrowserContext,
 
 
 def test_who_may_only_see_cannot_start_but_can_stop(context: BrowserContext, server: RunningServer) -> None:
-    server.put_back()
+    put_back(server)
     server.client.put("/cells/yard/pace", json={"factor": 0.2})
     made = server.client.post("/tokens", json={"name": "visitor", "role": "view"}).json()
     page = context.new_page()

@@ -11,7 +11,15 @@ from studio.conftest import OUT
 from studio.opening import FINISHED, start, wait_for_state
 
 AXE = Path(__file__).parents[2] / "studio" / "node_modules" / "axe-core" / "axe.min.js"
-VIEWS = {"why": "w", "world": "f", "source": "s", "events": "e", "runs": "h", "choose": "r"}
+VIEWS = {
+    "why": ("w", ".details-section"),
+    "world": ("f", ".world tbody tr"),
+    "source": ("s", ".source .cm-line"),
+    "events": ("e", ".event"),
+    "runs": ("h", ".run-item"),
+    "choose": ("r", ".preview-step, [aria-label=Tasks] button"),
+}
+"""The key of each view, and what is there once it is."""
 
 
 @pytest.mark.parametrize(
@@ -20,13 +28,13 @@ VIEWS = {"why": "w", "world": "f", "source": "s", "events": "e", "runs": "h", "c
 def test_all_views_pass_axe(page: Page, scheme: str) -> None:
     start(page, "carry_all")
     wait_for_state(page, FINISHED)
-    page.locator(".tree-row").nth(1).click()
+    page.locator(".plan-step", has_text="Unload").first.click()
     page.evaluate(AXE.read_text(encoding="utf-8"))
-    for name, key in VIEWS.items():
+    for name, (key, content) in VIEWS.items():
         page.keyboard.press("Escape")
         page.keyboard.press("2")
         page.keyboard.press(key)
-        page.wait_for_timeout(300)
+        page.locator(content).first.wait_for()
         page.screenshot(path=OUT / f"{name}-{scheme}.png")
         assert _violations(page) == [], name
     page.keyboard.press("2")

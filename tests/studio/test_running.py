@@ -5,7 +5,7 @@ from __future__ import annotations
 from playwright.sync_api import Page, expect
 
 from server.running import RunningServer
-from studio.opening import FINISHED, choose, start, wait_for_state
+from studio.opening import FINISHED, choose, press_start, start, wait_for_state
 
 
 def test_three_clicks_run_a_task(page: Page) -> None:
@@ -13,7 +13,7 @@ def test_three_clicks_run_a_task(page: Page) -> None:
     page.get_by_role("button", name="carry_all").click()
     expect(page.locator(".preview-step")).to_have_count(12)
     planned = page.locator(".preview-step .plan-text > span:first-child").all_inner_texts()
-    page.get_by_role("button", name="Start", exact=True).click()
+    press_start(page)
     wait_for_state(page, FINISHED)
     expect(page.locator(".plan-step .is-good")).to_have_count(12)
     page.get_by_role("button", name="Enlarge Tree").click()
@@ -56,6 +56,7 @@ def test_the_keyboard_alone_does_a_whole_run(page: Page) -> None:
             break
         page.keyboard.press("Tab")
     page.keyboard.press("Enter")
+    page.get_by_role("button", name="Start", exact=True).wait_for(state="detached")
     wait_for_state(page, FINISHED)
     page.keyboard.press("2")
     page.keyboard.press("Home")
@@ -71,7 +72,7 @@ def test_pause_step_resume_and_stop(page: Page, server: RunningServer) -> None:
     server.client.put("/cells/yard/pace", json={"factor": 0.2})
     choose(page, "carry_all")
     page.get_by_label("pause before the first step").check()
-    page.get_by_role("button", name="Start", exact=True).click()
+    press_start(page)
     wait_for_state(page, "paused")
     steps = page.locator(".tree-row[aria-level='1']")
     expect(steps).to_have_count(12)
@@ -118,14 +119,14 @@ def test_a_task_with_parameters_asks_for_them(page: Page) -> None:
     expect(page.get_by_text("rehearsal of carry")).to_be_visible()
     expect(page.locator(".tree-row[aria-level='1'].is-success")).to_have_count(2)
     page.get_by_role("button", name="Back to the cell").click()
-    page.get_by_role("button", name="Start", exact=True).click()
+    press_start(page)
     wait_for_state(page, FINISHED, "carry")
 
 
 def test_the_plan_waits_for_approval(page: Page) -> None:
     choose(page, "carry_all")
     page.get_by_label("ask before each plan runs").check()
-    page.get_by_role("button", name="Start", exact=True).click()
+    press_start(page)
     wait_for_state(page, "waits for approval")
     page.get_by_role("button", name="Approve the plan").click()
     wait_for_state(page, FINISHED)

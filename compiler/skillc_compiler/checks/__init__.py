@@ -6,6 +6,7 @@ what it depends on, and `check`. manual/NAME.md explains each diagnostic.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, partial
@@ -38,12 +39,28 @@ class CheckModule(Protocol):
         ...
 
 
+class FileFindings(Protocol):
+    """What checks have found in files, where everything that they read for it is the same."""
+
+    def look_up(self, program: Program) -> Mapping[str, FoundBy]:
+        """Return what is known of the files of a program, by path."""
+        ...
+
+    def keep(self, found: Mapping[str, FoundBy]) -> None:
+        """Keep what was found in the files of the program that was looked up last."""
+        ...
+
+
 @dataclass
 class CheckMemo:
-    """What the checks have found in the declarations of the last analysis, and the proofs of its bodies."""
+    """What the checks have found in the declarations of the last analysis, and the proofs of its bodies.
+
+    `files` knows what others have found in whole files.
+    """
 
     parts: Memo[FoundBy] = field(default_factory=Memo)
     proofs: ProofMemo = field(default_factory=ProofMemo)
+    files: FileFindings | None = None
 
 
 @cache
@@ -58,28 +75,42 @@ def find_all(program: Program, memo: CheckMemo, paths: Collection[str] | None = 
 
     With `paths`, only the declarations in these files are complete, and only these are checked.
     """
-    proofs = prove(program, memo.proofs, paths)
+    chosen = [path for path in _paths(program) if paths is None or path in paths]
+    known = memo.files.look_up(program) if memo.files else {}
+    in_files = {**known, **_find_in_files(program, memo, [path for path in chosen if path not in known])}
+    if memo.files:
+        memo.files.keep(in_files)
     found: dict[str, list[Diagnostic]] = {check.__name__: [] for check in load_checks()}
+    for path in chosen:
+        for name, problems in in_files[path].items():
+            found[name] += problems
+    for check in load_checks():
+        if check.READS is Reads.NEIGHBOURS:
+            found[check.__name__] += (each for each in check.check(program) if paths is None or each.span.path in paths)
+        elif check.READS is Reads.LIBRARY and paths is None:
+            found[check.__name__] += check.check(program)
+    return found
+
+
+def _find_in_files(program: Program, memo: CheckMemo, paths: Collection[str]) -> Mapping[str, FoundBy]:
+    """Return what the checks of declarations, of Python and of proofs find in some files, by path."""
+    found: dict[str, dict[str, list[Diagnostic]]] = {path: defaultdict(list) for path in paths}
     memo.parts.begin()
     for part in parts_of(program, paths):
         for name, problems in memo.parts.recall(part.of, partial(_check_part, part)).items():
-            found[name] += problems
-    chosen = program if paths is None else only_in(program, paths)
+            found[part.path][name] += problems
+    proofs, chosen = prove(program, memo.proofs, paths), only_in(program, paths)
     for check in load_checks():
-        match check.READS:
-            case Reads.PYTHON:
-                found[check.__name__] += check.check(chosen)
-            case Reads.PROOFS:
-                found[check.__name__] += check.check(proofs)
-            case Reads.NEIGHBOURS:
-                found[check.__name__] += (
-                    one for one in check.check(program) if paths is None or one.span.path in paths
-                )
-            case Reads.LIBRARY if paths is None:
-                found[check.__name__] += check.check(program)
-            case _:
-                pass
-    return found
+        if check.READS in (Reads.PROOFS, Reads.PYTHON):
+            for problem in check.check(proofs if check.READS is Reads.PROOFS else chosen):
+                found[problem.span.path][check.__name__].append(problem)
+    return {path: {name: tuple(problems) for name, problems in each.items()} for path, each in found.items()}
+
+
+def _paths(program: Program) -> Iterable[str]:
+    """Return the paths of all files, and of what is in no file."""
+    spans = (each.span for part in (program.skills.values(), program.implementations, program.tasks) for each in part)
+    return dict.fromkeys((*(unit.file.path for unit in program.files), *(span.path for span in spans)))
 
 
 def _check_part(part: Part) -> FoundBy:

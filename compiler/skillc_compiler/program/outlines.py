@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
+from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.program.written import calls_of, skill_of
 from skillc_dsl import syntax as s
 
@@ -46,16 +47,16 @@ class Outline(msgspec.Struct, frozen=True):
         return self.digest, tuple((run.skill, run.calls, run.selected) for run in self.runs)
 
 
-def outline_of(file: s.File, text: str, imports: Iterable[str]) -> Outline:
-    """Return the outline of a file without syntax errors, given the paths of the files that it imports."""
-    lines = text.split("\n")
+def outline_of(unit: ParsedFile) -> Outline:
+    """Return the outline of a file."""
+    file, lines = unit.file, unit.text.split("\n")
     terms = s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration
     return Outline(
         digest=_digest(_outside(lines, [body for each in file.declarations for body in _bodies(each)])),
         described=_skills(file, s.SkillDeclaration),
         implemented=_skills(file, s.ImplementationDeclaration),
         runs=tuple(_run(each, lines) for each in file.declarations if _bodies(each)),
-        imports=tuple(imports),
+        imports=tuple(path for _, path in unit.imports),
         adds_terms=any(isinstance(line, s.Prefix) for line in file.header)
         or any(isinstance(each, terms) for each in file.declarations),
         has_tasks=any(isinstance(each, s.TaskDeclaration) for each in file.declarations),

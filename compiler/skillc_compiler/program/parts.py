@@ -27,8 +27,9 @@ class Reads(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A declaration, as written or resolved; `program` makes a program of it alone. It depends on `of` only."""
+    """A declaration in the file `path`, as written or resolved, and a program of it alone; it depends on `of` only."""
 
+    path: str
     of: tuple[object, ...]
     program: Callable[[], Program]
 
@@ -37,10 +38,11 @@ def parts_of(program: Program, paths: Collection[str] | None = None) -> Iterator
     """Yield every declaration of a program, resolved, and as it is written; with `paths`, only those in these files."""
     resolved: list[Skill | Implementation | Task] = [*program.skills.values(), *program.implementations, *program.tasks]
     for each in (one for one in resolved if paths is None or one.span.path in paths):
-        yield Part((each, program.vocabulary), lambda each=each: _alone(program, each))  # type: ignore[misc]
+        yield Part(each.span.path, (each, program.vocabulary), lambda each=each: _alone(program, each))  # type: ignore[misc]
     for unit in (one for one in program.files if paths is None or one.file.path in paths):
         for declaration in unit.file.declarations:
             yield Part(
+                unit.file.path,
                 (declaration, program.vocabulary),
                 lambda unit=unit, declaration=declaration: _written_alone(program, unit, declaration),  # type: ignore[misc]
             )

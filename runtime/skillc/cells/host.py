@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from skillc.cells.journal.fingerprint import make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.library import decode_library, load_library
+from skillc.cells.messages import Edit, Place
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.reality import report_devices
 from skillc.cells.recordings import CellRecordings
@@ -156,11 +157,11 @@ class CellHost:
         """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that."""
         return encode_snapshot(self._describe_known(report_devices(self.simulation.backend)))
 
-    def edit(self, edits: Sequence[str], who: str, why: str) -> None:
+    def edit(self, wanted: Edit | Place) -> None:
         """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
         if self.loop.fault is not None:
             raise RequestError(f"the world of {self.settings.name} cannot be written: {self.loop.fault}")
-        edit_world(self.world, edits, who, why, self.loop, self._operations.values())
+        edit_world(self.world, wanted, self.loop, self._operations.values())
 
     def disturb(self, disturbance: Disturbance, who: str) -> None:
         """Let something happen to the simulated cell; RequestError if it is not possible."""
@@ -291,7 +292,7 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
             closing(JournalReader(settings.journal)) as reader,
         ):
             world = restore_world(store, state, found, journal, reader)
-            end_interrupted(settings.name, reader, journal)
+            end_interrupted(settings.name, reader, journal, settings.ended)
             host = CellHost(settings, library, world, journal, reader, scene, reporter)
             try:
                 yield host

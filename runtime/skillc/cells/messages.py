@@ -11,6 +11,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
+from skillc.cells.samples import PoseNumbers
 from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.recording.commands import Command
@@ -70,6 +71,15 @@ class Edit(_Message, tag="edit", frozen=True, kw_only=True):
     why: str
 
 
+class Place(_Message, tag="place", frozen=True, kw_only=True):
+    """Say where a thing is in the world; its name is an IRI or `prefix:name`. `who` says it, and `why`."""
+
+    thing: str
+    pose: PoseNumbers
+    who: str
+    why: str
+
+
 class Disturb(_Message, tag="disturb", frozen=True, kw_only=True):
     """Let something happen to the simulated cell; `who` wants it. Names are IRIs or `prefix:name`."""
 
@@ -89,7 +99,7 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
     reason: str
 
 
-Change: TypeAlias = Submit | Give | SetPace | Acknowledge | Edit | Disturb | TakeLibrary | End
+Change: TypeAlias = Submit | Give | SetPace | Acknowledge | Edit | Place | Disturb | TakeLibrary | End
 Look: TypeAlias = TakeSnapshot | TakeSample | TakeGeometry | TakeCoverage
 Message: TypeAlias = Change | Look
 
@@ -155,10 +165,16 @@ class Alive(_Message, tag="alive", frozen=True, kw_only=True):
     intervals_s: float = 0.0
 
 
+class Preparing(_Message, tag="preparing", frozen=True, kw_only=True):
+    """What the cell does before it is ready, if that takes long."""
+
+    reason: str
+
+
 class StartFailed(_Message, tag="not-started", frozen=True, kw_only=True):
     """The cell could not be started; the process ends."""
 
     reason: str
 
 
-Report: TypeAlias = CellAnswer | Happened | StatusChanged | Alive | StartFailed
+Report: TypeAlias = CellAnswer | Happened | StatusChanged | Alive | Preparing | StartFailed

@@ -24,6 +24,7 @@ from skillc.cells.messages import (
     Give,
     Happened,
     Look,
+    Place,
     Refused,
     SetPace,
     StatusChanged,
@@ -191,8 +192,8 @@ class CellService:
                 return _Pending(number, durable=False)
             case Acknowledge():
                 self._host.acknowledge()
-            case Edit(edits=edits, who=who, why=why):
-                self._host.edit(edits, who, why)
+            case Edit() | Place():
+                self._host.edit(message)
             case Disturb(disturbance=disturbance, who=who):
                 self._host.disturb(disturbance, who)
                 return _Pending(number, durable=False)

@@ -77,7 +77,7 @@ def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
     """Return the digest of everything that a check depends on but the texts of the library's own files.
 
     That is where these are, what they can import, the scene checked with them, the scenes that tasks name, the user's
-    models, the signatures of the Python functions it names, the current folder, skillc itself and the installed
+    models, what checks read of the Python that it names, the current folder, skillc itself and the installed
     packages.
     """
     return _digest((*describe_installation(), *_inputs(library, scene)))
@@ -144,15 +144,15 @@ def _file(path: Path) -> Iterator[str | bytes]:
 
 
 def _python(sources: Iterable[Source]) -> Iterator[str]:
-    """Yield the signatures of the Python functions that the sources name, without those of skillc."""
+    """Yield what checks read of the Python that the sources name, without that of skillc."""
     named = {target for source in sources for target in _PYTHON.findall(source.text)}
     foreign = sorted(target for target in named if target[0].partition(".")[0] not in PACKAGES)
     if not foreign:
         return
-    from skillc_compiler.python.targets import read_target
+    from skillc_compiler.python.targets import method_returns, read_target
 
     for module, name in foreign:
-        yield from (module, name, repr(read_target(module, name)))
+        yield from (module, name, repr(read_target(module, name)), *sorted(method_returns(module, name, "tick")))
 
 
 def _states(folder: str) -> Iterator[str]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import msgspec
+
 from skillc.services.library_files import LibraryFiles
 from skillc.services.reporting import sort_diagnostics
 from skillc.services.snapshots import Snapshot, update_snapshot
@@ -14,7 +16,8 @@ from skillc_compiler.checks.planning import UNPLANNABLE
 from skillc_compiler.problems import find_problems, visible_diagnostics
 from skillc_compiler.program.outlines import TASK, Outline, outline_of
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.slices import changed_skills, concerned_files, depending_skills, needed_files
+from skillc_compiler.program.slices import Dependencies, changed_skills
+from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic
@@ -33,12 +36,13 @@ def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snaps
     if now is None:
         return None
     outlines = {**before.outlines, **now}
-    skills = depending_skills(outlines, changed_skills(before.outlines, now))
-    checked = concerned_files(outlines, skills) | edited.keys()
+    dependencies = Dependencies(outlines)
+    skills = dependencies.callers(changed_skills(before.outlines, now))
+    checked = dependencies.concerned(skills) | edited.keys()
     if TASK in skills or not checked.isdisjoint(before.texts):
         return None
     own = {source.path: source for source in library.sources}
-    needed = needed_files(outlines, checked)
+    needed = dependencies.needed(checked)
     if any(outlines[path].has_tasks or path not in own or "allow" in own[path].text for path in checked):
         return None
     with gc_disabled():
@@ -57,8 +61,10 @@ def _outlines(edited: Mapping[str, Source], before: Snapshot, parse: Parser) -> 
         parsed = parse(source)
         if parsed.diagnostics or parsed.value.errors:
             return None
-        found[path] = outline_of(parsed.value, source.text, before.outlines[path].imports)
-        if found[path].shown != before.outlines[path].shown:
+        known = before.outlines[path]
+        unit = ParsedFile(parsed.value, "", "", source.text)
+        found[path] = msgspec.structs.replace(outline_of(unit), imports=known.imports)
+        if found[path].shown != known.shown:
             return None
     return found
 

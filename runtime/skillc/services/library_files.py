@@ -47,8 +47,8 @@ class LibraryFiles:
 
     def display_path(self, path: str) -> str:
         """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""
-        file, here = self.places.get(path) or catalogue.ROOT / path, Path.cwd()
-        return str(file.relative_to(here) if file.is_relative_to(here) else file)
+        file = str(self.places.get(path) or catalogue.ROOT / path)
+        return file.removeprefix(os.path.join(os.getcwd(), ""))  # noqa: PTH109, PTH118 - of each file of a library
 
     def with_display_paths(self, problem: Diagnostic) -> Diagnostic:
         """Return a diagnostic with paths as they are displayed."""

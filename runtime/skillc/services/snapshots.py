@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from skillc_compiler.program.outlines import Outline, outline_of
+from skillc_compiler.program.outlines import Outline
 from skillc_compiler.program.typed import Program
 from skillc_dsl import cache
 from skillc_dsl.diagnostics import Diagnostic
@@ -40,15 +40,12 @@ class Snapshot(msgspec.Struct, frozen=True):
         return {each.path: each for each in sources if self.digests.get(each.path) != digest_of(each)}
 
 
-def take_snapshot(program: Program, texts: Iterable[str], found: Iterable[Diagnostic]) -> Snapshot:
-    """Return the snapshot of a program without errors."""
-    units = {unit.file.path: unit for unit in program.files}
-    return Snapshot(
-        {path: digest_of(Source(path, unit.text)) for path, unit in units.items()},
-        {path: outline_of(unit.file, unit.text, (to for _, to in unit.imports)) for path, unit in units.items()},
-        frozenset(texts),
-        json.render(found, {}),
-    )
+def take_snapshot(
+    program: Program, outlines: Mapping[str, Outline], texts: Iterable[str], found: Iterable[Diagnostic]
+) -> Snapshot:
+    """Return the snapshot of a program without errors, given the outlines of its files."""
+    digests = {unit.file.path: digest_of(Source(unit.file.path, unit.text)) for unit in program.files}
+    return Snapshot(digests, dict(outlines), frozenset(texts), json.render(found, {}))
 
 
 def update_snapshot(

@@ -33,6 +33,11 @@ export class ApiError extends Error {
   ) {
     super(message);
   }
+
+  /** Whether the same request may be answered soon: it did not arrive, or the server or the cell is busy or starts. */
+  get isTemporary(): boolean {
+    return [0, 429, 503].includes(this.status);
+  }
 }
 
 type Query = Record<string, string | number | boolean | null | undefined>;
@@ -84,13 +89,25 @@ async function refusal(response: Response): Promise<ApiError> {
   }
 }
 
+/** Return the body of an answer; ApiError if the connection ends before all of it has come. */
+async function whole<T>(body: Promise<T>): Promise<T> {
+  try {
+    return await body;
+  } catch {
+    throw new ApiError(0, "the answer of the server was cut off");
+  }
+}
+
+const readJson = async <T>(response: Response): Promise<T> => (await whole(response.json())) as T;
+const readBytes = (response: Response): Promise<ArrayBuffer> => whole(response.arrayBuffer());
+
 export async function read<T>(path: string, query: Query = {}): Promise<T> {
-  return (await (await request("GET", address(path, query))).json()) as T;
+  return readJson(await request("GET", address(path, query)));
 }
 
 async function write<T>(method: string, path: string, body?: unknown, headers: Headers = {}): Promise<T> {
   const response = await request(method, address(path), body, headers);
-  return (response.status === 204 ? undefined : await response.json()) as T;
+  return response.status === 204 ? (undefined as T) : readJson(response);
 }
 
 export const part = encodeURIComponent;
@@ -131,7 +148,7 @@ export const api = {
   rehearse: (cell: string, wish: PlanWish) =>
     write<Rehearsal>("POST", `/cells/${part(cell)}/rehearsals`, { ...wish, record: true }),
   rehearsalRecording: async (id: string) =>
-    (await request("GET", address(`/rehearsals/${part(id)}/recording`))).arrayBuffer(),
+    readBytes(await request("GET", address(`/rehearsals/${part(id)}/recording`))),
   rehearsal: (id: string) => read<Rehearsal>(`/rehearsals/${part(id)}`),
   submit: (cell: string, wanted: OperationRequest, key: string) =>
     write<OperationStatus>("POST", `/cells/${part(cell)}/operations`, wanted, { "Idempotency-Key": key }),
@@ -163,8 +180,8 @@ export const api = {
       text,
       base_hash: base,
     });
-    return (await response.json()) as SourceText;
+    return readJson(response);
   },
   recording: async (id: string) =>
-    (await request("GET", address(`/operations/${part(id)}/recording`))).arrayBuffer(),
+    readBytes(await request("GET", address(`/operations/${part(id)}/recording`))),
 };

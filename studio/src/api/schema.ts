@@ -37,14 +37,11 @@ export interface components {
             factor: number | null;
         };
         /**
-         * StopAll
-         * @description Why everything is stopped.
+         * StopReason
+         * @description Why an operation, or everything, is stopped. No form of it is a reason not to stop: a long one is cut.
          */
-        StopAll: {
-            /**
-             * @description Why, for the history.
-             * @default stopped
-             */
+        StopReason: {
+            /** @default stopped */
             reason?: string;
         };
         /**
@@ -620,14 +617,6 @@ export interface components {
             breakpoints: string[];
             /** @default  */
             who?: string;
-        };
-        /**
-         * StopReason
-         * @description Why an operation is stopped.
-         */
-        StopReason: {
-            /** @default stopped */
-            reason?: string;
         };
         /**
          * Envelope
@@ -1814,6 +1803,25 @@ export interface components {
             why: string;
         };
         /**
+         * WorldPlacement
+         * @description Where a thing is, and why this is said: its position in m and a quaternion (w, x, y, z), in the world.
+         *
+         *         It stays with what carries it. `thing` is an IRI or `prefix:name`.
+         */
+        WorldPlacement: {
+            thing: string;
+            pose: [
+                number,
+                number,
+                number,
+                number,
+                number,
+                number,
+                number
+            ];
+            why: string;
+        };
+        /**
          * WorldWrite
          * @description A write to the world: its number, when it was made, who or what made it, how that is known, and the changes.
          *
@@ -2423,6 +2431,8 @@ export interface components {
             /** @enum {unknown} */
             role: "admin" | "edit" | "operate" | "view";
             created_ns: number;
+            /** @default false */
+            agent?: boolean;
         };
         /**
          * MadeToken
@@ -2436,12 +2446,14 @@ export interface components {
         };
         /**
          * NewToken
-         * @description A token to be made.
+         * @description A token to be made. What an `agent` asks for waits for the approval of somebody else.
          */
         NewToken: {
             name: string;
             /** @enum {unknown} */
             role: "admin" | "edit" | "operate" | "view";
+            /** @default false */
+            agent?: boolean;
         };
         /**
          * TrialSeries

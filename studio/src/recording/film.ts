@@ -41,6 +41,16 @@ export class Film {
     this.forces[this.times.length - 1] = message;
   }
 
+  /** Return the cell at times that are at least a step in s apart. */
+  every(step: number): Sample[] {
+    let next = -Infinity;
+    return this.times.flatMap((time) => {
+      if (time < next) return [];
+      next = time + step;
+      return this.sampleAt(time) ?? [];
+    });
+  }
+
   /** Return the cell at a time in s; null before the first picture. */
   sampleAt(time: number): Sample | null {
     const at = lastUpTo(this.times, time);

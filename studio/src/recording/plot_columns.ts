@@ -1,4 +1,4 @@
-// Which recorded signals are plotted: the length of the force at each arm, and contact forces.
+// Which recorded signals are plotted: the lengths of the force and the speed of each arm, and contact forces.
 import type { Line } from "../state/series";
 
 type Columns = readonly (ArrayLike<number | null> | undefined)[];
@@ -13,8 +13,9 @@ export class PlotColumns {
   constructor(signals: readonly { column: string }[]) {
     signals.forEach(({ column }, at) => {
       const [device = "", , quantity = ""] = column.split("/");
-      if (quantity === "contact_force_n") this.take(`contact of ${device}`, [at]);
-      if (quantity === "force_x_n") this.take(`force at ${device}`, [at, at + 1, at + 2]);
+      if (quantity === "contact_force_n") this.take(`contact of ${device}`, "N", [at]);
+      if (quantity === "force_x_n") this.take(`force at ${device}`, "N", [at, at + 1, at + 2]);
+      if (quantity === "tool_vx_m_s") this.take(`speed of ${device}`, "m/s", [at, at + 1, at + 2]);
     });
   }
 
@@ -34,8 +35,8 @@ export class PlotColumns {
     }
   }
 
-  private take(name: string, source: number[]): void {
-    this.lines.push({ name, unit: "N" });
+  private take(name: string, unit: string, source: number[]): void {
+    this.lines.push({ name, unit });
     this.sources.push(source);
     this.columns.push([]);
   }

@@ -1,7 +1,7 @@
 // The bodies of a cell: solid where they really are, a ghost where belief differs, with an outline if they are selected.
 import * as three from "three";
 import { BodyBatch } from "./batch";
-import { makeGhost, makeOutline, makeSolid, makeTranslucent } from "./materials";
+import { makeGhost, makeOutline, makeShadow, makeSolid, makeTranslucent } from "./materials";
 import { compose } from "./poses";
 import { makeBodyGeometry, matrixOf, shareNormals } from "./shapes";
 import type { SceneTheme } from "./theme";
@@ -10,11 +10,13 @@ import type { CellModel, PoseNumbers } from "./types";
 export class SceneBodies {
   readonly group = new three.Group();
   private readonly solid: BodyBatch;
+  private readonly shadow: BodyBatch;
   private readonly translucent: BodyBatch;
   private readonly ghost: BodyBatch;
   private readonly dragged: BodyBatch;
   private readonly draggedMaterial: three.MeshLambertMaterial;
   private readonly outline: BodyBatch;
+  private readonly all: readonly BodyBatch[];
   private readonly boxes = new Map<number, three.Box3>();
   private readonly owned = new Map<string, Set<number>>();
 
@@ -25,15 +27,16 @@ export class SceneBodies {
     const opaque = this.makeGeometries(true);
     const glass = this.makeGeometries(false);
     this.solid = new BodyBatch(opaque, makeSolid());
+    this.shadow = new BodyBatch(opaque, makeShadow(theme));
+    this.shadow.mesh.renderOrder = -1;
     this.translucent = new BodyBatch(glass, makeTranslucent());
     this.ghost = new BodyBatch(opaque, makeGhost(theme.believed));
     this.draggedMaterial = makeGhost(theme.disturb);
     this.dragged = new BodyBatch(opaque, this.draggedMaterial);
     const hulls = new Map([...opaque].map(([body, geometry]) => [body, shareNormals(geometry.clone())]));
     this.outline = new BodyBatch(hulls, makeOutline(theme.accent));
-    this.solid.mesh.castShadow = this.solid.mesh.receiveShadow = true;
-    for (const each of [this.solid, this.translucent, this.ghost, this.dragged, this.outline])
-      this.group.add(each.mesh);
+    this.all = [this.solid, this.shadow, this.translucent, this.ghost, this.dragged, this.outline];
+    for (const each of this.all) this.group.add(each.mesh);
     this.noteBoxes(opaque, glass);
     this.model.bodies.forEach(({ individual }, body) => {
       if (individual !== null)
@@ -48,7 +51,7 @@ export class SceneBodies {
     poses.forEach((pose, body) => {
       const shift = shifts.get(this.model.bodies[body]?.individual ?? "");
       const there = shift === undefined ? pose : compose(shift, pose);
-      for (const each of [this.solid, this.translucent, this.outline]) each.place(body, there);
+      for (const each of [this.solid, this.shadow, this.translucent, this.outline]) each.place(body, there);
     });
   }
 
@@ -99,7 +102,7 @@ export class SceneBodies {
   }
 
   dispose(): void {
-    for (const each of [this.solid, this.translucent, this.ghost, this.dragged, this.outline]) each.dispose();
+    for (const each of this.all) each.dispose();
   }
 
   private placeShifted(

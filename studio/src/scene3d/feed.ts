@@ -2,12 +2,14 @@
 import { computed, effect, signal } from "@preact/signals";
 import { ApiError, part, read, request } from "../api/client";
 import { attempt, select } from "../state/actions";
-import { cells, may, replay, shownSample, things, worldSequence } from "../state/studio";
+import { readWorld } from "../state/live";
+import { rehearsed } from "../state/replay";
+import { cells, live, may, operationId, replay, shownSample, things, worldSequence } from "../state/studio";
+import { findPaths } from "./paths";
 import type {
   BelievedPoses,
   CellModel,
   Displacement,
-  PlannedPath,
   SceneActions,
   SceneSources,
   SurfaceCoverage,
@@ -17,11 +19,22 @@ type Coverage = Readonly<Record<string, SurfaceCoverage>>;
 
 const COVERAGE_MS = 400;
 const RETRY_MS = 2000;
+/** How far apart in time the points of a planned path are. */
+const PATH_S = 0.1;
 
 const model = signal<CellModel | null>(null);
 const believed = signal<BelievedPoses>({});
 const coverage = signal<Coverage>({});
-const paths = signal<readonly PlannedPath[]>([]);
+/** What was rehearsed is planned until an operation that was begun after it has ended. */
+const isPlanned = computed(() => {
+  const { operation = null } = rehearsed.value ?? {};
+  return operationId.value === operation || live.value.ended === null;
+});
+const rehearsedPaths = computed(() => {
+  if (model.value === null || rehearsed.value === null) return [];
+  return findPaths(model.value, rehearsed.value.film.every(PATH_S));
+});
+const paths = computed(() => (isPlanned.value ? rehearsedPaths.value : []));
 
 export const sceneSources: SceneSources = {
   model,
@@ -97,6 +110,7 @@ export function sceneActions(cell: string): SceneActions {
   return {
     select: (iri) => select(iri === null ? { kind: "nothing" } : { kind: "thing", iri }),
     disturb: may("operate") ? (displacement) => disturb(cell, displacement) : undefined,
+    correct: may("edit") ? (displacement, why) => correct(cell, displacement, why) : undefined,
   };
 }
 
@@ -106,4 +120,18 @@ function disturb(cell: string, { individual, label, by_m }: Displacement): Promi
     () => request("POST", `/api/v1/cells/${part(cell)}/disturbances`, body),
     `${label} was moved in the simulated reality; the cell does not know it`,
   );
+}
+
+async function correct(
+  cell: string,
+  { individual, label, pose }: Displacement,
+  why: string,
+): Promise<boolean> {
+  const body = { thing: individual, pose, why };
+  const isDone = await attempt(
+    () => request("POST", `/api/v1/cells/${part(cell)}/world/placements`, body),
+    `The cell believes that ${label} is there; nothing has moved`,
+  );
+  if (isDone) await readWorld(true);
+  return isDone;
 }

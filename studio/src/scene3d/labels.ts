@@ -15,15 +15,18 @@ export interface Label {
 const HEIGHT = 20;
 const WIDTH_OF_CHARACTER = 6.6;
 const PADDING = 14;
+/** How far above or below its point a label is. */
+const GAP = 4;
 
-interface Box {
+export interface Box {
   left: number;
   top: number;
   right: number;
   bottom: number;
 }
 
-/** Return where labels are shown in pixels, by key; those behind the viewer, outside or covered are left out. */
+/** Return where the lower middles of labels are in pixels, by key: above their points, or below if there is no room.
+ *  Those behind the viewer, outside or covered on both sides are left out. `reserved` is covered by something else. */
 export function placeLabels(
   labels: readonly Label[],
   project: (at: three.Vector3) => { x: number; y: number } | null,
@@ -35,10 +38,16 @@ export function placeLabels(
     const at = project(label.at);
     if (at === null) continue;
     const half = (label.text.length * WIDTH_OF_CHARACTER + PADDING) / 2;
-    const box = { left: at.x - half, right: at.x + half, top: at.y - HEIGHT - 4, bottom: at.y - 4 };
-    if (taken.some((each) => overlaps(each, box))) continue;
+    const boxes = [at.y - GAP, at.y + GAP + HEIGHT].map((bottom) => ({
+      left: at.x - half,
+      right: at.x + half,
+      top: bottom - HEIGHT,
+      bottom,
+    }));
+    const box = boxes.find((one) => !taken.some((each) => overlaps(each, one)));
+    if (box === undefined) continue;
     taken.push(box);
-    places.set(label.key, at);
+    places.set(label.key, { x: at.x, y: box.bottom });
   }
   return places;
 }
@@ -53,8 +62,12 @@ export class LabelLayer {
 
   constructor(private readonly parent: HTMLElement) {}
 
-  show(labels: readonly Label[], project: (at: three.Vector3) => { x: number; y: number } | null): void {
-    const places = placeLabels(labels, project);
+  show(
+    labels: readonly Label[],
+    project: (at: three.Vector3) => { x: number; y: number } | null,
+    reserved: readonly Box[],
+  ): void {
+    const places = placeLabels(labels, project, reserved);
     const known = new Map(labels.map((each) => [each.key, each]));
     for (const [key, element] of this.elements)
       if (!places.has(key)) {
@@ -67,7 +80,7 @@ export class LabelLayer {
       const element = this.elements.get(key) ?? this.add(key);
       if (element.textContent !== label.text) element.textContent = label.text;
       if (element.dataset["kind"] !== label.kind) element.dataset["kind"] = label.kind;
-      element.style.transform = `translate(${x.toFixed(1)}px, ${(y - 4).toFixed(1)}px) translate(-50%, -100%)`;
+      element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
     }
   }
 

@@ -1,5 +1,7 @@
-// The materials of bodies: matt, a ghost that shows its edges, and the hull that outlines what is selected.
+// The materials of bodies: matt, their shadows on the floor, a ghost that shows its edges, and the hull that outlines what is selected.
 import * as three from "three";
+import { LIGHT } from "./lights";
+import type { SceneTheme } from "./theme";
 
 /** Return the material of what is really there. */
 export function makeSolid(): three.Material {
@@ -19,6 +21,23 @@ export function makeGhost(colour: three.Color): three.MeshLambertMaterial {
       `float rim = 1.0 - abs(dot(normalize(vNormal), normalize(vViewPosition)));
        diffuseColor.a = 0.22 + 0.6 * rim * rim;
        #include <opaque_fragment>`,
+    );
+  };
+  return material;
+}
+
+/** Return the material of shadows: it draws bodies flat on the floor, away from the light, before anything else. */
+export function makeShadow(theme: SceneTheme): three.Material {
+  const colour = theme.ground.clone().lerp(new three.Color(0), theme.isDark ? 0.45 : 0.16);
+  const material = new three.MeshBasicMaterial({ color: colour, depthTest: false, depthWrite: false });
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace(
+      "#include <project_vertex>",
+      `vec4 there = modelMatrix * batchingMatrix * vec4(transformed, 1.0);
+       there.xy -= max(there.z, 0.0) * vec2(${(LIGHT.x / LIGHT.z).toFixed(4)}, ${(LIGHT.y / LIGHT.z).toFixed(4)});
+       there.z = 0.0;
+       vec4 mvPosition = viewMatrix * there;
+       gl_Position = projectionMatrix * mvPosition;`,
     );
   };
   return material;

@@ -1,5 +1,6 @@
 // What lies over the canvas: labels, controls, and what is said when there is nothing to see.
 import { render } from "preact";
+import type { Box } from "./labels";
 import { MoveForm } from "./MoveForm";
 import type { Mover } from "./mover";
 import "./scene.css";
@@ -12,8 +13,8 @@ export interface Overlay {
   /** Say why there is nothing to see; nothing with an empty text. */
   say(text: string): void;
   setHalves(areBeside: boolean): void;
-  /** Call a function with each new size in pixels, until what is returned is called. */
-  onResize(changed: (width: number, height: number) => void): () => void;
+  /** Call a function with each new size in pixels, and where controls are, until what is returned is called. */
+  onResize(changed: (width: number, height: number, covered: readonly Box[]) => void): () => void;
   dispose(): void;
 }
 
@@ -39,8 +40,11 @@ export function makeOverlay(element: HTMLElement, canvas: HTMLElement): Overlay 
     },
     setHalves: (areBeside) => halves.forEach((each) => (each.hidden = !areBeside)),
     onResize: (changed) => {
-      const observer = new ResizeObserver(() => changed(root.clientWidth, root.clientHeight));
-      observer.observe(root);
+      const covers = [note, ...controls.querySelectorAll<HTMLElement>(".scene-group, .scene-menu")];
+      const observer = new ResizeObserver(() =>
+        changed(root.clientWidth, root.clientHeight, covers.map(boxIn(root))),
+      );
+      [root, ...covers].forEach((each) => observer.observe(each));
       return () => observer.disconnect();
     },
     dispose: () => {
@@ -85,6 +89,15 @@ export function showControls(
     </>,
     controls,
   );
+}
+
+/** Return a function that finds where an element is in another one. */
+function boxIn(root: HTMLElement): (element: HTMLElement) => Box {
+  const { left: x, top: y } = root.getBoundingClientRect();
+  return (element) => {
+    const { left, right, top, bottom } = element.getBoundingClientRect();
+    return { left: left - x, right: right - x, top: top - y, bottom: bottom - y };
+  };
 }
 
 function make(name: string, text = ""): HTMLElement {

@@ -1,35 +1,33 @@
-// The canvas: it draws a scene once, or twice side by side, and keeps count of what that costs.
+// The canvas: it draws a scene once, or twice side by side, and says what that costs.
 import * as three from "three";
 import { makeFloor } from "./floor";
 import { SceneLights } from "./lights";
 import { Quality } from "./quality";
 import type { SceneTheme } from "./theme";
-import type { SceneStatistics } from "./types";
 
-const KEPT_TIMES = 200;
-/** So long after the last change everything is drawn with all pixels. */
+/** The name of the entries of the performance timeline that say what each frame costs. */
+const DRAWN = "scene drawn";
+/** So long after the last change everything is drawn as well as can be. */
 const SETTLED_MS = 250;
 
 export class Stage {
   readonly scene = new three.Scene();
   readonly canvas: HTMLCanvasElement;
-  readonly lights = new SceneLights();
+  private readonly lights = new SceneLights();
   width = 1;
   height = 1;
   private readonly renderer: three.WebGLRenderer;
   private readonly quality = new Quality();
-  private floor: three.Mesh | null = null;
-  private frames = 0;
-  private scriptMs: number[] = [];
-  private scale = 0;
+  private floor: ReturnType<typeof makeFloor> | null = null;
   private settling = 0;
+  private hasSettled = false;
 
   /** Make a canvas; Error if the browser has no WebGL. */
   constructor(private readonly changed: () => void) {
-    this.renderer = new three.WebGLRenderer({ antialias: true, powerPreference: "low-power" });
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = three.PCFShadowMap;
-    this.renderer.shadowMap.autoUpdate = false;
+    this.renderer = new three.WebGLRenderer({
+      antialias: !this.quality.isSoftware,
+      powerPreference: "low-power",
+    });
     this.renderer.info.autoReset = false;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -47,22 +45,21 @@ export class Stage {
     this.lights.applyTheme(theme);
     this.releaseFloor();
     this.floor = makeFloor(theme);
+    this.floor.material.opacity = this.renderer.getPixelRatio();
     this.scene.add(this.floor);
   }
 
   setSize(width: number, height: number): void {
     [this.width, this.height] = [Math.max(1, width), Math.max(1, height)];
-    this.applyScale(window.devicePixelRatio);
-  }
-
-  /** Let shadows follow what has moved. */
-  moveShadows(): void {
-    this.renderer.shadowMap.needsUpdate = true;
+    this.renderer.setSize(this.width, this.height, false);
   }
 
   /** Draw the scene once for each of one or two halves; each is prepared before. `began` is when the work on it began. */
   render(camera: three.PerspectiveCamera, halves: readonly (() => void)[], began: number): void {
     const width = this.width / halves.length;
+    const isSharp = this.hasSettled;
+    this.hasSettled = false;
+    this.applyScale(this.quality.scale(isSharp, this.width * this.height));
     this.renderer.info.reset();
     this.renderer.setScissorTest(halves.length > 1);
     halves.forEach((prepare, index) => {
@@ -71,15 +68,8 @@ export class Stage {
       this.renderer.setScissor(index * width, 0, width, this.height);
       this.renderer.render(this.scene, camera);
     });
-    this.frames++;
-    this.scriptMs.push(performance.now() - began);
-    if (this.scriptMs.length > KEPT_TIMES) this.scriptMs.shift();
-    this.watchLoad();
-  }
-
-  statistics(): SceneStatistics {
-    const { calls, triangles } = this.renderer.info.render;
-    return { frames: this.frames, drawCalls: calls, triangles, scriptMs: [...this.scriptMs] };
+    this.report(began);
+    this.watchLoad(isSharp);
   }
 
   dispose(): void {
@@ -90,32 +80,36 @@ export class Stage {
     this.canvas.remove();
   }
 
-  /** Look how long the browser is busy with a frame, and draw the next ones accordingly. */
-  private watchLoad(): void {
+  /** Tell observers of the performance timeline of a frame: its script, and what is drawn; the browser keeps nothing. */
+  private report(began: number): void {
+    const { calls, triangles } = this.renderer.info.render;
+    performance.measure(DRAWN, { start: began, detail: { calls, triangles } });
+    performance.clearMeasures(DRAWN);
+  }
+
+  /** Look how long the browser is busy with a frame, to draw the next ones accordingly; draw it well if it stays. */
+  private watchLoad(isSharp: boolean): void {
     const drawn = performance.now();
-    requestAnimationFrame(() => {
-      if (this.quality.note(performance.now() - drawn))
-        this.applyScale(window.devicePixelRatio * this.quality.scale);
-    });
+    requestAnimationFrame(() => this.quality.note(performance.now() - drawn));
     window.clearTimeout(this.settling);
-    if (this.scale === window.devicePixelRatio && this.quality.scale === 1) return;
+    if (isSharp) return;
     this.settling = window.setTimeout(() => {
-      if (this.scale === window.devicePixelRatio) return;
-      this.applyScale(window.devicePixelRatio);
+      this.hasSettled = true;
       this.changed();
     }, SETTLED_MS);
   }
 
   private applyScale(scale: number): void {
-    this.scale = scale;
+    if (this.renderer.getPixelRatio() === scale) return;
     this.renderer.setPixelRatio(scale);
-    this.renderer.setSize(this.width, this.height, false);
+    // Lines of the floor are one pixel wide, whatever its size.
+    if (this.floor !== null) this.floor.material.opacity = scale;
   }
 
   private releaseFloor(): void {
     if (this.floor === null) return;
     this.scene.remove(this.floor);
     this.floor.geometry.dispose();
-    (this.floor.material as three.Material).dispose();
+    this.floor.material.dispose();
   }
 }

@@ -143,19 +143,10 @@ export interface SceneOptions {
   coverage: boolean;
 }
 
-/** What drawing costs: counts of the last frame, and ms of script of the last 200 frames. */
-export interface SceneStatistics {
-  frames: number;
-  drawCalls: number;
-  triangles: number;
-  scriptMs: readonly number[];
-}
-
 export interface SceneHandle {
   setCamera(preset: CameraPreset): void;
   setOptions(options: Partial<SceneOptions>): void;
   setTool(tool: Tool): void;
-  statistics(): SceneStatistics;
   /** Take the view out of the page and release its memory. */
   dispose(): void;
 }

@@ -9,7 +9,7 @@ import { CoverageLayer } from "./coverage";
 import { frameThese, projectTo } from "./framing";
 import { findForces, ForceArrows, type DrawnForce } from "./forces";
 import { placeBodies, poseOf } from "./kinematics";
-import { LabelLayer } from "./labels";
+import { LabelLayer, type Box } from "./labels";
 import { Lines } from "./lines";
 import { Mover } from "./mover";
 import { makeOverlay, showControls, type Overlay } from "./overlay";
@@ -26,7 +26,6 @@ import type {
   SceneHandle,
   SceneOptions,
   SceneSources,
-  SceneStatistics,
   Tool,
 } from "./types";
 
@@ -52,6 +51,7 @@ export class SceneView implements SceneHandle {
   private misbeliefs: Misbelief[] = [];
   private forces: DrawnForce[] = [];
   private measured: three.Vector3[] = [];
+  private covered: readonly Box[] = [];
   private frame = 0;
   private isStale = true;
 
@@ -74,8 +74,9 @@ export class SceneView implements SceneHandle {
     this.showControls();
     this.followTheme();
     this.ends.push(
-      this.overlay.onResize((width, height) => {
+      this.overlay.onResize((width, height, covered) => {
         this.stage.setSize(width, height);
+        this.covered = covered;
         this.request();
       }),
     );
@@ -100,10 +101,6 @@ export class SceneView implements SceneHandle {
     this.overlay.root.dataset["tool"] = tool;
     this.mover.begin(tool, this.sources.model.value, this.sources.selected.value[0]);
     this.refresh();
-  }
-
-  statistics(): SceneStatistics {
-    return this.stage.statistics();
   }
 
   dispose(): void {
@@ -187,8 +184,6 @@ export class SceneView implements SceneHandle {
     this.bodies = model === null ? null : new SceneBodies(model, this.theme);
     if (this.bodies !== null) this.stage.scene.add(this.bodies.group);
     this.update();
-    if (this.bodies !== null)
-      this.stage.lights.cover(this.bodies.boxOf(this.poses).getBoundingSphere(new three.Sphere()));
     this.refresh();
   }
 
@@ -249,7 +244,6 @@ export class SceneView implements SceneHandle {
     );
     this.axes.show(axes);
     this.dashes.show(dashes);
-    this.stage.moveShadows();
   }
 
   private place(asBelieved: boolean): void {
@@ -277,7 +271,11 @@ export class SceneView implements SceneHandle {
       options: this.options.value,
     });
     const width = this.stage.width / (isBeside ? 2 : 1);
-    this.labels.show(labels, (at) => projectTo(this.camera.camera, width, this.stage.height, at));
+    this.labels.show(
+      labels,
+      (at) => projectTo(this.camera.camera, width, this.stage.height, at),
+      this.covered,
+    );
   }
 
   private framed(): three.Sphere {

@@ -23,10 +23,12 @@ export function select(selection: Selection): void {
   studio.selection.value = selection;
 }
 
-/** Show another operation, from the beginning of its events. */
+/** Show an operation, from the beginning of its events; what is selected in it stays if it is shown already. */
 export function showOperation(operation: OperationStatus): void {
+  const isShown = studio.replay.peek() === null && studio.operationId.peek() === operation.id;
   batch(() => {
     takeOperation(operation);
+    if (isShown) return;
     studio.cellName.value = operation.cell;
     studio.replay.value = null;
     studio.operationId.value = operation.id;

@@ -60,12 +60,23 @@ function followCell(): (() => void) | undefined {
     openStream({
       path: "/samples",
       hello: () => ({ cell: name, rate_hz: SAMPLES_HZ }),
-      onMessage: (data) => (studio.sample.value = decode(data as ArrayBuffer) as Sample),
+      onMessage: takeChanged((data) => (studio.sample.value = decode(data) as Sample)),
     }),
     effect(() => followLibrary(name)),
     effect(() => followWorld(name)),
   ];
   return () => ends.forEach((end) => end());
+}
+
+/** Return a function that hands on what differs from what came before: nothing is drawn of a cell that stands still. */
+function takeChanged(take: (data: Uint8Array) => void): (data: string | ArrayBuffer) => void {
+  let last = new Uint8Array();
+  return (data) => {
+    const now = new Uint8Array(data as ArrayBuffer);
+    if (now.length === last.length && now.every((each, index) => each === last[index])) return;
+    last = now;
+    take(now);
+  };
 }
 
 /** Whether what is said of an operation is not older than what is known of it. */

@@ -1,5 +1,5 @@
 // Plays a recording: the same state as live, made of the events up to a time.
-import { batch } from "@preact/signals";
+import { batch, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import type { Envelope } from "../api/types";
 import { Film } from "../recording/film";
@@ -14,6 +14,9 @@ let film = new Film();
 let timer = 0;
 const TICK_MS = 50;
 
+/** The rehearsal that was played last, and the operation that was shown before it. */
+export const rehearsed = signal<{ film: Film; operation: string | null } | null>(null);
+
 /** Read the recording of an operation from the server, and play it. */
 export async function replayOperation(id: string): Promise<void> {
   openRecording(id, await api.recording(id));
@@ -22,6 +25,7 @@ export async function replayOperation(id: string): Promise<void> {
 /** Read the recording of a rehearsal from the server, and play it from its beginning. */
 export async function replayRehearsal(id: string, name: string): Promise<void> {
   openRecording(`rehearsal of ${name}`, await api.rehearsalRecording(id));
+  rehearsed.value = { film, operation: studio.operationId.peek() };
   play(true);
 }
 

@@ -105,11 +105,12 @@ function readStored(): void {
   );
 }
 
-async function readSignals(id: string): Promise<Plotted | null> {
+/** Read the recorded forces of an operation; null if it has none. */
+export async function readSignals(id: string): Promise<Plotted | null> {
   let plot: PlotColumns | null = null;
   let after: number | null = null;
   for (let more = true; more;) {
-    const page = await api.signals(id, "force_,contact_force", after);
+    const page = await api.signals(id, "force_,contact_force,tool_v", after);
     plot ??= new PlotColumns(page.signals);
     plot.add(page.time_s, page.columns);
     [more, after] = [page.more && page.time_s.length > 0, page.time_s.at(-1) ?? null];

@@ -250,6 +250,9 @@ function PlanAndStart({ request, onDone }: PlanAndStartProps) {
   );
 }
 
+/** How long nothing has to change before there is a plan, and when a server that was busy is asked again. */
+const [SETTLED_MS, AGAIN_MS] = [200, 1500];
+
 /** Plan again whenever what is wanted, or the world, has changed. */
 function usePreview(request: PlanWish): { preview: PlanPreview | null; problem: string } {
   const [found, setFound] = useState<{ preview: PlanPreview | null; problem: string }>({
@@ -262,15 +265,18 @@ function usePreview(request: PlanWish): { preview: PlanPreview | null; problem: 
     if (name === undefined) return;
     let isCurrent = true;
     setFound({ preview: null, problem: "" });
-    const timer = window.setTimeout(() => {
+    const ask = (): void => {
       api.plan(name, request).then(
         (preview) => isCurrent && setFound({ preview, problem: "" }),
         (error: unknown) => {
           if (!(error instanceof ApiError)) throw error;
-          if (isCurrent) setFound({ preview: null, problem: error.message });
+          if (!isCurrent) return;
+          if (error.isTemporary) timer = window.setTimeout(ask, AGAIN_MS);
+          else setFound({ preview: null, problem: error.message });
         },
       );
-    }, 200);
+    };
+    let timer = window.setTimeout(ask, SETTLED_MS);
     return () => {
       isCurrent = false;
       window.clearTimeout(timer);

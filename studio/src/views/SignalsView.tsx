@@ -4,7 +4,7 @@ import { effect, signal } from "@preact/signals";
 import type uPlot from "uplot";
 import { plotColumns, plotLines } from "../state/signals";
 import { select } from "../state/actions";
-import { span } from "../state/studio";
+import { replay, span } from "../state/studio";
 import { Panel } from "./Panel";
 import { isDark } from "./layout";
 import { drawPlot } from "./plot";
@@ -64,7 +64,14 @@ function Plots() {
       plot?.destroy();
     };
   }, [key]);
-  if (lines.length === 0) return <div class="empty">No arm of this cell is measured yet.</div>;
+  if (lines.length === 0)
+    return (
+      <div class="empty">
+        {replay.value === null
+          ? "No arm of this cell is measured yet."
+          : "This recording has no forces or speeds of an arm."}
+      </div>
+    );
   return (
     <div
       class="plots"

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import msgspec
 
-from skillc.cells.messages import Edit
-from skillc.server.api_types import WorldEdit, WorldQuery
+from skillc.cells.messages import Edit, Place
+from skillc.server.api_types import WorldEdit, WorldPlacement, WorldQuery
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell
@@ -88,6 +88,13 @@ async def edit_world(call: ApiCall) -> None:
     await command_cell(call, cell, Edit(edits=wanted.edits, who=call.client.name, why=wanted.why))
 
 
+async def place_thing(call: ApiCall) -> None:
+    wanted: WorldPlacement = call.body
+    cell = call.server.find_cell(call.path["cell"])
+    placed = Place(thing=wanted.thing, pose=wanted.pose, who=call.client.name, why=wanted.why)
+    await command_cell(call, cell, placed)
+
+
 async def list_writes(call: ApiCall) -> tuple[WorldWrite, ...]:
     page: WritePage = call.query
     journal = str(call.server.find_cell(call.path["cell"]).settings.journal)
@@ -118,6 +125,10 @@ ENDPOINTS = (
     ApiEndpoint(
         "POST", f"{PATH}/edits", "edit", "Change the world of a cell in one transaction", edit_world,
         body=WorldEdit, status=HTTPStatus.NO_CONTENT, refusals=REFUSALS,
+    ),
+    ApiEndpoint(
+        "POST", f"{PATH}/placements", "edit", "Say where a thing is in the world of a cell; nothing moves", place_thing,
+        body=WorldPlacement, status=HTTPStatus.NO_CONTENT, refusals=REFUSALS,
     ),
     ApiEndpoint(
         "GET", f"{PATH}/history", "view", "List who has written what to the world of a cell, and when", list_writes,

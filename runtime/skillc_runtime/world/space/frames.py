@@ -97,7 +97,14 @@ def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[C
     if moves_with(state, viewer, thing):
         short = state.vocabulary.short
         raise FrameError(f"{short(viewer)} moves with {short(thing)}, so its place cannot say where that is")
-    goal = pose(state, viewer) @ at
+    return place_changes(state, thing, pose(state, viewer) @ at)
+
+
+def place_changes(state: WorldState, thing: str, goal: Pose) -> list[Change]:
+    """Return the changes that move an object to a pose in the world; its carrier stays the same.
+
+    An object without a known pose is placed in the world frame. FrameError when its frames are contradictory.
+    """
     try:
         carrier = frame_tree_of(state).carrier(thing)
     except Unplaced:
