@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
+from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.diagnostics.unplannable import report_unplannable
 from skillc_compiler.lower.library import lower_program
-from skillc_compiler.problems import find_problems, visible_diagnostics
+from skillc_compiler.problems import AnalysisMemo, find_problems, visible_diagnostics
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
@@ -37,8 +38,15 @@ def compile(
     `parsed_by` is the parser, which may cache its results. The result holds every declaration without errors. The
     diagnostics are in order of file and line; those of importable files are included only if they are errors.
     """
+    memo = AnalysisMemo()
+
+    def find(texts: Sequence[Source]) -> Outcome[Program]:
+        return analyse(texts, vocabulary, importable, name, scenes, parsed_by, memo)
+
     with gc_disabled():
-        return lower_and_report(analyse(sources, vocabulary, importable, name, scenes, parsed_by), sources)
+        found = lower_and_report(find(sources), sources)
+        useful = keep_useful_fixes(found.diagnostics, sources, lambda texts: find(texts).diagnostics)
+    return Outcome(found.value, useful)
 
 
 def analyse(
@@ -48,11 +56,12 @@ def analyse(
     name: str,
     scenes: Mapping[str, Individuals] = NO_SCENES,
     parsed_by: Parser = parse,
+    memo: AnalysisMemo | None = None,
 ) -> Outcome[Program]:
-    """Read, resolve and check a library as `compile` does."""
+    """Read, resolve and check a library as `compile` does; `memo` has what the last analysis has found."""
     files = read_sources(sources, importable, name, parsed_by)
-    program = resolve_program(files.value, vocabulary, name, scenes)
-    return Outcome(program.value, find_problems(files, program))
+    program = resolve_program(files.value, vocabulary, name, scenes, memo.resolve if memo else None)
+    return Outcome(program.value, find_problems(files, program, memo))
 
 
 def lower_and_report(program: Outcome[Program], sources: Sequence[Source]) -> Outcome[SkillLibrary]:

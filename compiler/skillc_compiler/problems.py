@@ -42,7 +42,12 @@ def find_problems(
     unknown = (problem for problem in report_unknown_names(program.value) if marks.allow(Need.TEXT, problem))
     known = (*syntax, *unknown)
     allowed = (problem for problem in program.diagnostics if marks.allow(Need.TEXT, problem))
-    resolving = [problem for problem in allowed if not marks.blames_broken(problem)]
+    lines = {(each.span.path, each.span.line) for each in known}
+    resolving = [
+        problem
+        for problem in allowed
+        if (problem.span.path, problem.span.line) not in lines and not marks.blames_broken(problem)
+    ]
     return (*known, *run_checks(program.value, known, resolving, memo.checks if memo else None, paths))
 
 

@@ -70,7 +70,7 @@ def test_no_diagnostic_is_read_as_text() -> None:
                     read += [f"{path}:{node.lineno}"] if reader in READERS else []
                 case ast.Call(func=ast.Attribute(attr=reader), args=[ast.Attribute(attr="help" | "message"), *_]):
                     read += [f"{path}:{node.lineno}"] if reader in READERS else []
-                case ast.Compare(comparators=[ast.Attribute(attr="help" | "message")]):
+                case ast.Compare(comparators=[ast.Attribute(attr="help" | "message" | "reason")]):
                     read.append(f"{path}:{node.lineno}")
                 case _:
                     pass

@@ -20,7 +20,7 @@ def main() -> int:
     options = _options()
     seeds = range(options.seed, options.seed + options.edits)
     good = True
-    print("libraries mistakes  cases   exact   fewer    near   alone  fixes bad fixes crashes")
+    print("libraries mistakes  cases   exact   fewer    near   alone  fixes   useless crashes")
     with Pool(options.jobs) as pool:
         for origin in options.libraries:
             for count in options.counts:
@@ -43,22 +43,21 @@ def _row(origin: str, count: int, verdicts: Sequence[Verdict]) -> str:
         sum(each.is_exact and not each.warnings for each in verdicts) / total,
     )
     crashes = sum(bool(each.crash) for each in verdicts)
-    fixes, bad = (sum(each) for each in zip(*((each.fixes, each.bad_fixes) for each in verdicts), strict=True))
+    fixes, bad = (sum(each) for each in zip(*((each.fixes, each.useless_fixes) for each in verdicts), strict=True))
     shown = " ".join(f"{share:7.2%}" for share in shares)
     return f"{origin:9} {count:8} {len(verdicts):6} {shown} {fixes:6} {bad:9} {crashes:7}"
 
 
 def _show(each: Verdict) -> None:
-    """Print to stderr what is not as it should be: E the number of errors, N places, W warnings, F fixes."""
+    """Print to stderr what is not as it should be: E the number of errors, N places, W warnings."""
     flags = (
         ("-", "E")[not each.is_exact],
         ("-", "N")[not each.is_near],
         ("-", "W")[each.warnings > 0],
-        ("-", "F")[each.bad_fixes > 0],
     )
     if each.crash:
         print(f"crash {each.words}\n{each.crash}", file=sys.stderr, flush=True)
-    elif "".join(flags) != "----":
+    elif "".join(flags) != "---":
         print(f"{each.mistakes} {''.join(flags)} {each.words}", file=sys.stderr, flush=True)
 
 

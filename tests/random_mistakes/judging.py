@@ -29,8 +29,8 @@ class Verdict:
     """What is reported for the mistakes of a seed.
 
     `warnings` are those that the library has not without them. `is_near` if each mistake has an error within one line
-    of it, or an error that points there. `fixes` are offered, `bad_fixes` of them leave as many errors as there were.
-    `crash` is the traceback, if the compiler crashed. `words` describe all.
+    of it, or an error that points there. `fixes` are known, of which the `useless_fixes` leave as many errors as there
+    were. `crash` is the traceback, if the compiler crashed. `words` describe all.
     """
 
     seed: int
@@ -40,7 +40,7 @@ class Verdict:
     is_near: bool
     words: str
     fixes: int = 0
-    bad_fixes: int = 0
+    useless_fixes: int = 0
     crash: str = ""
 
     @property

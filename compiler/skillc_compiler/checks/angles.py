@@ -15,7 +15,7 @@ from skillc_dsl.units import ANGLE
 from skillc_model.conditions import Literal
 
 NAMES = ("suspicious-angle",)
-NEEDS = Need.TEXT
+NEEDS = Need.NAMES
 READS = Reads.DECLARATION
 
 

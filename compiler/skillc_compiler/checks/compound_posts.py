@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.analysis.findings import UnprovedPost
+from skillc_compiler.analysis.findings import Finding, UnprovedPost, UnprovedPrecondition
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.program.marks import Need
@@ -33,12 +33,20 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
 
 
 def _group_by_path(proofs: Proofs) -> Iterator[tuple[UnprovedPost, ...]]:
-    """Group what the same path leaves open, as it has one cause."""
+    """Group what the same path leaves open, as it has one cause.
+
+    Of a body with a call that cannot start it is not known how it ends.
+    """
     groups: dict[object, tuple[UnprovedPost, ...]] = {}
-    for one in findings_of(proofs, UnprovedPost):
+    sound = {key: proof for key, proof in proofs.items() if not any(map(_cannot_start, proof.findings))}
+    for one in findings_of(sound, UnprovedPost):
         key = (id(one.implementation), id(one.path), one.false, one.beyond)
         groups[key] = (*groups.get(key, ()), one)
     return iter(groups.values())
+
+
+def _cannot_start(finding: Finding) -> bool:
+    return isinstance(finding, UnprovedPrecondition) and finding.false
 
 
 def _help(one: UnprovedPost) -> str:

@@ -17,12 +17,15 @@ MOST_TRIED = 20
 
 
 def keep_useful_fixes(
-    problems: Sequence[Diagnostic], sources: Sequence[Source], check: Check
+    problems: Sequence[Diagnostic], sources: Sequence[Source], check: Check, some: Sequence[Diagnostic] | None = None
 ) -> tuple[Diagnostic, ...]:
-    """Return the problems; an error has its fix only if there are fewer errors after it. Fixes of warnings stay."""
+    """Return the problems; an error has its fix only if there are fewer errors after it. Fixes of warnings stay.
+
+    `some` of the problems are tried and returned, if not all.
+    """
     before, tried = _count_errors(problems), 0
     kept = []
-    for problem in problems:
+    for problem in problems if some is None else some:
         if problem.severity == "error" and problem.fix is not None:
             tried += 1
             if tried > MOST_TRIED or _count_errors(check(_apply(problem.fix, sources))) >= before:

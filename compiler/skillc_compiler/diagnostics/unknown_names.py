@@ -17,6 +17,8 @@ from skillc_dsl.source import Span
 
 Key: TypeAlias = tuple[object, ...]
 
+MOST_PLACES = 3
+"""The maximum number of further places that are shown of names that one line would make visible."""
 _WORD = re.compile(r"[\w-]+")
 _COMMENT = re.compile(r"#[^\n]*")
 
@@ -105,11 +107,20 @@ def _report_line(group: Sequence[UnknownName], line: HeaderLine, files: Sequence
     )
     labels = (
         Label(place, "add it here"),
-        *(Label(each.written.span, "also here") for each in group[1:]),
+        *_other_places(group),
     )
     return Diagnostic(
         first.diagnostic, first.written.span, first.message, first.help, labels=(*first.labels, *labels), fix=fix
     )
+
+
+def _other_places(group: Sequence[UnknownName]) -> tuple[Label, ...]:
+    """Return labels at the first of the other names, the last of which says how many there are besides."""
+    shown = [Label(each.written.span, "also here") for each in group[1 : MOST_PLACES + 1]]
+    more = len(group) - 1 - len(shown)
+    if more:
+        shown[-1] = Label(shown[-1].span, f"also here, and in {more} more place{'s' * (more > 1)}")
+    return tuple(shown)
 
 
 def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:

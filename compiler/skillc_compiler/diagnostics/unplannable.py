@@ -12,8 +12,6 @@ from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 
-COUNTING = ("compares", "no finite", "known only at run time")
-
 
 def report_unplannable(library: SkillLibrary, program: Program, problems: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Yield a warning for each skill that no plan can contain, unless its description alone already shows why.
@@ -34,18 +32,18 @@ def _has_class_cycle(vocabulary: Vocabulary) -> bool:
 
 
 def _problem(skill: Skill, excluded: Excluded) -> Diagnostic:
-    written = (r.condition.span for r in skill.requirements if f"`{r.text}`" in excluded.reason)
+    written = (r.condition.span for r in skill.requirements if r.text == excluded.requirement)
     return Diagnostic(
         UNPLANNABLE,
         next(written, skill.name_span),
         f"planners leave `{skill.name}` out: {excluded.reason}",
-        help=f"{_suggest_planner(excluded.reason)}; rewrite it, or add `noplan`",
+        help=f"{_suggest_planner(excluded)}; rewrite it, or add `noplan`",
         severity="warning",
     )
 
 
-def _suggest_planner(reason: str) -> str:
+def _suggest_planner(excluded: Excluded) -> str:
     """Return which planners support the construct."""
-    if any(words in reason for words in COUNTING):
+    if excluded.numeric:
         return "numeric planners such as ENHSP support it; Fast Downward and the built-in search do not"
     return "no PDDL planner supports it"

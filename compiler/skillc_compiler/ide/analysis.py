@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.ide.index import Index, build_index
 from skillc_compiler.ide.visible import VisibleNames, find_visible
 from skillc_compiler.pipeline import NO_SCENES, lower_and_report
@@ -66,6 +67,15 @@ class Analysis:
     def problems(self) -> tuple[Diagnostic, ...]:
         """All diagnostics, in order of their places."""
         return self.compiled.diagnostics
+
+    def with_useful_fixes(self, problems: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+        """Return some of the problems, with the fixes after which there are fewer errors."""
+
+        def check(texts: Sequence[Source]) -> tuple[Diagnostic, ...]:
+            changed = replace(self.library, sources={each.path: each for each in texts})
+            return analyse(changed, self.parsed_by, self.memo).problems
+
+        return keep_useful_fixes(self.problems, _ordered(self.library), check, problems)
 
     @cached_property
     def texts(self) -> Mapping[str, str]:

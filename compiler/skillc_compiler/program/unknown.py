@@ -72,8 +72,8 @@ class UnknownName:
 class LostNames:
     """What other errors may have removed: names by skill and of the library, and lines from the headers of files.
 
-    `declarations` are the files of which whole declarations may be missing; `twice` are the skills and functions that
-    are declared more than once.
+    `declarations` are the files of which whole declarations may be missing; `twice` are the names that are declared
+    more than once.
     """
 
     names: Mapping[str, frozenset[str]] = field(default_factory=dict)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import assert_never
 
 from skillc_compiler.program.spans import is_within_lines
 from skillc_compiler.program.typed import ParsedFile
@@ -43,10 +44,28 @@ def _incomplete(file: s.File) -> Iterator[Span]:
 
 
 def find_twice(files: Sequence[ParsedFile]) -> frozenset[str]:
-    """Return the skills and functions that are declared more than once: it is not clear which one is meant."""
-    kinds = s.SkillDeclaration | s.FunctionDeclaration
-    names = [d.name.text for unit in files for d in unit.file.declarations if isinstance(d, kinds)]
-    return frozenset(name for name, times in Counter(names).items() if times > 1)
+    """Return the names that are declared more than once: it is not clear which declaration is meant.
+
+    Relations and properties may be declared for several classes.
+    """
+    kinds: dict[str, list[object]] = defaultdict(list)
+    for declaration in (d for unit in files for d in unit.file.declarations):
+        match declaration:
+            case s.RelationDeclaration(name=name, domain=domain, range=range_):
+                kinds[name.text].append(("relation", domain.text, range_.text))
+            case s.PropertyDeclaration(name=name, domain=domain):
+                kinds[name.text].append(("property", domain.text))
+            case s.ClassDeclaration(name=name) | s.FunctionDeclaration(name=name) | s.SkillDeclaration(name=name):
+                kinds[name.text].append(type(declaration))
+            case s.ImplementationDeclaration() | s.TaskDeclaration():
+                pass
+            case _:
+                assert_never(declaration)
+    return frozenset(name for name, each in kinds.items() if len(each) > len({*each}) or len({*map(_kind, each)}) > 1)
+
+
+def _kind(key: object) -> object:
+    return key[0] if isinstance(key, tuple) else key
 
 
 def _first_declarations(

@@ -94,7 +94,8 @@ class _Reader:
         """Report a missing file; return the one that is meant, if its name is close to that of one file only."""
         folder = posixpath.dirname(file.path)
         relative = [posixpath.relpath(p, folder or ".") for p in self.own] if library == self.name else []
-        candidates = [name for name in (*relative, *self.importable) if name != posixpath.basename(file.path)]
+        own = [name for name in relative if name != posixpath.basename(file.path)]
+        candidates = [*own, *(name for name in self.importable if name != posixpath.basename(file.path))]
         wrong = line.path.value
         near = suggest_fix(s.Name(wrong, line.path.span), candidates)
         self.problems.append(
@@ -102,7 +103,9 @@ class _Reader:
                 "unknown-import",
                 line.path.span,
                 f'there is no file "{wrong}" in {self._searched()}',
-                help=did_you_mean(wrong, candidates),
+                help=did_you_mean(wrong, candidates)
+                or did_you_mean(wrong, own)
+                or "correct its name, or write the file",
                 fix=near and replace(near, text=f'"{near.text}"'),
             )
         )

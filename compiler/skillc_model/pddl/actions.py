@@ -16,7 +16,15 @@ from skillc_model.pddl.guards import Guards
 from skillc_model.pddl.names import make_unique, to_kebab
 from skillc_model.pddl.parameters import DefaultValues, bind_parameters, default_values
 from skillc_model.pddl.symbols import Symbols
-from skillc_model.pddl.translate import Impossible, NamedIndividual, Scope, Translator, Untranslatable, negate
+from skillc_model.pddl.translate import (
+    Impossible,
+    NamedIndividual,
+    NeedsNumbers,
+    Scope,
+    Translator,
+    Untranslatable,
+    negate,
+)
 from skillc_model.rewriting import substitute
 from skillc_model.skills import Implementation, Parameter, Requirement, Skill
 from skillc_model.traversal import free_variables_in_order
@@ -170,7 +178,8 @@ class _Builder:
                 given.applied(requirement.condition), scope
             )
         except Untranslatable as reason:
-            raise Untranslatable(f"its {kind} `{requirement.text}` {reason}") from reason
+            error = NeedsNumbers if isinstance(reason, NeedsNumbers) else Untranslatable
+            raise error(f"its {kind} `{requirement.text}` {reason}", requirement.text) from reason
 
     def _translator(self, label: str = "", text: str = "") -> Translator:
         return Translator(self.symbols, self.guards.labelled(label, text), self.objects)

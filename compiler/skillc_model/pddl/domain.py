@@ -149,12 +149,17 @@ class Action:
 
 @dataclass(frozen=True)
 class Excluded:
-    """A skill that no plan can contain, with the reason; `impossible` if it can never run successfully either."""
+    """A skill that no plan can contain, with the reason; `impossible` if it can never run successfully either.
+
+    `numeric` if planners with numbers could plan it; `requirement` is the text of the condition that is the reason.
+    """
 
     skill: str
     reason: str
     source: Position
     impossible: bool = False
+    numeric: bool = False
+    requirement: str = ""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import assert_never
 from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
 from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, Typed, conjunction, conjuncts
 from skillc_model.pddl.names import make_variable
-from skillc_model.pddl.translate import Scope, Translator, Untranslatable
+from skillc_model.pddl.translate import NeedsNumbers, Scope, Translator
 from skillc_model.read_write import UniqueSide, unique_sides
 from skillc_rdf.vocabulary.closure import Directed
 
@@ -47,9 +47,9 @@ class Effects:
         symbols = self.translator.symbols
         values, shown = symbols.values(effect.property), symbols.short(effect.property)
         if not values:
-            raise Untranslatable(f"sets `{shown}`, which has no finite set of values")
+            raise NeedsNumbers(f"sets `{shown}`, which has no finite set of values")
         if not isinstance(effect.value, Literal) or effect.value.value not in values:
-            raise Untranslatable(f"sets `{shown}` to a value that is known only at run time")
+            raise NeedsNumbers(f"sets `{shown}` to a value that is known only at run time")
         subject = self.translator.term(effect.subject, self.scope).name
         for value in values:
             yield Change(Atom(symbols.value(effect.property, value), (subject,)), value == effect.value.value)

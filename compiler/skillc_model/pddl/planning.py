@@ -17,7 +17,7 @@ from skillc_model.pddl.formulas import Typed
 from skillc_model.pddl.hierarchy import Hierarchy
 from skillc_model.pddl.names import assign_names, to_kebab
 from skillc_model.pddl.symbols import Symbols
-from skillc_model.pddl.translate import Impossible, NamedIndividual, Untranslatable
+from skillc_model.pddl.translate import Impossible, NamedIndividual, NeedsNumbers, Untranslatable
 from skillc_model.pddl.typed import action_terms, typed_atoms
 from skillc_model.read_write import terms_written
 from skillc_model.skills import Skill, SkillLibrary
@@ -104,8 +104,13 @@ def _try(
             planned.append(made)
             taken |= made.names
         except Untranslatable as reason:
-            excluded.append(Excluded(skill.name, str(reason), skill.source, isinstance(reason, Impossible)))
+            excluded.append(_excluded(skill, reason))
     return _Attempt(symbols, objects, tuple(planned), tuple(excluded))
+
+
+def _excluded(skill: Skill, reason: Untranslatable) -> Excluded:
+    impossible, numeric = isinstance(reason, Impossible), isinstance(reason, NeedsNumbers)
+    return Excluded(skill.name, str(reason), skill.source, impossible, numeric, reason.requirement)
 
 
 def _domain(name: str, last: _Attempt, excluded: Iterable[Excluded]) -> PlanningDomain:

@@ -49,7 +49,14 @@ from skillc_model.read_write import terms_read
 
 
 class Untranslatable(Exception):
-    """Something a classical planner cannot handle; the message completes a sentence about the skill."""
+    """Something a classical planner cannot handle; the message completes a sentence about the skill.
+
+    `requirement` is the text of the condition that contains it, if one does.
+    """
+
+    def __init__(self, message: str, requirement: str = "") -> None:
+        super().__init__(message)
+        self.requirement = requirement
 
 
 @dataclass(frozen=True)
@@ -73,6 +80,10 @@ class NamedIndividual:
 
 class Impossible(Untranslatable):
     """Something that can never succeed: excluding the skill does not change any plan."""
+
+
+class NeedsNumbers(Untranslatable):
+    """Something that planners with numbers can translate."""
 
 
 class StaticEvaluator(Protocol):
@@ -176,7 +187,7 @@ class Translator:
 
     def _refuse_transitive(self, relation: str) -> None:
         if self.symbols.follows_over_steps(relation):
-            raise Untranslatable(
+            raise NeedsNumbers(
                 f"reads `{self.symbols.short(relation)}`, which follows over any number of steps, and skills change it"
             )
 
@@ -241,7 +252,7 @@ class Translator:
                 pass
             case _:
                 names = ", ".join(f"`{self.symbols.short(each)}`" for each in sorted(terms_read(condition)))
-                raise Untranslatable(f"compares {names}, which skills change, with something else than one value")
+                raise NeedsNumbers(f"compares {names}, which skills change, with something else than one value")
         values = self.symbols.values(read.property)
         equal = operator == "=="
         # bool is a subclass of int: compare the types too, so that 1 does not equal True
@@ -250,9 +261,7 @@ class Translator:
 
     def _one_of(self, iri: str, values: tuple[bool | str, ...] | list[bool | str], subject: Typed) -> Formula:
         if not self.symbols.values(iri):
-            raise Untranslatable(
-                f"reads `{self.symbols.short(iri)}`, which skills change and which has no finite values"
-            )
+            raise NeedsNumbers(f"reads `{self.symbols.short(iri)}`, which skills change and which has no finite values")
         if not self.symbols.may_have(iri, subject):
             return FALSE
         return disjunction(Atom(self.symbols.value(iri, value), (subject.name,)) for value in values)

@@ -42,7 +42,9 @@ def parse(source: Source) -> Outcome[s.File]:
     unread = {problem.span.line for problem in lexed.diagnostics}
     misfits = [problem for problem in recovery.problems if problem.span.line not in unread]
     parsing = _one_kind_each(closed.diagnostics, misfits, region_lines(lexed.value))
-    found = (*lexed.diagnostics, *repaired.diagnostics, *parsing, *too_deep, *builder.problems)
+    before = (*lexed.diagnostics, *repaired.diagnostics, *parsing, *too_deep)
+    wrong_lines = {problem.span.line for problem in before}
+    found = (*before, *(problem for problem in builder.problems if problem.span.line not in wrong_lines))
     problems = sorted(found, key=lambda problem: problem.span)
     places = (s.ErrorNode(problem.span) for problem in problems)
     return Outcome(replace(file, errors=(*places, *recovery.errors)), _first(problems))

@@ -9,7 +9,7 @@ from lark.exceptions import UnexpectedToken
 from lark.parsers.lalr_parser_state import ParserState
 
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Misfit
+from skillc_dsl.diagnostics import Diagnostic, Label, Misfit
 from skillc_dsl.parsing.expectations import (
     advise_on_foreign_word,
     describe_terminals,
@@ -73,6 +73,8 @@ class Recovery:
         self._faults += 1
         if self._faults > MOST_FAULTS:
             return self._give_up(index)
+        if self._leave_unclosed_call(index):
+            return index - 1
         found = repair(Fault(self._state.state_stack, self.tokens, index, self.path))
         if found is not None:
             self._report(found.problem)
@@ -87,6 +89,23 @@ class Recovery:
         self._leave_error(index, self.tokens[index:position])
         self._since = _CALM if begins_line(self.tokens, position) else 0
         return position
+
+    def _leave_unclosed_call(self, index: int) -> bool:
+        """Report a call whose `)` is missing if the next one begins on a line of its own; whether it is so."""
+        values = self._state.value_stack
+        start = next((at for at in range(len(values), 0, -1) if _is_list(values[at - 1])), 0)
+        opened = [value for value in values[start:] if isinstance(value, Token) and value.type == "LPAR"]
+        begins = index > 1 and self.tokens[index - 1].type == "NAME" and begins_line(self.tokens, index - 1)
+        if not opened or not begins or self.tokens[index].type != "LPAR" or not self._cut(index - 1):
+            return False
+        last = self.tokens[index - 2]
+        label = Label(token_span(opened[-1], self.path), "opened here")
+        message = f"the call goes on after {describe_token(last)}, or its `)` is missing"
+        help_ = "write the next argument, or `)`"
+        self._report(Diagnostic("syntax", token_span(last, self.path), message, help_, labels=(label,)))
+        self._leave_error(index - 1, [])
+        self._since = _CALM
+        return True
 
     def _read_reserved_as_relation(self, index: int) -> None:
         """Report a relation that is called like a word of the language, and let it be parsed as a relation."""

@@ -19,6 +19,8 @@ def report_second_step(
     following = [token.type for token in tokens[index : index + 2]]
     if level is None or not begins_line(tokens, index) or not can_continue(states[: level + 2], *following):
         return None
+    if any(isinstance(value, Token) and value.type == "LBRACE" for value in values[level:]):
+        return None
     return Diagnostic(
         "syntax",
         token_span(tokens[index], path),

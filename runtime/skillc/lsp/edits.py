@@ -87,7 +87,9 @@ def offer_code_actions(session: Session, params: types.CodeActionParams) -> list
         return _in_turtle(session, params)
     view = session.libraries.view(params.text_document.uri)
     here = [problem for problem in view.analysis.problems if problem.span.path == view.path]
-    return _actions(session, params, view.root, session.lines(view), here)
+    touched = _touched(params, session.lines(view), here)
+    tried = view.analysis.with_useful_fixes([each for each in here if each in touched or (each.fix and each.fix.safe)])
+    return _actions(session, params, view.root, session.lines(view), tried)
 
 
 def _in_turtle(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
@@ -109,13 +111,17 @@ def _actions(
 ) -> list[types.CodeAction]:
     actions = []
     if _wanted(params, types.CodeActionKind.QuickFix.value):
-        touched = [problem for problem in here if _meet(lines.range(problem.span), params.range)]
+        touched = _touched(params, lines, here)
         actions += [_quick_fix(session, root, lines, problem) for problem in touched if problem.fix]
     safe = drop_overlapping(problem.fix for problem in here if problem.fix and problem.fix.safe)
     if safe and _wanted(params, FIX_ALL):
         edit = _workspace_edit(session, root, lines, safe)
         actions.append(types.CodeAction("Apply all safe fixes", FIX_ALL, edit=edit))
     return actions
+
+
+def _touched(params: types.CodeActionParams, lines: PositionConverter, here: Sequence[Diagnostic]) -> list[Diagnostic]:
+    return [problem for problem in here if _meet(lines.range(problem.span), params.range)]
 
 
 def format_document(session: Session, params: types.DocumentFormattingParams) -> list[types.TextEdit]:

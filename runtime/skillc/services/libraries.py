@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, lru_cache
 from typing import TypeAlias
 
@@ -15,12 +15,13 @@ from skillc.services.library_files import (
 )
 from skillc.services.task_list import list_tasks
 from skillc_compiler import pipeline
+from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.problems import AnalysisMemo, find_problems
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
-from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
@@ -58,9 +59,14 @@ def compile_library(
             program = resolve_program(files.value, known.value, library.name, individuals, memo.resolve)
         checked = Outcome(program.value, find_problems(files, program, memo))
         outcome = pipeline.lower_and_report(checked, library.sources)
-    return Outcome(
-        outcome.value, tuple(library.with_display_paths(d) for d in (*known.diagnostics, *outcome.diagnostics))
-    )
+
+        def check(texts: Sequence[Source]) -> tuple[Diagnostic, ...]:
+            others = read_sources(texts, library.importable, library.name, parsed_by or _parse, library.namespaces)
+            found = resolve_program(others.value, known.value, library.name, individuals, memo.resolve)
+            return find_problems(others, found, memo)
+
+        useful = keep_useful_fixes(outcome.diagnostics, library.sources, check)
+    return Outcome(outcome.value, tuple(library.with_display_paths(each) for each in (*known.diagnostics, *useful)))
 
 
 def compile_valid(files: LibraryFiles) -> SkillLibrary:
