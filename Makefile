@@ -21,8 +21,13 @@ KILLS := 200
 REQUESTS := 500
 # How many random sequences of edits are analysed in `make soak`, after each edit from nothing and with what was known.
 SEQUENCES := 5000
+# How often a server is attacked in each way in `make soak`, while an operation goes on and is stopped.
+ROUNDS := 20
 
-.PHONY: help demo test check reasoners sim browser wheel fuzz soak peers bench editors studio docs pictures accept lock clean
+# How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
+EDITS := 10000
+
+.PHONY: help demo test check reasoners sim browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -57,10 +62,14 @@ wheel: .venv/.dev ## build the wheel and use it in a clean environment
 fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; failing inputs are saved in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
 
-soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind; SEQUENCES=5000 of edits
+mistakes: .venv/.dev ## make EDITS=10000 random mistakes in libraries from SEED=0, one, two and three at once; each has to be one error
+	PYTHONPATH=tests:tests/compiler $(BIN)/python -m random_mistakes --edits $(EDITS) --seed $(SEED)
+
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m killed_servers --kills $(KILLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)
+	ROUNDS=$(ROUNDS) $(BIN)/pytest tests/server/test_attacks.py
 	SEQUENCES=$(SEQUENCES) $(BIN)/pytest tests/compiler/test_incremental.py -n 2
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)

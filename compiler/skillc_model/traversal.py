@@ -13,17 +13,24 @@ from skillc_model.tree import Call
 
 def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
     """Yield a condition or expression and everything inside it."""
-    yield item
-    for part in children(item):
-        yield from walk(part)
+    todo = [item]
+    while todo:
+        here = todo.pop()
+        yield here
+        todo += reversed(children(here))
 
 
-def children(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
-    """Yield the structs directly inside a struct (conditions, expressions, nodes, ..), in order."""
+def children(item: msgspec.Struct) -> list[msgspec.Struct]:
+    """Return the structs directly inside a struct (conditions, expressions, nodes, ..), in order."""
+    found: list[msgspec.Struct] = []
     for name in item.__struct_fields__:
         value = getattr(item, name)
-        parts = value if isinstance(value, tuple) else value.values() if isinstance(value, dict) else (value,)
-        yield from (part for part in parts if isinstance(part, msgspec.Struct))
+        if isinstance(value, msgspec.Struct):
+            found.append(value)
+        elif isinstance(value, tuple | dict):
+            parts = value if isinstance(value, tuple) else value.values()
+            found += [part for part in parts if isinstance(part, msgspec.Struct)]
+    return found
 
 
 def conjuncts(condition: Condition) -> Iterator[Condition]:

@@ -6,6 +6,7 @@ import "./design/tokens.css";
 import "./design/base.css";
 import "./design/layout.css";
 import "./design/views.css";
+import "./design/pages.css";
 import { LOGGED_OUT } from "./api/client";
 import { followServer } from "./state/live";
 import { measureSamples } from "./state/signals";

@@ -37,6 +37,12 @@ skill Look {
 impl looking of Look { run python "lab_primitives.look:Look" }
 """
 
+LOOK = """
+class Look:
+    def __init__(self, cell, board): ...
+    def tick(self): return SUCCESS
+"""
+
 
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -56,7 +62,7 @@ def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (folder / "mine.skill").write_text(MINE, encoding="utf-8")
     (folder / "scene.ttl").write_text(catalogue.scene_path("iiwa_table").read_text("utf-8"), encoding="utf-8")
     (python / "__init__.py").touch()
-    (python / "look.py").write_text("class Look:\n    def __init__(self, cell, board): ...\n", encoding="utf-8")
+    (python / "look.py").write_text(LOOK, encoding="utf-8")
     monkeypatch.syspath_prepend(str(python.parent))
     return folder
 
@@ -85,6 +91,7 @@ CHANGES: dict[str, Callable[[Path], None]] = {
     "a file that goes": lambda lab: (lab / "mine.skill").unlink(),
     "the scene": lambda lab: replaced(lab / "scene.ttl", "lab:Table-1", "lab:Table-2"),
     "the scene that goes": lambda lab: (lab / "scene.ttl").unlink(),
+    "what Python returns": lambda lab: replaced(lab.parent / "python/lab_primitives/look.py", "SUCCESS", "RUNNING"),
     "the Python": lambda lab: replaced(lab.parent / "python/lab_primitives/look.py", "board", "table"),
 }
 

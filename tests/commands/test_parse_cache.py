@@ -55,7 +55,7 @@ def test_a_damaged_or_foreign_entry_is_not_read(folder: Path, damage: bytes) -> 
 def test_another_version_does_not_read_the_entry(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = Source("m.skill", TEXTS[0])
     again(source)
-    monkeypatch.setattr(parse_cache, "_installation", lambda: b"another")
+    monkeypatch.setattr(parse_cache, "installation_digest", lambda: b"another")
     assert again(source) == parse(source)
     assert len(list(folder.iterdir())) == 2
 

@@ -67,6 +67,29 @@ def _insert_line(now: Library, chance: random.Random) -> Library:
     return _write(now, path, "\n".join(lines))
 
 
+def _change_header(now: Library, chance: random.Random) -> Library:
+    """Remove, repeat or move a line `use`, `import` or `prefix`, take a vocabulary from one, or add one."""
+    path = chance.choice(sorted(now.sources))
+    lines = now.sources[path].text.split("\n")
+    header = [number for number, line in enumerate(lines) if line.startswith(("use ", "import ", "prefix "))]
+    others = [f'import "{other}"' for other in (*now.sources, *now.importable) if other != path]
+    if not header or chance.random() < 0.3:
+        vocabulary = chance.choice(sorted(now.vocabulary.prefixes))
+        lines.insert(header[-1] + 1 if header else 0, chance.choice([*others, f"use {vocabulary}"]))
+        return _write(now, path, "\n".join(lines))
+    here = chance.choice(header)
+    match chance.randrange(4):
+        case 0:
+            del lines[here]
+        case 1:
+            lines.insert(here, lines[here])
+        case 2:
+            lines.append(lines.pop(here))
+        case _:
+            lines[here] = lines[here].rpartition(",")[0] or lines[here].partition(" ")[0]
+    return _write(now, path, "\n".join(lines))
+
+
 def _add(now: Library, chance: random.Random) -> Library:
     """Add a file, or a copy of one, whose declarations then exist twice."""
     files = [source for each in beginnings() for source in each.values()]
@@ -131,6 +154,7 @@ _STEPS: Mapping[Callable[[Library, random.Random], Library], int] = {
     _edit: 10,
     _correct: 5,
     _insert_line: 2,
+    _change_header: 3,
     _add: 2,
     _remove: 1,
     _rename: 1,

@@ -17,6 +17,11 @@ from skillc_dsl.units import UNITS
 NAMES = ("NAME", "QNAME")
 _QUANTITY = re.compile(r"(-?[\d.]+)( ?)([A-Za-z/]+)")
 _DECLARED = re.compile(r"^(?:class|relation|property|function|skill|impl|task)\s+([\w:]+)", re.MULTILINE)
+_BLOCK = re.compile(
+    r"^(?:skill|task|impl \w+ of) (?P<skill>\w+).*?(?=^(?:##|skill |impl |task |class |relation |function )|\Z)",
+    re.MULTILINE | re.DOTALL,
+)
+"""A skill, a task or an implementation, with the name of the skill that it is about."""
 _PARAMETER = re.compile(r"^ +(?:in|opt|infer(?: any)?|out|let) +(\w+)", re.MULTILINE)
 
 
@@ -37,12 +42,18 @@ def single_edit(text: str, seed: int) -> Edit:
 
 
 def independent_edits(text: str, seed: int, count: int) -> tuple[Edit, ...]:
-    """Return so many mistakes in declarations of their own, or fewer if the text has fewer declarations."""
-    starts = [match.start() for match in re.finditer(r"^(?=(?:skill|impl|task) )", text, re.MULTILINE)]
-    blocks = list(zip(starts, [*starts[1:], len(text)], strict=False))
+    """Return so many mistakes in declarations that have nothing to do with each other, or fewer if there are fewer.
+
+    What is said of a skill depends on its description, and on those of the skills that it calls. So none of the
+    declarations describes, implements or names the skill of another.
+    """
     chance = random.Random(seed)
-    chosen = chance.sample(blocks, min(count, len(blocks)))
-    return tuple(_within(text, start, end, chance) for start, end in sorted(chosen))
+    blocks = list(_BLOCK.finditer(text))
+    chosen: list[re.Match[str]] = []
+    for block in chance.sample(blocks, len(blocks)):
+        if len(chosen) < count and not any(_are_related(block, other) for other in chosen):
+            chosen.append(block)
+    return tuple(_within(text, *block.span(), chance) for block in sorted(chosen, key=lambda each: each.start()))
 
 
 def apply_edits(text: str, edits: Sequence[Edit]) -> str:
@@ -74,6 +85,11 @@ def misspell(word: str, chance: random.Random) -> str:
         before + chance.choice("abcdefghij") + after,
     )
     return chance.choice(forms)
+
+
+def _are_related(one: re.Match[str], other: re.Match[str]) -> bool:
+    named = (re.search(rf"\b{re.escape(this['skill'])}\b", that.group()) for this, that in ((one, other), (other, one)))
+    return any(named)
 
 
 def _within(text: str, start: int, end: int, chance: random.Random) -> Edit:

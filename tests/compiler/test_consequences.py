@@ -115,3 +115,53 @@ def test_what_a_syntax_error_removed_is_not_unknown() -> None:
         'impl one of Go {\n run python "skillc.primitives:StandIn"\n}\n'
     )
     assert [(d.name, d.span.line) for d in problems(text)] == [("syntax", 2)]
+
+
+def test_a_removed_parameter_of_a_function_is_one_error_for_all_its_calls() -> None:
+    text = (
+        f'{HEADER}function middle(arm: ArmDevice) -> Pose = python "skillc_runtime.world.places:across"\n'
+        + skill("Go")
+        + "impl one of Go {\n let a = middle(arm, 1 m)\n let b = middle(arm, 2 m)\n"
+        + " do seq { Look(at: a) Look(at: b) }\n}\n"
+        + "skill Look {\n in at: Pose\n noplan\n}\n"
+        + RUN.format("Look")
+    )
+    errors = [found for found in problems(text) if found.severity == "error"]
+    assert [(found.name, len(found.labels)) for found in errors] == [("wrong-argument-count", 2)]
+
+
+def test_a_skill_that_lost_its_name_is_pointed_to() -> None:
+    (found,) = problems(f"{HEADER}{skill('Grip')}{RUN.format('Hold')}")
+    assert (found.name, found.span.line, found.fix) == ("unknown-skill", 6, None)
+    assert [label.span.line for label in found.labels] == [2]
+
+
+def test_a_second_step_after_do_is_one_error_that_names_the_block() -> None:
+    text = HEADER + skill("Go") + "impl one of Go {\n do\n  Go(arm)\n  Go(arm)\n}\n"
+    (found,) = problems(text)
+    assert (found.name, found.span.line) == ("syntax", 9)
+    assert [label.span.line for label in found.labels] == [7]
+
+
+def test_a_forgotten_vocabulary_is_one_error_also_where_its_classes_are_types() -> None:
+    text = (
+        "use rparts\n\nskill Go {\n in arm: ArmDevice\n in tool: Tool\n in surface: Surface\n noplan\n}\n"
+        + RUN.format("Go")
+    )
+    (found,) = problems(text)
+    assert found.fix is not None
+    assert problems(apply_fixes(text, [found.fix])) == []
+
+
+def test_an_output_that_a_syntax_error_removed_is_not_missed() -> None:
+    text = HEADER + "skill Weigh {\n ojt mass: Mass\n noplan\n}\n" + RUN.format("Weigh") + skill("Go")
+    text += "impl one of Go {\n do Weigh() -> mass\n}\n"
+    assert [(found.name, found.span.line) for found in problems(text)] == [("syntax", 3)]
+
+
+def test_an_output_without_a_value_is_one_error_where_it_is_read() -> None:
+    text = HEADER + "skill Weigh {\n out mass: Mass\n noplan\n}\n" + RUN.format("Weigh") + skill("Note")
+    text += "skill Go {\n in arm: ArmDevice\n out mass: Mass\n noplan\n}\n"
+    text += "impl one of Go {\n do seq {\n  Weigh()\n  if mass > 1 g {\n   wait 1 s\n  }\n }\n}\n"
+    errors = [found.name for found in problems(text) if found.severity == "error"]
+    assert errors == ["out-unassigned"]

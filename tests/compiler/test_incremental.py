@@ -14,7 +14,7 @@ import pytest
 from edit_sequences import STEPS, edited_libraries
 
 from skillc_compiler.ide.analysis import analyse
-from skillc_compiler.pipeline import AnalysisMemo
+from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing.parser import parse

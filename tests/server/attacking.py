@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 import time
 from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from copy import copy
 from types import MappingProxyType
 
@@ -130,6 +131,21 @@ def query_what_is_forbidden(server: RunningServer) -> list[int]:
     return [server.client.post(path, json={"sparql": each}).status_code for each in queries]
 
 
+def query_without_end(server: RunningServer) -> list[int]:
+    return [server.client.post("/cells/yard/world/query", json={"sparql": ENDLESS}).status_code]
+
+
+def send_slowly(server: RunningServer) -> list[int]:
+    head = f"POST /api/v1/cells/yard/operations HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n"
+    head += f"Authorization: Bearer {server.token}\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n{{"
+    with ExitStack() as stack:
+        for _ in range(50):
+            connection = stack.enter_context(socket.create_connection(("127.0.0.1", server.port), 20.0))
+            connection.sendall(head.encode())
+        time.sleep(0.2)
+    return []
+
+
 def submit_costly_goals(server: RunningServer) -> list[int]:
     return [submit(server, goal=COSTLY) for _ in range(4)]
 
@@ -146,6 +162,8 @@ ATTACKS: Mapping[Attack, frozenset[int]] = MappingProxyType(
         connect_again_and_again: frozenset(),
         forge_entries: frozenset({404}),
         query_what_is_forbidden: frozenset({422}),
+        query_without_end: frozenset({503}),
+        send_slowly: frozenset(),
         submit_costly_goals: frozenset({409}),
     }
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import os
 import socket
 import threading
 import time
@@ -27,6 +28,9 @@ from skillc.server import requests
 from skillc.server.problems import ApiRefusal
 from skillc.server.watchers import MAX_UNKNOWN
 
+ROUNDS = int(os.environ.get("ROUNDS", "1"))
+"""How often each attack is made; `make soak` makes it often."""
+
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
@@ -36,8 +40,17 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
 
 @pytest.mark.parametrize("attack", ATTACKS, ids=lambda attack: attack.__name__)
 def test_an_attack_is_refused_and_a_stop_meanwhile_takes_effect(server: RunningServer, attack: Attack) -> None:
-    server.put_back()
-    server.client.put("/cells/yard/pace", json={"factor": 0.02})
+    for _ in range(ROUNDS):
+        server.put_back()
+        server.client.put("/cells/yard/pace", json={"factor": 0.02})
+        answers, statuses = stop_during(attack, server), ATTACKS[attack]
+        assert answers <= statuses | {429} and bool(answers & statuses) == bool(statuses), answers
+        server.client.put("/cells/yard/pace", json={"factor": None})
+        assert server.process.poll() is None and server.client.get("/cells/yard").json()["state"] == "operational"
+
+
+def stop_during(attack: Attack, server: RunningServer) -> set[int]:
+    """Stop an operation while the server is attacked; return the statuses of the answers to the attacks."""
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
     attacker, stopped = make_attacker(server), threading.Event()
@@ -57,10 +70,7 @@ def test_an_attack_is_refused_and_a_stop_meanwhile_takes_effect(server: RunningS
             assert server.wait_for(operation, "stopped")["reason"] == "admin: stopped"
         finally:
             stopped.set()
-        answers, statuses = set(attacking.result()), ATTACKS[attack]
-    assert answers <= statuses | {429} and bool(answers & statuses) == bool(statuses), answers
-    server.client.put("/cells/yard/pace", json={"factor": None})
-    assert server.process.poll() is None and server.client.get("/cells/yard").json()["state"] == "operational"
+        return set(attacking.result())
 
 
 def test_no_entry_of_the_audit_log_has_more_than_a_line(server: RunningServer) -> None:

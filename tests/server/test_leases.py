@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from datetime import UTC, datetime, timedelta
 
 import httpx
 import pytest
@@ -81,3 +82,28 @@ def test_the_events_of_an_operation_have_who_gave_each_command(server: RunningSe
     events = [each["event"] for each in server.client.get(f"/operations/{operation}/events").json()]
     requested = [each["command"] for each in events if each["type"] == "requested"]
     assert requested[0] == {"type": "approve", "who": "admin"}, "who has the token, whatever the request says"
+
+
+def test_an_agent_cannot_approve_its_own_operation(server: RunningServer) -> None:
+    server.put_back()
+    made = server.client.post("/tokens", json={"name": "agent-1", "role": "operate", "agent": True}).json()
+    with server.client_of(made["token"]) as agent:
+        submitted = agent.post("/cells/yard/operations", json={"task": "carry_all", "approve": False})
+        operation = submitted.json()["id"]
+        assert submitted.status_code == 201 and submitted.json()["request"]["approve"] is True
+        server.wait_for(operation, "planned")
+        command = {"type": "approve"}
+        refused = agent.post(f"/operations/{operation}/commands", json=command)
+        assert refused.status_code == 403 and "cannot approve its own operation" in refused.json()["detail"]
+        others = server.submit(goal="lab:Goal contain lab:crate-0", approve=True)["id"]
+        assert server.client.post(f"/operations/{operation}/commands", json=command).status_code == 200
+        server.wait_for(operation, "succeeded")
+        server.wait_for(others, "planned")
+        assert agent.post(f"/operations/{others}/commands", json=command).status_code == 200
+        server.client.post(f"/operations/{others}/stop")
+        at = (datetime.now(UTC) + timedelta(days=1)).isoformat()
+        ordered = agent.post("/cells/yard/orders", json={"request": {"task": "carry_all"}, "at": at}).json()
+        assert ordered["order"]["request"]["approve"] is True
+    listed = server.client.get("/tokens").json()
+    assert [each["name"] for each in listed if each["agent"]] == ["agent-1"]
+    server.client.delete("/tokens/agent-1")

@@ -149,3 +149,22 @@ def test_breakpoints_are_set_while_an_operation_runs(server: RunningServer) -> N
     assert paused["reason"] == f"breakpoint at yard.skill:{line}"
     server.client.post(f"/operations/{operation}/stop", json={})
     server.wait_for(operation, "stopped")
+
+
+def test_a_history_is_searched_for_words_in_what_was_wanted_and_how_it_ended(server: RunningServer) -> None:
+    server.put_back()
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    carried = server.submit(**CARRY)["id"]
+    server.wait_for(carried, "succeeded")
+
+    def find(search: str) -> list[str]:
+        found = server.client.get("/cells/yard/operations", params={"search": search, "limit": 3}).json()
+        return [each["id"] for each in found]
+
+    everything = server.client.get("/cells/yard/operations", params={"limit": 1000}).json()
+    assert find(carried) == [carried]
+    assert find("succeeded LAB:crate-0")[0] == carried
+    put_back = [each["id"] for each in everything if "lab:Start contain c" in (each["request"].get("goal") or "")]
+    assert put_back and find("lab:Start contain") == put_back[:3]
+    assert find("no_such_word") == [] and find("carry no_such_word") == []
+    assert find("") == [each["id"] for each in everything[:3]]

@@ -8,9 +8,12 @@ from contextlib import closing
 from pathlib import Path
 
 import httpx
+import pytest
 
 from server.running import RunningServer, serving
 from server.test_recordings import CARRY
+from skillc.server.state import open_state
+from skillc.services.errors import ServiceError
 
 
 def permissions(path: Path) -> int:
@@ -18,17 +21,29 @@ def permissions(path: Path) -> int:
 
 
 def test_only_the_owner_reads_the_state_of_a_server(tmp_path: Path) -> None:
+    state = tmp_path / "served"
+    state.mkdir(mode=0o755)
     with serving(tmp_path) as server:
-        server.submit(**CARRY, approve=True)
-        state = tmp_path / "served"
-        databases = [each for each in state.rglob("*.sqlite*") if each.is_file()]
-        assert permissions(state) == 0o700 and permissions(state / "admin.token") == 0o600
-        assert len(databases) > 1 and {permissions(each) for each in databases} == {0o600}
+        server.wait_for(server.submit(**CARRY)["id"], "succeeded")
+        found = [*state.rglob("*")]
         journal = state / "cells/yard/journal.sqlite"
-        assert journal in databases
+        assert journal in found and any(each.suffix == ".mcap" for each in found)
+        assert [each for each in found if permissions(each) & 0o077] == []
     journal.chmod(0o644)
     with serving(tmp_path):
         assert permissions(journal) == 0o600
+
+
+def test_a_file_that_holds_no_token_is_not_overwritten(tmp_path: Path) -> None:
+    notes = tmp_path / "notes.txt"
+    for text in ("buy milk", "\N{EURO SIGN}"):
+        notes.write_text(text, encoding="utf-8")
+        with pytest.raises(ServiceError, match="something else than a token"), open_state(tmp_path / "state", notes):
+            pass
+        assert notes.read_text(encoding="utf-8") == text
+    notes.write_text("skillc_of_another_server\n", encoding="ascii")
+    with open_state(tmp_path / "state", notes) as state:
+        assert state.tokens.find(notes.read_text(encoding="ascii").strip()) is not None
 
 
 def test_tokens_are_kept_as_hashes_and_not_taken_from_addresses(server: RunningServer) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 import skillc
@@ -57,6 +59,31 @@ def test_a_disturbance_that_is_not_possible_changes_nothing(
     answer = server.client.post(f"{PATH}/disturbances", json=body)
     assert answer.status_code == status and said in answer.json()["detail"]
     assert server.client.get(PATH).json()["state"] == "operational"
+
+
+@pytest.mark.parametrize(
+    ("content", "kind"),
+    [
+        (b"", None),
+        (b"", "text/plain"),
+        (b'{"why": "it is hot"}', "application/json"),
+        (json.dumps({"reason": "x" * 100_000}).encode(), "application/json"),
+    ],
+)
+@pytest.mark.parametrize("path", ["/cells/yard/stop", "/operations/{operation}/stop"])
+def test_no_form_of_a_stop_is_a_reason_not_to_stop(
+    server: RunningServer, path: str, content: bytes, kind: str | None
+) -> None:
+    operation = server.submit(task="carry_all", approve=True)["id"]
+    server.wait_for(operation, "planned")
+    headers = {} if kind is None else {"Content-Type": kind}
+    assert server.client.post(path.format(operation=operation), content=content, headers=headers).status_code == 200
+    assert len(server.wait_for(operation, "stopped")["reason"]) < 600
+
+
+def test_a_stop_that_cannot_be_read_says_that_nothing_was_done(server: RunningServer) -> None:
+    refused = server.client.post("/cells/yard/stop", content=b"reason=hot", headers={"Content-Type": "text/plain"})
+    assert refused.status_code == 415 and "nothing was done" in refused.json()["detail"]
 
 
 def test_a_cell_is_disturbed_from_python(server: RunningServer) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from typing import Any
 
 import pytest
 
-from server.attacking import ENDLESS
-from server.running import RunningServer, wait_until
+from server.running import RunningServer
 
 
 def ask(server: RunningServer, sparql: str) -> Any:
@@ -100,20 +98,3 @@ def test_a_query_reads_this_world_only(server: RunningServer, query: str, said: 
         assert answer.json()["rows"] == [], "a graph that is not here has no triples"
     else:
         assert answer.status_code == 422 and said in answer.json()["detail"], answer.text
-
-
-def test_a_query_without_end_is_ended_and_a_stop_does_not_wait_for_it(server: RunningServer) -> None:
-    server.put_back()
-    operation = server.submit(task="carry_all")["id"]
-    server.wait_for(operation, "running")
-    answers: list[int] = []
-    threads = [threading.Thread(target=lambda: answers.append(ask(server, ENDLESS).status_code)) for _ in range(2)]
-    for each in threads:
-        each.start()
-    time.sleep(0.5)
-    assert server.client.post(f"/operations/{operation}/stop", json={}).status_code == 200
-    assert server.wait_for(operation, "stopped")
-    for each in threads:
-        each.join()
-    assert answers == [503, 503]
-    assert wait_until(lambda: ask(server, "ASK { ?s ?p ?o }").status_code, lambda status: status == 200)

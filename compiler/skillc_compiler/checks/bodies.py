@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Task
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
 
 NAMES = ("missing-body",)
 NEEDS = Need.TYPES
@@ -23,9 +24,14 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 implementation.name_span,
                 f"the implementation `{implementation.name}` has no body",
                 help='add `do seq { .. }` or `run python "module:Class"`',
+                labels=(Label(_last_line(implementation.span), "add it before this `}`"),),
             )
     for task in program.tasks:
         yield from _task(task)
+
+
+def _last_line(span: Span) -> Span:
+    return Span(span.path, span.end_line, span.end_column - 1, span.end_line, span.end_column)
 
 
 def _task(task: Task) -> Iterator[Diagnostic]:

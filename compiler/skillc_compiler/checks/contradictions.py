@@ -31,12 +31,14 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _in_group(conflicts: Conflicts, group: ConjunctionGroup) -> Iterator[Diagnostic]:
     names = equal_names_in((*group.given, *group.own))
-    earlier = [rename_fact(fact, names) for fact in group.given]
+    earlier = {(fact.meaning, fact.holds): fact for fact in (rename_fact(each, names) for each in group.given)}
     for fact in (rename_fact(each, names) for each in group.own):
-        against = next((other for other in earlier if conflicts.exclude(other, fact)), None)
+        if (fact.meaning, fact.holds) in earlier:
+            continue  # what contradicts it, contradicts the one before it
+        against = next((other for other in earlier.values() if conflicts.exclude(other, fact)), None)
         if against is not None:
             yield _problem(fact, against)
-        earlier.append(fact)
+        earlier[fact.meaning, fact.holds] = fact
 
 
 def _problem(fact: TypedFact, against: TypedFact) -> Diagnostic:

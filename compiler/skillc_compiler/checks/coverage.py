@@ -15,7 +15,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("no-fitting-implementation",)
 NEEDS = Need.PROGRAM
-READS = Reads.PROGRAM
+READS = Reads.NEIGHBOURS
 SHOWN = 3
 
 

@@ -14,7 +14,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("impossible-class", "class-cycle", "impossible-relation")
 NEEDS = Need.TEXT
-READS = Reads.PROGRAM
+READS = Reads.NEIGHBOURS
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -13,7 +13,7 @@ from skillc_dsl.source import Span
 
 NAMES = ("empty-file",)
 NEEDS = Need.TEXT
-READS = Reads.PROGRAM
+READS = Reads.NEIGHBOURS
 _NOTHING = re.compile(r"(?:\s|#[^\n]*+)*+")
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import assert_never
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import TypeAlias, assert_never
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
@@ -15,11 +16,13 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("never-ends", "not-endless")
 NEEDS = Need.TYPES
-READS = Reads.DECLARATION
+READS = Reads.PYTHON
+_Returns: TypeAlias = Callable[[str, str, str], frozenset[str]]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each body that cannot end, and each `endless` declaration that is wrong."""
+    returns = cache(method_returns)
     for skill in program.skills.values():
         if "endless" in skill.flags:
             yield from _check_promises(skill)
@@ -31,7 +34,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             case TypedNode() as body:
                 yield from _check_ends(body)
             case s.RunPython() as target:
-                yield from _check_python(implementation, target, endless)
+                yield from _check_python(implementation, target, endless, returns)
             case None:
                 pass
             case _:
@@ -110,9 +113,11 @@ def _check_promises(skill: Skill) -> Iterator[Diagnostic]:
         yield Diagnostic("not-endless", skill.name_span, message, "remove one of the flags `endless` and `scoped`")
 
 
-def _check_python(implementation: Implementation, written: s.RunPython, endless: bool) -> Iterator[Diagnostic]:
+def _check_python(
+    implementation: Implementation, written: s.RunPython, endless: bool, returns: _Returns
+) -> Iterator[Diagnostic]:
     module, _, name = written.target.value.partition(":")
-    found = method_returns(module, name, "tick")
+    found = returns(module, name, "tick")
     label = (Label(implementation.skill.name_span, "the skill"),)
     if found == {"RUNNING"} and not endless:
         message = f"`{name}` never ends by itself: its `tick` returns nothing but `RUNNING`"

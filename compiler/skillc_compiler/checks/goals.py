@@ -16,7 +16,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unachievable-goal",)
 NEEDS = Need.PROGRAM
-READS = Reads.PROGRAM
+READS = Reads.LIBRARY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -8,7 +8,7 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill, TypedCondition
 from skillc_compiler.program.walk import conditions_in, values_in
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same, Variable
 from skillc_model.traversal import free_variables
 
@@ -37,6 +37,7 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
         parameter.span,
         f"no precondition says which `{name}` is meant, so it cannot be inferred",
         help=f"relate it to something: `pre {known} RELATION {name}`, or make it an `in` parameter",
+        labels=tuple(Label(r.span, "add it beside this one") for r in skill.requirements if r.kind == "pre")[-1:],
     )
 
 

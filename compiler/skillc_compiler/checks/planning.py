@@ -15,8 +15,10 @@ from skillc_model.pddl.names import to_kebab
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
+UNPLANNABLE = "unplannable-construct"
+"""What is reported of skills whose implementations are why planners leave them out."""
 NEEDS = Need.TYPES
-READS = Reads.PROGRAM
+READS = Reads.NEIGHBOURS
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -28,7 +28,7 @@ from skillc_dsl.spelling import did_you_mean
 
 NAMES = ("missing-python", "wrong-python-parameters", "not-a-primitive")
 NEEDS = Need.BODY
-READS = Reads.PROGRAM
+READS = Reads.PYTHON
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "withdraw": 0, "approach": 0, "resume": 0, "release": 0}
 """The methods of a primitive that are called, with the number of arguments."""

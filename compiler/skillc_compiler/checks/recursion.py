@@ -12,7 +12,7 @@ from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("recursion",)
 NEEDS = Need.BODY
-READS = Reads.PROGRAM
+READS = Reads.NEIGHBOURS
 Edges = Mapping[str, Sequence[tuple[str, Call]]]
 
 

@@ -20,7 +20,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("ambiguous-selection", "never-selected")
 NEEDS = Need.BODY
-READS = Reads.PROGRAM
+READS = Reads.LIBRARY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -11,7 +11,7 @@ from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("no-implementation",)
 NEEDS = Need.PROGRAM
-READS = Reads.PROGRAM
+READS = Reads.NEIGHBOURS
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

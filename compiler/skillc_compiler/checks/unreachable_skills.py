@@ -14,7 +14,7 @@ from skillc_rdf.vocabulary.closure import reachable
 
 NAMES = ("unreachable-skill",)
 NEEDS = Need.PROGRAM
-READS = Reads.PROGRAM
+READS = Reads.LIBRARY
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

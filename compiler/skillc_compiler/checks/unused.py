@@ -32,7 +32,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unused-use", "unused-prefix", "unused-import", "unused-let", "unused-parameter")
 NEEDS = Need.BODY
-READS = Reads.PROGRAM
+READS = Reads.NEIGHBOURS
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -211,7 +211,7 @@ def _time_constraint(value: TypedExpression | None, by: str) -> Iterator[TypeCon
 
 def _function_constraints(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[TypeConstraint]:
     function = program.vocabulary.functions.get(meaning.function)
-    if function is None:
-        return
+    if function is None or len(function.parameters) != len(value.parts):
+        return  # which value is for which parameter is not known
     for argument, (name, kind) in zip(value.parts, function.parameters, strict=False):
         yield TypeConstraint(argument, type_of(kind), f"by `{name}` of the function `{function.name}`", value.declared)

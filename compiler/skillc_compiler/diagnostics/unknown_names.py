@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
+from skillc_compiler.diagnostics.orphans import find_orphan
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownName
 from skillc_dsl import syntax as s
@@ -34,7 +36,7 @@ def report_unknown_names(program: Program) -> Iterator[Diagnostic]:
         first = group[0]
         call = (first.owner, first.written.span.path, first.written.span.line)
         if not first.passed or call not in calls:
-            yield _report(group, program.files, times)
+            yield _report(group, program, times)
         calls |= {call} if first.passed else set()
 
 
@@ -56,13 +58,12 @@ def _key(unknown: UnknownName) -> Key:
         return (span.path, unknown.line.keyword, unknown.line.name if unknown.line.keyword == "import" else "")
     if unknown.owner is None:
         return (span,)
-    local = unknown.diagnostic in ("unknown-prefix",)
-    return unknown.owner, text, span.path if local else ""
+    return unknown.owner, text, span.path if unknown.kind == "prefix" else ""
 
 
-def _report(group: Sequence[UnknownName], files: Sequence[ParsedFile], times: Mapping[str, int]) -> Diagnostic:
+def _report(group: Sequence[UnknownName], program: Program, times: Mapping[str, int]) -> Diagnostic:
     """Return the diagnostic of names with one cause: at the misspelt declaration if there is one, else at the first."""
-    first = group[0]
+    first, files = group[0], program.files
     if first.line is not None:
         return _report_line(group, first.line, files)
     alone = render_unknown_name(first)
@@ -75,8 +76,20 @@ def _report(group: Sequence[UnknownName], files: Sequence[ParsedFile], times: Ma
         fix = Fix(place, text, f"write `{text}`", safe=False)
         return Diagnostic(first.diagnostic, place, message, f"did you mean `{text}`?", labels=uses, fix=fix)
     labels = tuple(Label(each.written.span, "also here") for each in group[1:])
-    close_by = (Label(place, f"`{close[0]}` is declared here"),) if place is not None and not first.labels else ()
-    return _with_labels(alone, (*alone.labels, *close_by, *labels))
+    if place is not None and not first.labels:
+        labels = (Label(place, f"`{close[0]}` is declared here"), *labels)
+    return replace(alone, labels=(*alone.labels, *(() if close else _possible_places(first, program)), *labels))
+
+
+def _possible_places(unknown: UnknownName, program: Program) -> tuple[Label, ...]:
+    """Return where a name is probably to be declared: at a declaration that nothing uses, or after the parameters."""
+    orphan = find_orphan(program, unknown)
+    if orphan is not None:
+        return (Label(orphan.span, f"`{orphan.text}` is declared here, and nothing refers to it"),)
+    skill = program.skills.get(unknown.owner or "")
+    if skill is None or not skill.parameters or unknown.kind not in ("parameter", "argument"):
+        return ()
+    return (Label(skill.parameters[-1].span, f"a parameter `{unknown.written.text}` could be declared below this one"),)
 
 
 def _report_line(group: Sequence[UnknownName], line: HeaderLine, files: Sequence[ParsedFile]) -> Diagnostic:
@@ -112,10 +125,6 @@ def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:
         return Span(path, span.end_line, span.end_column, span.end_line, span.end_column), f"\n{text}"
     number = header[0].span.line if header else next((d.span.line for d in unit.file.declarations), 1)
     return Span(path, number, 1, number, 1), f"{text}\n" if header else f"{text}\n\n"
-
-
-def _with_labels(problem: Diagnostic, labels: tuple[Label, ...]) -> Diagnostic:
-    return Diagnostic(problem.name, problem.span, problem.message, problem.help, problem.severity, labels, problem.fix)
 
 
 def _declaration(unknown: UnknownName, name: str, files: Iterable[ParsedFile]) -> Span | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.checks.planning import check_skill
+from skillc_compiler.checks.planning import UNPLANNABLE, check_skill
 from skillc_compiler.program.typed import Program, Skill
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.pddl.domain import Excluded
@@ -36,7 +36,7 @@ def _has_class_cycle(vocabulary: Vocabulary) -> bool:
 def _problem(skill: Skill, excluded: Excluded) -> Diagnostic:
     written = (r.condition.span for r in skill.requirements if f"`{r.text}`" in excluded.reason)
     return Diagnostic(
-        "unplannable-construct",
+        UNPLANNABLE,
         next(written, skill.name_span),
         f"planners leave `{skill.name}` out: {excluded.reason}",
         help=f"{_suggest_planner(excluded.reason)}; rewrite it, or add `noplan`",

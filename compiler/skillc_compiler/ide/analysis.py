@@ -8,7 +8,8 @@ from functools import cached_property
 
 from skillc_compiler.ide.index import Index, build_index
 from skillc_compiler.ide.visible import VisibleNames, find_visible
-from skillc_compiler.pipeline import NO_SCENES, AnalysisMemo, find_problems, lower_and_report
+from skillc_compiler.pipeline import NO_SCENES, lower_and_report
+from skillc_compiler.problems import AnalysisMemo, find_problems
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.types import Type
 from skillc_compiler.program.walk import all_values

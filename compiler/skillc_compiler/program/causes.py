@@ -50,7 +50,7 @@ def _by_declaration(errors: Mapping[Line, Diagnostic], program: Program) -> Iter
     wrong = {
         place: count
         for place, count in times.items()
-        if count > 1 and place in uses and all(_line(use) in errors for use in uses[place])
+        if count > 1 and place in uses and all(_line(use) in errors or use in times for use in uses[place])
     }
     groups: dict[Span, list[Diagnostic]] = defaultdict(list)
     for error, labelled in zip(errors.values(), places, strict=True):
@@ -68,6 +68,8 @@ def _uses(program: Program) -> Mapping[Span, list[Span]]:
         if value.declared is not None:
             found[value.declared].append(value.span)
     for call in all_calls(program):
+        if call.skill is not None:
+            found[call.skill.name_span].append(call.written.skill.span)
         for argument in call.arguments:
             parameter = call.skill.parameter(argument.name.text) if call.skill else None
             if parameter is not None:

@@ -15,6 +15,7 @@ from functools import cached_property
 from skillc_compiler.program.spans import DisjointSpans, SpanIndex, is_within_lines
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.unknown import LIBRARY
+from skillc_compiler.program.written import calls_of, skill_of
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -59,6 +60,10 @@ class Marks:
     def is_erroneous(self, declaration: Span) -> bool:
         """Whether there is an error on the lines of a declaration."""
         return self._index.any_on_lines_of(declaration)
+
+    def blames_broken(self, problem: Diagnostic) -> bool:
+        """Whether a problem points to a declaration that has a syntax error, so that part of it may be missing."""
+        return any(self._enclosing.enclosing(label.span) in self._broken for label in problem.labels)
 
     def allow(self, need: Need, problem: Diagnostic) -> bool:
         """Whether a problem is independent of the known errors, if it was found by a check with this need."""
@@ -111,12 +116,18 @@ class Marks:
         return SpanIndex(self._places)
 
     @cached_property
+    def _broken(self) -> frozenset[Span]:
+        """The declarations with a syntax error."""
+        spans = (d.span for d in self._declarations) if self._syntax else ()
+        return frozenset(span for span in spans if any(is_within_lines(place, span) for place in self._syntax))
+
+    @cached_property
     def _incomplete(self) -> frozenset[Span]:
         """The declarations with a syntax error, or of a skill that is declared twice, and their implementations."""
-        broken = {d.span for d in self._declarations if any(is_within_lines(place, d.span) for place in self._syntax)}
-        skills = {d.name.text for d in self._declarations if isinstance(d, s.SkillDeclaration) and d.span in broken}
+        broken, kind = self._broken, s.SkillDeclaration
+        skills = {d.name.text for d in self._declarations if isinstance(d, kind) and d.span in broken}
         skills |= self._program.lost.twice
-        of = (d.span for d in self._declarations if _skill_of(d) in skills)
+        of = (d.span for d in self._declarations if skill_of(d) in skills)
         return frozenset({*broken, *of})
 
     @cached_property
@@ -180,7 +191,7 @@ class Marks:
     @cached_property
     def _skills(self) -> Mapping[Span, str]:
         """The skill that a declaration describes or implements."""
-        return {d.span: skill for d in self._declarations if (skill := _skill_of(d))}
+        return {d.span: skill for d in self._declarations if (skill := skill_of(d))}
 
     @cached_property
     def _described(self) -> frozenset[Span]:
@@ -189,7 +200,7 @@ class Marks:
     @cached_property
     def _calls(self) -> Mapping[Span, frozenset[str]]:
         """The skills that each declaration calls."""
-        return {d.span: frozenset(_called(d)) for d in self._declarations}
+        return {d.span: frozenset(call.skill.text for call in calls_of(d)) for d in self._declarations}
 
     @cached_property
     def _texts(self) -> Mapping[str, list[str]]:
@@ -208,33 +219,3 @@ def _declared_names(declaration: s.Declaration) -> Iterator[s.Name]:
     if isinstance(declaration, s.SkillDeclaration | s.ImplementationDeclaration):
         kinds = s.Parameter | s.Let | s.Refinement
         yield from (member.name for member in declaration.members if isinstance(member, kinds))
-
-
-def _skill_of(declaration: s.Declaration) -> str:
-    match declaration:
-        case s.SkillDeclaration(name=name) | s.ImplementationDeclaration(skill=name):
-            return name.text
-    return ""
-
-
-def _called(declaration: s.Declaration) -> Iterator[str]:
-    """Yield the names of the skills that the body of a declaration calls."""
-    match declaration:
-        case s.ImplementationDeclaration(members=members):
-            todo: list[s.Node] = [member.node for member in members if isinstance(member, s.Body)]
-        case s.TaskDeclaration(body=s.Body(node=node)):
-            todo = [node]
-        case _:
-            return
-    while todo:
-        match todo.pop():
-            case s.CallSkill(skill=skill):
-                yield skill.text
-            case s.With(call=call, children=children):
-                todo += [call, *children]
-            case s.If(then=then, orelse=orelse):
-                todo += [*then, *(orelse or ())]
-            case s.Block() | s.Counted() | s.Timeout() | s.While() | s.For() as node:
-                todo += node.children
-            case s.Wait() | s.WaitUntil() | s.CheckNode() | s.ApplyPosts():
-                pass

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum, auto
 
@@ -13,34 +13,50 @@ from skillc_dsl import syntax as s
 class Reads(Enum):
     """What a check reads.
 
-    DECLARATION: one declaration, the skills that it names and the vocabulary. PROOFS: the proofs of bodies. PROGRAM:
-    anything, also files of Python.
+    DECLARATION: one declaration, the skills that it names and the vocabulary. PYTHON: also files of Python. PROOFS: the
+    proofs of bodies. NEIGHBOURS: also the skills and implementations that a declaration names or may run, the rest of
+    its file and what it imports. LIBRARY: everything, but of bodies only which skills they call.
     """
 
     DECLARATION = auto()
+    PYTHON = auto()
     PROOFS = auto()
-    PROGRAM = auto()
+    NEIGHBOURS = auto()
+    LIBRARY = auto()
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A declaration, as written or resolved; `program` makes a program of it alone. It depends on `of` only."""
+    """A declaration in the file `path`, as written or resolved, and a program of it alone; it depends on `of` only."""
 
+    path: str
     of: tuple[object, ...]
     program: Callable[[], Program]
 
 
-def parts_of(program: Program) -> Iterator[Part]:
-    """Yield every declaration of a program: resolved, and as it is written."""
-    resolved = (*program.skills.values(), *program.implementations, *program.tasks)
-    for each in resolved:
-        yield Part((each, program.vocabulary), lambda each=each: _alone(program, each))  # type: ignore[misc]
-    for unit in program.files:
+def parts_of(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
+    """Yield every declaration of a program, resolved, and as it is written; with `paths`, only those in these files."""
+    resolved: list[Skill | Implementation | Task] = [*program.skills.values(), *program.implementations, *program.tasks]
+    for each in (one for one in resolved if paths is None or one.span.path in paths):
+        yield Part(each.span.path, (each, program.vocabulary), lambda each=each: _alone(program, each))  # type: ignore[misc]
+    for unit in (one for one in program.files if paths is None or one.file.path in paths):
         for declaration in unit.file.declarations:
             yield Part(
+                unit.file.path,
                 (declaration, program.vocabulary),
                 lambda unit=unit, declaration=declaration: _written_alone(program, unit, declaration),  # type: ignore[misc]
             )
+
+
+def only_in(program: Program, paths: Collection[str]) -> Program:
+    """Return a program with the declarations in some files only."""
+    return replace(
+        program,
+        files=tuple(unit for unit in program.files if unit.file.path in paths),
+        skills={name: each for name, each in program.skills.items() if each.span.path in paths},
+        implementations=tuple(each for each in program.implementations if each.span.path in paths),
+        tasks=tuple(each for each in program.tasks if each.span.path in paths),
+    )
 
 
 def _alone(program: Program, each: Skill | Implementation | Task) -> Program:

@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
 
 from skillc_compiler.program.spans import is_within_lines
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.spelling import alike_names, close_names, did_you_mean
 
+UnknownKind: TypeAlias = Literal[
+    "class", "relation", "property", "type", "prefix", "individual", "value",
+    "function", "skill", "implementation", "parameter", "argument",
+]  # fmt: skip
 LIBRARY = ""
 """The owner of names that a library declares outside of skills."""
 
@@ -25,14 +30,14 @@ class HeaderLine:
 
 @dataclass(frozen=True, slots=True)
 class UnknownName:
-    """A name without a declaration; `diagnostic` is what it is reported as.
+    """A name without a declaration, and the kind of what it should be the name of.
 
     `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill or `task NAME`
     that should declare it, LIBRARY, or None if there is nothing to declare. `line` is what its file lacks, if that is
     known. `passed` if it is the name of an argument.
     """
 
-    diagnostic: str
+    kind: UnknownKind
     written: s.Name
     message: str
     candidates: tuple[str, ...] = ()
@@ -41,6 +46,11 @@ class UnknownName:
     owner: str | None = None
     line: HeaderLine | None = None
     passed: bool = False
+
+    @property
+    def diagnostic(self) -> str:
+        """The name of the problem."""
+        return f"unknown-{self.kind}"
 
     @property
     def close(self) -> tuple[str, ...]:
@@ -62,12 +72,13 @@ class UnknownName:
 class LostNames:
     """What other errors may have removed: names by skill and of the library, and lines from the headers of files.
 
-    `declarations` if whole declarations may be missing; `twice` are the skills that are declared more than once.
+    `declarations` are the files of which whole declarations may be missing; `twice` are the skills and functions that
+    are declared more than once.
     """
 
     names: Mapping[str, frozenset[str]] = field(default_factory=dict)
     headers: frozenset[str] = frozenset()
-    declarations: bool = False
+    declarations: frozenset[str] = frozenset()
     twice: frozenset[str] = frozenset()
 
     def explains(self, unknown: UnknownName) -> bool:
@@ -84,15 +95,16 @@ class LostNames:
             return unknown.owner in self.names and not unknown.is_misspelt
         if unknown.written.span.path in self.headers and not unknown.is_misspelt:
             return True
-        missing = self.declarations or bool(self.twice)
-        return missing and unknown.line is None and not unknown.is_misspelt
+        missing = bool(self.declarations or self.twice)
+        is_lost = unknown.line is None or unknown.written.span.path in self.declarations
+        return missing and is_lost and not unknown.is_misspelt
 
 
 def find_lost(files: Iterable[s.File]) -> LostNames:
     """Return what the syntax errors of the files may have removed."""
     names: dict[str, set[str]] = defaultdict(set)
     headers: set[str] = set()
-    outside = False
+    outside: set[str] = set()
     for file in files:
         for error in file.errors:
             owner = next((d for d in file.declarations if is_within_lines(error.span, d.span)), None)
@@ -105,9 +117,12 @@ def find_lost(files: Iterable[s.File]) -> LostNames:
                     headers.add(file.path)
                 case _:
                     pass
-            outside = outside or owner is None
-            names[LIBRARY] |= error.names if owner is None else set()
-    return LostNames({owner: frozenset(found) for owner, found in names.items()}, frozenset(headers), outside)
+            if owner is None:
+                outside.add(file.path)
+                names[LIBRARY] |= error.names
+    return LostNames(
+        {owner: frozenset(found) for owner, found in names.items()}, frozenset(headers), frozenset(outside)
+    )
 
 
 def _is_in_header(error: s.ErrorNode, declarations: Sequence[s.Declaration]) -> bool:

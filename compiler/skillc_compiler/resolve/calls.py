@@ -61,7 +61,7 @@ def _report_argument(
         )
         return
     context.report_unknown(
-        "unknown-argument",
+        "argument",
         argument.name,
         f"the skill `{skill.name}` has no parameter `{name}`",
         _free_parameters(context, skill, written, kind),
@@ -90,7 +90,7 @@ def _implementation(context: FileContext, written: s.CallSkill, skill: Skill | N
     known = context.implementations.get(skill.name) or ()
     if name.text not in known:
         message = f"the skill `{skill.name}` has no implementation `{name.text}`"
-        context.report_unknown("unknown-implementation", name, message, known, owner=skill.name)
+        context.report_unknown("implementation", name, message, known, owner=skill.name)
     return name.text
 
 

@@ -78,11 +78,24 @@ def _or(parts: Sequence[TypedCondition], span: Span) -> TypedCondition:
 
 
 def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -> TypedCondition:
+    name = _relation_in_place_of_subject(context, scope, written)
+    if name is not None:
+        message = f"`{name.text}` is a relation, and nothing is before it that it relates"
+        context.report("unknown-parameter", name.span, message, f"write `a {name.text} b`, or `_ {name.text} b`")
+        return TypedCondition(And(()), written.span)
     subject = _resolve_side(context, scope, written.subject)
     object_ = _resolve_side(context, scope, written.object)
     iri = _look_up_relation(context, written.relation, subject, object_)
     meaning = Holds(_to_term(context, subject), iri or written.relation.text, _to_term(context, object_))
     return TypedCondition(meaning, written.span, (subject, object_))
+
+
+def _relation_in_place_of_subject(context: FileContext, scope: Scope, written: s.Relation) -> s.Name | None:
+    """Return the name of a relation that stands where its subject should be, as in `post tightIn one`, or None."""
+    match written.subject:
+        case s.NameReference(name=name) if name.text not in scope.variables:
+            return name if context.names.is_term("relation", name.text) else None
+    return None
 
 
 def _resolve_side(context: FileContext, scope: Scope, written: s.Value | s.Anything) -> TypedExpression:
@@ -192,9 +205,7 @@ def _resolve_given(context: FileContext, scope: Scope, name: s.Name, span: Span)
     if known is None or known.origin != "parameter":
         parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
         message = f"{scope.owner} has no parameter `{name.text}`"
-        context.report_unknown(
-            "unknown-parameter", name, message, parameters, "declare it with `opt`", owner=scope.skill
-        )
+        context.report_unknown("parameter", name, message, parameters, "declare it with `opt`", owner=scope.skill)
     return TypedCondition(Given(name.text), span)
 
 

@@ -43,8 +43,9 @@ def _incomplete(file: s.File) -> Iterator[Span]:
 
 
 def find_twice(files: Sequence[ParsedFile]) -> frozenset[str]:
-    """Return the skills that are declared more than once: it is not clear which one a call or implementation means."""
-    names = [d.name.text for unit in files for d in unit.file.declarations if isinstance(d, s.SkillDeclaration)]
+    """Return the skills and functions that are declared more than once: it is not clear which one is meant."""
+    kinds = s.SkillDeclaration | s.FunctionDeclaration
+    names = [d.name.text for unit in files for d in unit.file.declarations if isinstance(d, kinds)]
     return frozenset(name for name, times in Counter(names).items() if times > 1)
 
 

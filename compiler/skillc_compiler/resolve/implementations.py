@@ -80,7 +80,7 @@ def _find_parameter(context: FileContext, member: s.Refinement, skill: Skill) ->
     parameter = skill.parameter(member.name.text)
     if parameter is None:
         context.report_unknown(
-            "unknown-parameter",
+            "parameter",
             member.name,
             f"the skill `{skill.name}` has no parameter `{member.name.text}` to refine",
             [p.name for p in skill.parameters],

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from skillc_compiler.program.labels import label_declaration
-from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownName
+from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_rdf.vocabulary.types import (
@@ -66,7 +66,7 @@ class Names:
         span = name.span
         self.unknown.append(
             UnknownName(
-                "unknown-prefix",
+                "prefix",
                 s.Name(
                     prefix, replace(span, end_column=span.column + len(prefix)) if span.line == span.end_line else span
                 ),
@@ -165,31 +165,35 @@ class Names:
             )
         )
 
+    def find_line(self, kind: Kind, text: str) -> HeaderLine | None:
+        """Return the line at the top of the file that would make a name visible, None if there is no such line."""
+        if text in self.elsewhere:
+            return HeaderLine("import", self.elsewhere[text].rpartition("/")[2])
+        homes = (prefix for prefix, base in self.prefixes.items() if self._has(kind, base + text))
+        home = min(homes, default=None)
+        return HeaderLine("use", home) if home else None
+
+    def _has(self, kind: Kind, iri: str) -> bool:
+        return iri in self.known[kind] or iri in self.vocabulary.aliases
+
     def _unknown(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> None:
-        homes = sorted(
-            prefix
-            for prefix, base in self.prefixes.items()
-            if base + name.text in self.known[kind] or base + name.text in self.vocabulary.aliases
-        )
-        if homes and name.text not in self.elsewhere:
+        line = self.find_line(kind, name.text)
+        if line is not None and line.keyword == "use":
             message = f"there is no {kind} `{name.text}` in the vocabularies this file uses"
-            help_ = f"it is in `{homes[0]}`: write `use {homes[0]}` at the top, or `{homes[0]}:{name.text}` here"
-            line = HeaderLine("use", homes[0])
-            self.unknown.append(UnknownName(f"unknown-{kind}", name, message, (), help_, owner=LIBRARY, line=line))
+            help_ = f"it is in `{line.name}`: write `use {line.name}` at the top, or `{line.name}:{name.text}` here"
+            self.unknown.append(UnknownName(kind, name, message, (), help_, owner=LIBRARY, line=line))
             return
         candidates = (text for text, iris in self.bare[kind].items() if fits(iris[0]))
         self._report_unknown(kind, name, candidates)
 
-    def _report_unknown(self, what: str, name: s.Name, candidates: Iterable[str]) -> None:
+    def _report_unknown(self, what: UnknownKind, name: s.Name, candidates: Iterable[str]) -> None:
         home = self.elsewhere.get(name.text)
         help_, line = f"declare the {what}, or import the file that does", None
         if home:
             line = HeaderLine("import", home.rpartition("/")[2])
             help_ = f'it is declared in {home}: write `import "{line.name}"` at the top'
         message = f"there is no {what} `{name.text}`"
-        self.unknown.append(
-            UnknownName(f"unknown-{what}", name, message, tuple(candidates), help_, owner=LIBRARY, line=line)
-        )
+        self.unknown.append(UnknownName(what, name, message, tuple(candidates), help_, owner=LIBRARY, line=line))
 
 
 def bare_terms(vocabulary: Vocabulary, used: Iterable[str]) -> dict[Kind, dict[str, tuple[str, ...]]]:

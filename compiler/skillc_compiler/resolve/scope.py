@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 from skillc_compiler.program.memo import NameTable
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
-from skillc_compiler.program.unknown import UnknownName
+from skillc_compiler.program.unknown import UnknownKind, UnknownName
 from skillc_compiler.resolve.names import Names
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -64,7 +64,7 @@ class FileContext:
 
     def report_unknown(
         self,
-        name: str,
+        kind: UnknownKind,
         wrong: s.Name,
         message: str,
         candidates: Sequence[str],
@@ -75,7 +75,7 @@ class FileContext:
     ) -> None:
         """Record that a name is unknown; `owner` is the skill that should declare it, `passed` if it is an argument."""
         self.names.unknown.append(
-            UnknownName(name, wrong, message, tuple(candidates), otherwise, labels, owner, passed=passed)
+            UnknownName(kind, wrong, message, tuple(candidates), otherwise, labels, owner, passed=passed)
         )
 
     def bind(self, scope: Scope, name: s.Name, variable: LocalName) -> Scope:

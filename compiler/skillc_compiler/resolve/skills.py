@@ -97,4 +97,4 @@ def _devices(
                 yield member
                 continue
             message = f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`"
-            context.report_unknown("unknown-parameter", member.parameter, message, names, owner=written.name.text)
+            context.report_unknown("parameter", member.parameter, message, names, owner=written.name.text)

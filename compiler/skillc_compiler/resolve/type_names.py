@@ -59,9 +59,12 @@ def _class(names: Names, written: s.Name) -> ValueType:
 
 
 def _unknown(names: Names, written: s.Name) -> ValueType:
-    """Report an unknown type; suggestions are classes and built-in types."""
-    if close_names(written.text, BUILT_IN):
+    """Report an unknown type: as a class, unless a built-in type is probably meant."""
+    near = (
+        () if names.find_line("class", written.text) else close_names(written.text, {*BUILT_IN, *names.bare["class"]})
+    )
+    if near and BUILT_IN.keys() >= {*near}:
         message = f"there is no type `{written.text}`"
-        names.unknown.append(UnknownName("unknown-type", written, message, tuple(BUILT_IN)))
+        names.unknown.append(UnknownName("type", written, message, tuple(BUILT_IN)))
         return UNRESOLVED_TYPE
     return _class(names, written)

@@ -93,13 +93,13 @@ def _resolve_reference(
 
 def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> None:
     message = f"`{name.text}` is not a value of this property"
-    context.report_unknown("unknown-value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
+    context.report_unknown("value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
 
 
 def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType) -> None:
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
     context.report_unknown(
-        "unknown-parameter",
+        "parameter",
         written.name,
         f"{scope.owner} has no parameter or other name `{written.name.text}`",
         fitting,
@@ -133,7 +133,7 @@ def _class_of(context: FileContext, written: s.NameReference, iri: str, wanted: 
         return Thing(known[iri])
     fitting = [other for other, cls in known.items() if fits(context.vocabulary, Thing(cls), wanted.type)]
     message = f"there is no `{written.name.text}` in the scene"
-    context.report_unknown("unknown-individual", written.name, message, [context.names.shorten(i) for i in fitting])
+    context.report_unknown("individual", written.name, message, [context.names.shorten(i) for i in fitting])
     return UNKNOWN
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator
 
 from skillc_model.conditions import Variable
 from skillc_model.skills import Compound, Skill, SkillLibrary
@@ -16,23 +16,26 @@ def locked_parameters(library: SkillLibrary) -> dict[str, tuple[str, ...]]:
     A device of a called skill is included if the caller passes one of its own parameters for it; a device that the
     called skill infers has no name in the caller.
     """
-    locked = {name: frozenset(skill.uses) for name, skill in library.skills.items()}
-    while True:
-        extended = {
-            name: locked[name] | set(_of_calls(skill, library, locked)) for name, skill in library.skills.items()
-        }
-        if extended == locked:
-            return {name: _in_order(skill, locked[name]) for name, skill in library.skills.items()}
-        locked = extended
+    locked = {name: set(skill.uses) for name, skill in library.skills.items()}
+    passed = {name: tuple(_passed_on(skill, library)) for name, skill in library.skills.items()}
+    changed = True
+    while changed:
+        changed = False
+        for name, pairs in passed.items():
+            more = {own for own, called, parameter in pairs if parameter in locked.get(called, ())} - locked[name]
+            locked[name] |= more
+            changed = changed or bool(more)
+    return {name: _in_order(skill, locked[name]) for name, skill in library.skills.items()}
 
 
-def _of_calls(skill: Skill, library: SkillLibrary, locked: Mapping[str, frozenset[str]]) -> Iterator[str]:
+def _passed_on(skill: Skill, library: SkillLibrary) -> Iterator[tuple[str, str, str]]:
+    """Yield the parameters that a skill passes on, each with the called skill and its parameter."""
     own = {each.name for each in skill.parameters}
     for call in _calls(skill, library):
-        for device in locked.get(call.skill, frozenset()):
-            match call.arguments.get(device):
+        for parameter, value in call.arguments.items():
+            match value:
                 case Variable(name=name) if name in own:
-                    yield name
+                    yield name, call.skill, parameter
 
 
 def _calls(skill: Skill, library: SkillLibrary) -> Iterator[Call]:
@@ -41,5 +44,5 @@ def _calls(skill: Skill, library: SkillLibrary) -> Iterator[Call]:
             yield from find_calls(each.body.node)
 
 
-def _in_order(skill: Skill, names: frozenset[str]) -> tuple[str, ...]:
+def _in_order(skill: Skill, names: Collection[str]) -> tuple[str, ...]:
     return tuple(each.name for each in skill.parameters if each.name in names)

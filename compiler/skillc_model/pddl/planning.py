@@ -59,10 +59,10 @@ def make_planning_domain(
     excluded = tuple(_unnamed(library, named, objects))
     out = {each.skill for each in excluded}
     skills = [skill for name, skill in sorted(library.skills.items()) if skill.planned and name not in out]
-    changing: frozenset[str] = frozenset()
+    locked, changing = locked_parameters(library), frozenset[str]()
     while True:
         symbols = Symbols(library.vocabulary, names, hierarchy, changing, settled)
-        tried = _try(skills, library, symbols, objects)
+        tried = _try(skills, library, symbols, objects, locked)
         left_out = {each.skill for each in tried.excluded}
         skills = [skill for skill in skills if skill.name not in left_out]
         excluded += tried.excluded
@@ -88,10 +88,13 @@ def _unnamed(
 
 
 def _try(
-    skills: Sequence[Skill], library: SkillLibrary, symbols: Symbols, objects: Mapping[str, NamedIndividual]
+    skills: Sequence[Skill],
+    library: SkillLibrary,
+    symbols: Symbols,
+    objects: Mapping[str, NamedIndividual],
+    locked: Mapping[str, Collection[str]],
 ) -> _Attempt:
     action_names = {term: name for name, term in symbols.names.items()}
-    locked = locked_parameters(library)
     planned, excluded, taken = [], [], set(symbols.names)
     for skill in skills:
         implementations = library.implementations_of(skill.name)

@@ -21,6 +21,7 @@ from skillc_dsl.parsing.lexer import empty_token_after, token_span
 from skillc_dsl.parsing.nesting import DEEPEST, report_too_deep
 from skillc_dsl.parsing.repairs import Fault, repair
 from skillc_dsl.parsing.reserved import report_reserved
+from skillc_dsl.parsing.second_step import report_second_step
 from skillc_dsl.parsing.token_repairs import join_tokens
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
@@ -60,7 +61,7 @@ class Recovery:
             self._read_reserved_as_relation(index)
             try:
                 feed(self.tokens[index])
-                self._since = 0 if _is_inserted(self.tokens[index]) else self._since + 1
+                self._since = 0 if _is_inserted(self.tokens[index]) else self._since + _is_written(self.tokens[index])
                 index += 1
             except UnexpectedToken:
                 index = self._recover(before, index)
@@ -134,6 +135,9 @@ class Recovery:
         span = token_span(token, self.path)
         if token.type == "RBRACE" and END in expected:
             return Diagnostic("unopened-brace", span, "this `}` closes nothing", "delete it, or add the `{` before it")
+        second = report_second_step(before, self._state.value_stack, self.tokens, index, self.path)
+        if second is not None:
+            return second
         found = f"{describe_token(token)} does not fit here"
         if index and not expected & {"RBRACE", END} and begins_line(self.tokens, index):
             last = self.tokens[index - 1]
@@ -222,6 +226,11 @@ def _braces(values: Sequence[object]) -> int:
 def _is_inserted(token: Token) -> bool:
     """Whether a token is a `}` that was inserted by a repair."""
     return token.type == "RBRACE" and not token
+
+
+def _is_written(token: Token) -> bool:
+    """Whether a token stands in the text, so that it was not inserted by a repair."""
+    return token.start_pos is not None
 
 
 def _is_list(value: object) -> bool:

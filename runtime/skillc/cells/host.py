@@ -292,7 +292,7 @@ def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
             closing(JournalReader(settings.journal)) as reader,
         ):
             world = restore_world(store, state, found, journal, reader)
-            end_interrupted(settings.name, reader, journal)
+            end_interrupted(settings.name, reader, journal, settings.ended)
             host = CellHost(settings, library, world, journal, reader, scene, reporter)
             try:
                 yield host

@@ -15,24 +15,24 @@ from skillc_runtime.recording.failure import Failure
 REASON = "the process of the cell ended while it ran"
 
 
-def end_interrupted(cell: str, reader: JournalReader, journal: CellJournal) -> None:
+def end_interrupted(cell: str, reader: JournalReader, journal: CellJournal, ended: str = "") -> None:
     """Write the end of every operation that has none: it was interrupted, unless its last event says otherwise.
 
-    NotDurable if that cannot be written.
+    `ended` is why its process has ended, as far as that is known. NotDurable if that cannot be written.
     """
     for operation in reader.unfinished():
         last = reader.last_sequence(operation.id)
         final = reader.envelopes(operation.id, last - 1)[-1]
         if not isinstance(final.event, TaskEnded):
-            final = _interrupt(final)
+            final = _interrupt(final, f"{REASON}: {ended}" if ended else REASON)
             journal.record(final)
         journal.end_operation(_describe(cell, operation, reader, final))
     journal.commit()
 
 
-def _interrupt(last: Envelope) -> Envelope:
+def _interrupt(last: Envelope, reason: str) -> Envelope:
     """Return the event that ends an operation after its last one."""
-    failure = Failure(kind="interrupted", message=REASON)
+    failure = Failure(kind="interrupted", message=reason)
     ended = TaskEnded(time=last.cell_time_s, task=last.run, status="interrupted", failure=failure)
     return Envelope(run=last.run, sequence=last.sequence + 1, wall_time_ns=time.time_ns(), event=ended)
 

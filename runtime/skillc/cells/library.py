@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import msgspec
 from skillc.cells.settings import CellSettings
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library
-from skillc_model.skills import SkillLibrary
+from skillc_model.skills import Primitive, SkillLibrary
 from skillc_runtime.platforms.python_modules import import_named
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, ForeignError, foreign_code
 
@@ -21,8 +22,38 @@ def decode_library(content: bytes) -> SkillLibrary:
 
 
 def load_library(settings: CellSettings) -> SkillLibrary:
-    """Return the library of a cell, with the modules loaded that it was checked with."""
-    for each in settings.modules:
-        with suppress(*FOREIGN_ERRORS, ForeignError), foreign_code:  # the skill that needs it reports the reason
+    """Return the library of a cell, with the modules loaded that it was checked with, and all that it names.
+
+    So no tick waits for an import. A module that cannot be imported is named by whoever needs it.
+    """
+    _import(settings.modules)
+    library = (
+        decode_library(settings.content) if settings.content else compile_valid(find_library(Path(settings.library)))
+    )
+    _import(find_modules(library))
+    return library
+
+
+def find_modules(library: SkillLibrary) -> Iterator[str]:
+    """Yield the Python modules that a library and its vocabulary name."""
+    for each in library.implementations.values():
+        if isinstance(each.body, Primitive):
+            yield module_of(each.body.python)
+    known = library.vocabulary
+    computed = (
+        *(each.computed_by for each in known.relations.values()),
+        *(each.computed_by for each in known.properties.values()),
+    )
+    yield from (module_of(each) for each in computed if each is not None)
+    yield from (module_of(each.python) for each in known.functions.values())
+
+
+def module_of(python: str) -> str:
+    """Return the module of "module:attribute"."""
+    return python.partition(":")[0]
+
+
+def _import(modules: Iterable[str]) -> None:
+    for each in dict.fromkeys(modules):
+        with suppress(*FOREIGN_ERRORS, ForeignError), foreign_code:
             import_named(each)
-    return decode_library(settings.content) if settings.content else compile_valid(find_library(Path(settings.library)))

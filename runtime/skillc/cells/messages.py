@@ -165,10 +165,16 @@ class Alive(_Message, tag="alive", frozen=True, kw_only=True):
     intervals_s: float = 0.0
 
 
+class Preparing(_Message, tag="preparing", frozen=True, kw_only=True):
+    """What the cell does before it is ready, if that takes long."""
+
+    reason: str
+
+
 class StartFailed(_Message, tag="not-started", frozen=True, kw_only=True):
     """The cell could not be started; the process ends."""
 
     reason: str
 
 
-Report: TypeAlias = CellAnswer | Happened | StatusChanged | Alive | StartFailed
+Report: TypeAlias = CellAnswer | Happened | StatusChanged | Alive | Preparing | StartFailed

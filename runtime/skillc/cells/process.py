@@ -16,13 +16,15 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
 from skillc.cells.host import open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
-from skillc.cells.messages import StartFailed
+from skillc.cells.messages import Preparing, StartFailed
 from skillc.cells.service import CellService
 from skillc.cells.settings import CellSettings
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.garbage import exempt_from_gc
 from skillc_dsl.source import Source
 from skillc_runtime.execution.cell_loop import NotDurable
+from skillc_runtime.motion.numerics.compiled import compile_imported, has_stored_code
 from skillc_runtime.platforms.memory import limit_memory, physical_bytes
 from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -31,7 +33,7 @@ from skillc_runtime.world.state.transactions import StoreError
 
 MEMORY_BYTES = max(4 * 2**30, (physical_bytes() or 0) // 4)
 """The largest address space of a cell: a primitive that wants more fails, before the machine has none left."""
-SWITCH_S = 0.001
+SWITCH_S = 0.0005
 """How long a thread that reads texts may go on while the loop is ready, in s."""
 CLOSE_S = 5.0
 """How long the last reports may take to be sent, in s."""
@@ -57,11 +59,15 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
         return 1
     try:
         with open_cell(settings, _Log()) as host:
+            if not has_stored_code():
+                send_frame(requests, Preparing(reason="the control laws are compiled"))
+            compile_imported()
             outbox = Outbox(requests)
             listen_for_stops(stops, lambda request: host.stop(request.operation, request.reason))
             service = CellService(host, Inbox(requests, outbox), outbox)
             for number in ENDING:
                 signal.signal(number, lambda received, _: service.end(f"by {signal.Signals(received).name}"))
+            exempt_from_gc()
             service.run()
         outbox.close(CLOSE_S)
     except DiagnosticsError as error:

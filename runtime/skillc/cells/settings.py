@@ -17,7 +17,7 @@ class CellSettings(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True
 
     `seed` determines how the reality of a simulation differs from the scene. `content` is the compiled library, empty
     to read it from its files; `modules` are those of Python that texts may name, `environment` are the variables of
-    its process.
+    its process. `ended` is why the process before has ended, empty if that is not known.
     """
 
     name: str
@@ -29,6 +29,7 @@ class CellSettings(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True
     content: bytes = b""
     modules: tuple[str, ...] = ()
     environment: dict[str, str] = {}
+    ended: str = ""
 
     @property
     def journal(self) -> Path:

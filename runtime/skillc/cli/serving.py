@@ -2,11 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, TypeVar
 
 import click
 
+from skillc.cli.options import FOLDER, PATH
+
 DEFAULT_BIND = "127.0.0.1:8421"
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def cell_options(function: Function) -> Function:
+    """Add `--cell`, as `scenes`, `--state`, `--backend` and `--seed`: which cells a server has, and how."""
+    options = (
+        click.option("--cell", "scenes", type=PATH, multiple=True, help="A scene to run as a cell. Can be repeated."),
+        click.option(
+            "--state", type=FOLDER, default=Path(".skillc"), show_default=True, help="Keep the state in this folder."
+        ),
+        click.option(
+            "--backend",
+            type=click.Choice(("mujoco", "kinematic")),
+            default="mujoco",
+            show_default=True,
+            help="Simulate with physics, or with ideal motion and contact.",
+        ),
+        click.option(
+            "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
+        ),
+    )
+    for option in reversed(options):
+        function = option(function)
+    return function
 
 
 def require_server() -> None:

@@ -9,35 +9,36 @@ from typing import Any, Literal
 from uuid import uuid4
 
 from skillc.api.boundary import (
-    optional_seconds,
-    optional_text,
-    read_arguments,
     read_pace,
     require_choice,
-    require_count,
     require_text,
 )
 from skillc.api.trials import Trials
-from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
+from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.samples import Sample
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.client.experiments import rehearse, run_trials
+from skillc.client.facts import collect_facts
 from skillc.client.feed import follow_samples
+from skillc.client.requests import (
+    PLANNING_S,
+    describe_operation,
+    describe_order,
+    describe_plan,
+    describe_rehearsal,
+    describe_trials,
+)
 from skillc.server.access.leases import Lease
-from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, PlanRequest, StopAll, WorldEdit, WorldQuery
-from skillc.server.orders.order import Missed, Order, OrderRequest
+from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopReason, WorldEdit, WorldQuery
+from skillc.server.orders.order import Missed, Order
 from skillc.server.rehearsals import Rehearsal
 from skillc.server.trials.store import TrialSeries
-from skillc.services.errors import RequestError
 from skillc.services.placed_thing import PlacedThing
 from skillc.workers.jobs import (
     PlanPreview,
     QueryRows,
-    RehearsalRequest,
-    TrialsRequest,
     WorldFact,
-    WorldFacts,
     WorldFormat,
     WorldText,
     WorldWrite,
@@ -45,11 +46,9 @@ from skillc.workers.jobs import (
 from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.evaluation.trials.trial import Disturbance as TrialDisturbance
-from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S
 from skillc_runtime.execution.pace import FAST
 
-OPERATIONS, FACTS, WRITES, TRIALS = 100, 1000, 100, 50
-PLANNING_S, REHEARSAL_S = 30.0, 600.0
+OPERATIONS, WRITES, TRIALS = 100, 100, 50
 
 
 class AsyncCell:
@@ -87,16 +86,16 @@ class AsyncCell:
         primitive or a wait if it has not ended `step_deadline_s` s after its start. It pauses before its first call
         with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is one operation.
         """
-        request = _describe(
+        request = describe_operation(
             task,
             goal,
             skill,
-            arguments=read_arguments(arguments),
+            arguments,
+            deadline_s,
+            step_deadline_s,
             approve=approve,
             ask_after_failure=ask_after_failure,
             priority=priority,
-            deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
-            step_deadline_s=optional_seconds(step_deadline_s, "`step_deadline_s`"),
             step=step,
             breakpoints=tuple(pause_at),
         )
@@ -130,21 +129,18 @@ class AsyncCell:
         the last one that was missed is submitted as soon as it is, or none with `missed="skip"`. The other parameters
         are those of `start`.
         """
-        request = _describe(
+        request = describe_operation(
             task,
             goal,
             skill,
-            arguments=read_arguments(arguments),
+            arguments,
+            deadline_s,
+            step_deadline_s,
             approve=approve,
             ask_after_failure=ask_after_failure,
             priority=priority,
-            deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
-            step_deadline_s=optional_seconds(step_deadline_s, "`step_deadline_s`"),
         )
-        if at.tzinfo is None or (until is not None and until.tzinfo is None):
-            raise RequestError("`at` and `until` need their offset from UTC, such as `datetime.now(UTC)` has")
-        choice = require_choice(missed, Missed, "`missed`")
-        order = OrderRequest(request, at, optional_seconds(every_s, "`every_s`"), until, count, choice)
+        order = describe_order(request, at, every_s, until, count, missed)
         return await self._connection.send("POST", self._path("orders"), Order, order, key=key or str(uuid4()))
 
     async def orders(self) -> tuple[Order, ...]:
@@ -194,14 +190,7 @@ class AsyncCell:
         deadline_s: float = PLANNING_S,
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
-        request = PlanRequest(
-            task=optional_text(task, "the task"),
-            goal=optional_text(goal, "the goal"),
-            arguments=read_arguments(arguments),
-            minimise=require_choice(minimise, Literal["work", "makespan"], "`minimise`"),
-            prove=prove,
-            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or PLANNING_S,
-        )
+        request = describe_plan(task, goal, arguments, minimise, prove, deadline_s)
         return await self._connection.send("POST", self._path("plans"), PlanPreview, request)
 
     async def rehearse(
@@ -220,15 +209,7 @@ class AsyncCell:
         `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
         a film is written to this MP4 file. RefusedError if the request cannot be carried out.
         """
-        request = RehearsalRequest(
-            task=optional_text(task, "the task"),
-            goal=optional_text(goal, "the goal"),
-            call=optional_text(skill, "the skill call"),
-            arguments=read_arguments(arguments),
-            seed=seed,
-            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or REHEARSAL_S,
-            film=film is not None,
-        )
+        request = describe_rehearsal(task, goal, skill, arguments, seed, deadline_s, film is not None)
         return await rehearse(self._connection, self._path("rehearsals"), request, Path(film) if film else None)
 
     async def trials(
@@ -248,14 +229,7 @@ class AsyncCell:
         `watch` is called with each progress. The server keeps the series; it forgets it if this is cancelled.
         RefusedError if the trials cannot be run.
         """
-        request = TrialsRequest(
-            task=require_text(task, "the task"),
-            arguments=read_arguments(arguments),
-            number=require_count(number, "the number of trials", 1),
-            seed=require_count(seed, "the seed", 0),
-            disturb=require_choice(disturb, TrialDisturbance, "`disturb`"),
-            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or TRIAL_LIMIT_S,
-        )
+        request = describe_trials(task, arguments, number, seed, disturb, deadline_s)
         return Trials(await run_trials(self._connection, self._path("trials"), request, watch))
 
     async def facts(
@@ -265,20 +239,7 @@ class AsyncCell:
 
         With `search` only those about individuals whose names, labels, classes or texts contain these words.
         """
-        found: list[WorldFact] = []
-        while True:
-            page = await self._connection.get(
-                self._path("world"),
-                WorldFacts,
-                subject=subject,
-                type=type,
-                search=search,
-                offset=len(found),
-                limit=FACTS,
-            )
-            found += page.facts
-            if len(found) >= page.total or not page.facts:
-                return tuple(found)
+        return await collect_facts(self._connection, self._path("world"), subject, type, search)
 
     async def query(self, sparql: str) -> QueryRows:
         """Answer a SPARQL query about its world."""
@@ -314,7 +275,7 @@ class AsyncCell:
 
     async def stop(self, reason: str = "stopped") -> CellStatus:
         """Stop all its operations."""
-        return await self._connection.send("POST", self._path("stop"), CellStatus, StopAll(reason), repeatable=True)
+        return await self._connection.send("POST", self._path("stop"), CellStatus, StopReason(reason), repeatable=True)
 
     async def lease(self) -> Lease:
         """Return who alone may command it now."""
@@ -330,15 +291,3 @@ class AsyncCell:
 
     def _path(self, *parts: str) -> str:
         return join("cells", self.name, *parts)
-
-
-def _describe(task: str | None, goal: str | None, skill: str | None, **settings: Any) -> OperationRequest:
-    """Return a request; RequestError unless it is for exactly one of a task, a goal and a skill call."""
-    if [task, goal, skill].count(None) != 2:
-        raise RequestError("name exactly one of a task, a goal and a skill call")
-    return OperationRequest(
-        task=optional_text(task, "the task"),
-        goal=optional_text(goal, "the goal"),
-        call=optional_text(skill, "the skill call"),
-        **settings,
-    )

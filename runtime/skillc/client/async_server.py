@@ -78,9 +78,12 @@ class AsyncServer:
         """Return the tokens of its clients, without their secrets."""
         return await self._connection.get("/tokens", tuple[TokenInfo, ...])
 
-    async def add_token(self, name: str, role: Role) -> str:
-        """Make a token for a client, and return it; nobody can read it again."""
-        return (await self._connection.send("POST", "/tokens", MadeToken, NewToken(name, role))).token
+    async def add_token(self, name: str, role: Role, agent: bool = False) -> str:
+        """Make a token for a client, and return it; nobody can read it again.
+
+        What an `agent`, a program that decides by itself, submits waits for the approval of somebody else.
+        """
+        return (await self._connection.send("POST", "/tokens", MadeToken, NewToken(name, role, agent))).token
 
     async def revoke_token(self, name: str) -> None:
         """Refuse all further requests with a token."""

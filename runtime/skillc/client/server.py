@@ -57,9 +57,12 @@ class Server:
         """Return the tokens of its clients, without their secrets."""
         return self._loop.run(self._server.tokens())
 
-    def add_token(self, name: str, role: Role) -> str:
-        """Make a token for a client, and return it; nobody can read it again."""
-        return self._loop.run(self._server.add_token(name, role))
+    def add_token(self, name: str, role: Role, agent: bool = False) -> str:
+        """Make a token for a client, and return it; nobody can read it again.
+
+        What an `agent`, a program that decides by itself, submits waits for the approval of somebody else.
+        """
+        return self._loop.run(self._server.add_token(name, role, agent))
 
     def revoke_token(self, name: str) -> None:
         """Refuse all further requests with a token."""

@@ -16,7 +16,7 @@ from skillc.lsp.scenes import SceneCache, find_problems
 from skillc.services.libraries import load_vocabulary_with
 from skillc.services.library_files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis, Library, analyse
-from skillc_compiler.pipeline import AnalysisMemo
+from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing.reparse import ParseMemo

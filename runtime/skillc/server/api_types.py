@@ -7,11 +7,13 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc.server.access.roles import Role
-from skillc.server.values import Name, Reason
+from skillc.server.values import Name
 from skillc.workers.devices import Device
 from skillc_dsl.rendering.json import DiagnosticData
+from skillc_runtime.execution.pace import SLOWEST
 
 MAX_PACE = 1000.0
+MAX_REASON = 500
 MAX_LEASE_S = 3600.0
 MAX_PLANNING_S = 60.0
 
@@ -39,19 +41,18 @@ EditText: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=2000)
 class PaceSetting(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """How fast the cell's time may pass: `factor` times real time; null for as fast as it computes."""
 
-    factor: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PACE)] | None
+    factor: Annotated[float, msgspec.Meta(ge=SLOWEST, le=MAX_PACE)] | None
 
 
-class StopAll(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Why everything is stopped."""
+class StopReason(msgspec.Struct, frozen=True):
+    """Why an operation, or everything, is stopped. No form of it is a reason not to stop: a long one is cut."""
 
-    reason: Reason = "stopped"
+    reason: str = "stopped"
 
-
-class StopReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Why an operation is stopped."""
-
-    reason: Annotated[str, msgspec.Meta(max_length=500)] = "stopped"
+    @property
+    def shown(self) -> str:
+        """The reason as it is recorded."""
+        return self.reason if len(self.reason) <= MAX_REASON else f"{self.reason[:MAX_REASON]} .."
 
 
 class VersionInfo(msgspec.Struct, frozen=True):
@@ -109,7 +110,7 @@ class WorldEdit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """
 
     edits: Annotated[tuple[EditText, ...], msgspec.Meta(min_length=1, max_length=200)]
-    why: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
+    why: Annotated[str, msgspec.Meta(min_length=1, max_length=500, pattern=r"\S")]
 
 
 class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -144,10 +145,11 @@ class SessionInfo(msgspec.Struct, frozen=True):
 
 
 class NewToken(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A token to be made."""
+    """A token to be made. What an `agent` asks for waits for the approval of somebody else."""
 
     name: Name
     role: Role
+    agent: bool = False
 
 
 class MadeToken(msgspec.Struct, frozen=True):

@@ -127,7 +127,7 @@ class Application:
 
     async def _call(self, endpoint: ApiEndpoint, client: Client, noted: AuditedRequest, request: Request) -> Response:
         query = read_query(request, endpoint.query)
-        content = b"" if endpoint.body is None else await read_body(request)
+        content = b"" if endpoint.body is None else await read_body(request, endpoint.needs_body)
         body = None if endpoint.body is None else decode_body(content, endpoint.body)
         key = read_key(request) if endpoint.takes_key else None
         noted.content = content

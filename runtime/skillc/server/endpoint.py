@@ -49,8 +49,8 @@ class ApiEndpoint:
     """A method of a path below /api/v1, for clients with a role.
 
     `handle` returns a value of the type `answer`, or raises ApiRefusal with one of `refusals`. With another media type
-    than JSON it returns the Response itself. Only endpoints that are `unlimited` are answered whatever the rate of
-    requests is.
+    than JSON it returns the Response itself. An empty body counts as one without values unless the endpoint
+    `needs_body`. Only endpoints that are `unlimited` are answered whatever the rate of requests is.
     """
 
     method: Method
@@ -60,6 +60,7 @@ class ApiEndpoint:
     handle: Callable[[ApiCall], Awaitable[object]]
     answer: Any = None
     body: Any = None
+    needs_body: bool = True
     query: type[msgspec.Struct] = Empty
     status: HTTPStatus = HTTPStatus.OK
     refusals: tuple[HTTPStatus, ...] = ()

@@ -65,7 +65,8 @@ def _describe(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> di
         "responses": _responses(endpoint, schema_of),
     }
     if endpoint.body is not None:
-        described["requestBody"] = {"required": True, "content": {JSON: {"schema": schema_of[id(endpoint.body)]}}}
+        content = {JSON: {"schema": schema_of[id(endpoint.body)]}}
+        described["requestBody"] = {"required": endpoint.needs_body, "content": content}
     return described
 
 

@@ -9,8 +9,12 @@ from __future__ import annotations
 from http import HTTPStatus
 from typing import assert_never
 
+from msgspec import structs
+
 from skillc.cells.messages import Message, Refused
+from skillc.cells.operation import OperationRequest
 from skillc.server.access.leases import LeaseHeld
+from skillc.server.access.tokens import Client
 from skillc.server.endpoint import ApiCall
 from skillc.server.problems import LEASE_HELD, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
@@ -25,6 +29,11 @@ def check_lease(call: ApiCall, cell: CellSupervisor) -> None:
         call.server.leases.check(cell.settings.name, call.client.name)
     except LeaseHeld as error:
         raise ApiRefusal(HTTPStatus.CONFLICT, str(error), kind=LEASE_HELD) from error
+
+
+def sign_request(request: OperationRequest, client: Client) -> OperationRequest:
+    """Return a request with who makes it; what an agent asks for has to be approved."""
+    return structs.replace(request, owner=client.name, approve=request.approve or client.agent)
 
 
 async def command_cell(call: ApiCall, cell: CellSupervisor, message: Message) -> None:

@@ -15,6 +15,7 @@ MAX_BODY_BYTES = 2**20
 BODY_S = 10.0
 """How long a body may take to arrive, in s."""
 MAX_KEY = 200
+NO_JSON = "send application/json; nothing was done"
 BAD_REQUEST, INVALID = HTTPStatus.BAD_REQUEST, HTTPStatus.UNPROCESSABLE_ENTITY
 
 
@@ -29,10 +30,21 @@ def read_query(request: Request, kind: type[msgspec.Struct]) -> msgspec.Struct:
         raise ApiRefusal(INVALID, f"query: {error}") from error
 
 
-async def read_body(request: Request) -> bytes:
-    """Return the body; ApiRefusal if it is not JSON by its type, too large, or does not arrive in time."""
-    if request.headers.get("content-type", "").partition(";")[0].strip().lower() != "application/json":
-        raise ApiRefusal(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, "send application/json")
+async def read_body(request: Request, needed: bool = True) -> bytes:
+    """Return the body; ApiRefusal if it is not JSON by its type, too large, or does not arrive in time.
+
+    One that is not `needed` may be empty, whatever its type.
+    """
+    is_json = request.headers.get("content-type", "").partition(";")[0].strip().lower() == "application/json"
+    if needed and not is_json:
+        raise ApiRefusal(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, NO_JSON)
+    content = await _receive_in_time(request)
+    if content and not is_json:
+        raise ApiRefusal(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, NO_JSON)
+    return content if content or needed else b"{}"
+
+
+async def _receive_in_time(request: Request) -> bytes:
     try:
         return await asyncio.wait_for(_receive(request), BODY_S)
     except TimeoutError as error:

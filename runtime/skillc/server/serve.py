@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import socket
 from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
@@ -28,12 +29,15 @@ from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import ServiceError
 from skillc.services.reporting import Reporter
+from skillc_dsl.garbage import exempt_from_gc
 from skillc_runtime.platforms.open_files import raise_open_files_limit
 from skillc_runtime.world.state.transactions import StoreError
 
 KEEP_ALIVE_S = 30
 GRACE_S = 5
 """How long open requests may take when the server ends, in s."""
+OWNER_ONLY = 0o077
+"""What is masked in the permissions of all that the server and its cells write."""
 TAKEN_AT_ONCE = 50
 """How many new connections are taken at once, before requests of others are read."""
 
@@ -52,6 +56,7 @@ def serve(
     ServiceError if the address or the state folder cannot be used.
     """
     raise_open_files_limit()
+    os.umask(OWNER_ONLY)
     try:
         with state as opened, listening.open_socket() as listener:
             asyncio.run(_serve(opened, served, listening, listener, reporter, on_ready))
@@ -90,6 +95,7 @@ async def _serve(
     if on_ready is not None:
         context.run_readers.warm()
         going.append(asyncio.create_task(asyncio.to_thread(on_ready, context, address)))
+    exempt_from_gc()
     try:
         with announced(state, address):
             await server.serve(sockets=[listener])

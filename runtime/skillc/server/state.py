@@ -12,8 +12,8 @@ from pathlib import Path
 from skillc.cells.database import DatabaseError, Schema, describe_error, open_for_writing
 from skillc.server.access.sessions import TABLE as SESSIONS
 from skillc.server.access.sessions import Sessions
+from skillc.server.access.tokens import PREFIX, Tokens
 from skillc.server.access.tokens import TABLE as TOKENS
-from skillc.server.access.tokens import Tokens
 from skillc.server.audit import TABLE as AUDIT
 from skillc.server.idempotency import TABLE as REQUESTS
 from skillc.server.orders.store import TABLE as ORDERS
@@ -35,8 +35,12 @@ def _add_sessions(database: sqlite3.Connection) -> None:
     database.execute(SESSIONS)
 
 
+def _add_agents(database: sqlite3.Connection) -> None:
+    database.execute("ALTER TABLE tokens ADD COLUMN agent INTEGER NOT NULL DEFAULT 0")
+
+
 TABLES = (TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS, SESSIONS)
-SCHEMA = Schema(4, ";\n".join(TABLES), {1: _add_orders, 2: _add_trials, 3: _add_sessions})
+SCHEMA = Schema(5, ";\n".join(TABLES), {1: _add_orders, 2: _add_trials, 3: _add_sessions, 4: _add_agents})
 LOCK, DATABASE, ADMIN_TOKEN, CELLS, SIMULATIONS = "lock", "server.sqlite", "admin.token", "cells", "simulations"
 ADDRESS = "address"
 """The file with the address of the server that runs."""
@@ -75,8 +79,8 @@ def open_state(folder: Path, token_file: Path | None = None) -> Iterator[ServerS
     """Open or create a state folder, which no other server uses meanwhile.
 
     At the first start it gets a token for the command line, in a file that only its owner can read: `token_file`, by
-    default `admin.token` in the folder. ServiceError if another server uses it; DatabaseError or OSError if it cannot
-    be used.
+    default `admin.token` in the folder. ServiceError if another server uses it, or that file has something else;
+    DatabaseError or OSError if it cannot be used.
     """
     folder.mkdir(parents=True, exist_ok=True, mode=0o700)
     (folder / LOCK).touch(mode=0o600)
@@ -124,6 +128,8 @@ def _ensure_admin_token(state: ServerState) -> None:
     token = read_token(state.token_file)
     if token is not None and state.tokens.find(token) is not None:
         return
+    if state.token_file.exists() and not (token is not None and (not token or token.startswith(PREFIX))):
+        raise ServiceError(f"{state.token_file} has something else than a token; name another file, or remove it")
     state.tokens.revoke(ADMIN)
     half = state.token_file.with_name(f"{state.token_file.name}.half")
     half.unlink(missing_ok=True)

@@ -12,7 +12,17 @@ from typing import assert_never
 
 from msgspec import structs
 
-from skillc.cells.messages import Alive, CellAnswer, Happened, Message, Refused, Report, StartFailed, StatusChanged
+from skillc.cells.messages import (
+    Alive,
+    CellAnswer,
+    Happened,
+    Message,
+    Preparing,
+    Refused,
+    Report,
+    StartFailed,
+    StatusChanged,
+)
 from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
 from skillc.cells.settings import CellSettings
@@ -25,6 +35,8 @@ SILENCE_S = 30.0
 FIRST_DELAY_S, MAX_DELAY_S = 0.5, 60.0
 """How long to wait before a cell is started again: the delay doubles each time until a cell has run for SETTLED_S."""
 SETTLED_S = 60.0
+LONGEST_START_S = 600.0
+"""How long a process may take until it is ready, in s of wall time: its first start compiles the control laws."""
 START_S = 20.0
 """How long requests wait for a cell that starts, in s."""
 END_S = 20.0
@@ -55,7 +67,7 @@ class CellSupervisor:
         self._cell: RemoteCell | None = None
         self.alive, self._heard_at = Alive(rounds=0), time.monotonic()
         self._settled = asyncio.Event()  # whether it has started, or failed to
-        self._problem = self._library_problem = ""
+        self._problem = self._library_problem = self._ended = ""
 
     @property
     def ready(self) -> bool:
@@ -114,7 +126,7 @@ class CellSupervisor:
         self._set_status(_off(self.settings, "it starts"))
         try:
             with (folder / LOG).open("a", encoding="utf-8") as log:
-                self._cell = await start_cell(self.settings, log, self._hear)
+                self._cell = await start_cell(structs.replace(self.settings, ended=self._ended), log, self._hear)
         except OSError as error:
             self._set_status(_off(self.settings, f"its process cannot be started: {error.strerror or error}"))
             self._settled.set()
@@ -123,8 +135,10 @@ class CellSupervisor:
         self.starts += 1
         while not cell.gone.done():
             await asyncio.wait((cell.gone,), timeout=1.0)
-            if time.monotonic() - self._heard_at > SILENCE_S and not cell.gone.done():
-                self._problem = f"its loop stood still for {SILENCE_S:g} s, so its process was ended"
+            limit_s = SILENCE_S if self.ready else LONGEST_START_S
+            if time.monotonic() - self._heard_at > limit_s and not cell.gone.done():
+                what = "its loop stood still for" if self.ready else "it was not ready within"
+                self._problem = f"{what} {limit_s:g} s, so its process was ended"
                 cell.kill()
         self._bury(cell.gone.result())
 
@@ -133,6 +147,7 @@ class CellSupervisor:
         self._cell = None
         self._settled.set()
         reason = self._problem or f"its process ended with {f'signal {-code}' if code < 0 else f'code {code}'}"
+        self._ended = reason
         for operation in tuple(self.operations.values()):
             ended = structs.replace(operation, state="interrupted", reason=reason, allowed=())
             self._hear(Happened(operation=ended))
@@ -142,7 +157,7 @@ class CellSupervisor:
         """Let the cell come to rest and end; end its process if it does not."""
         if self._cell is None:
             return
-        cell = self._cell
+        cell, self._problem = self._cell, "the server ends"
         cell.abandon()
         await asyncio.wait((cell.gone,), timeout=END_S)
         cell.kill()
@@ -165,6 +180,8 @@ class CellSupervisor:
                 if rounds != self.alive.rounds:
                     self._heard_at = time.monotonic()
                 self.alive = report
+            case Preparing(reason=reason):
+                self._set_status(_off(self.settings, f"it starts: {reason}"))
             case StartFailed(reason=reason):
                 self._problem = reason
             case CellAnswer():

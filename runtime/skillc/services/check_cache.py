@@ -11,11 +11,12 @@ import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
 from skillc.services.library_files import LibraryFiles
-from skillc_dsl import cache
+from skillc_dsl import cache as files
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import read_file
 from skillc_dsl.rendering import json
@@ -34,46 +35,70 @@ _MOST = 500
 
 @dataclass(frozen=True, slots=True)
 class CheckCacheEntry:
-    """The cache entry of a library, checked with `scene` or without; `digest` is its key."""
+    """The cache entry of a library, checked with `scene` or without; `digest` is its key.
+
+    `around` is the digest of everything but the texts of the library's own files.
+    """
 
     library: LibraryFiles
     scene: Path | None
+    around: str
     digest: str
 
     @staticmethod
     def of(library: LibraryFiles, scene: Path | None) -> CheckCacheEntry:
         """Return the entry for the current state of all inputs."""
-        return CheckCacheEntry(library, scene, compute_digest(library, scene))
+        around = compute_digest(library, scene)
+        return CheckCacheEntry(library, scene, around, _with_texts(around, library))
+
+    def is_current(self) -> bool:
+        """Whether no input has changed since the entry was made."""
+        return compute_digest(self.library, self.scene) == self.around
 
     def load(self) -> tuple[Diagnostic, ...] | None:
         """Return the cached diagnostics, None if there is no entry."""
         path = self._path()
-        body = cache.load(path) if path else None
+        body = files.load(path) if path else None
         return None if body is None else json.read(body.decode())
 
     def store(self, found: Sequence[Diagnostic]) -> None:
-        """Store diagnostics, unless an input has changed during the check."""
+        """Store diagnostics."""
         path = self._path()
-        if path is not None and compute_digest(self.library, self.scene) == self.digest:
-            cache.store(path, json.render(found, {}).encode())
-            cache.delete_oldest(path.parent, _MOST, _MOST // 2)
+        if path is not None:
+            files.store(path, json.render(found, {}).encode())
+            files.delete_oldest(path.parent, _MOST, _MOST // 2)
 
     def _path(self) -> Path | None:
-        folder = cache.cache_folder()
+        folder = files.cache_folder()
         return folder / "checks" / self.digest if folder else None
 
 
 def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
-    """Return the digest of everything that a check depends on.
+    """Return the digest of everything that a check depends on but the texts of the library's own files.
 
-    That is the library as it was read, the scene checked with it, the scenes that its tasks name, the user's models,
-    the signatures of the Python functions it names, the current folder, skillc itself and the installed packages.
+    That is where these are, what they can import, the scene checked with them, the scenes that tasks name, the user's
+    models, what checks read of the Python that it names, the current folder, skillc itself and the installed
+    packages.
     """
+    return _digest((*describe_installation(), *_inputs(library, scene)))
+
+
+def _with_texts(around: str, library: LibraryFiles) -> str:
+    return _digest((around, *(source.text for source in library.sources)))
+
+
+def _digest(parts: Iterable[str | bytes]) -> str:
     digest = hashlib.sha256()
-    for part in (*describe_installation(), *_inputs(library, scene)):
+    for part in parts:
         content = part if isinstance(part, bytes) else part.encode("utf-8", "surrogateescape")
         digest.update(b"%d:" % len(content) + content)
     return digest.hexdigest()
+
+
+@cache
+def installation_digest() -> bytes:
+    """Return the digest of the state of skillc, Python and the installed packages at the start of this process."""
+    return hashlib.sha256("\n".join(describe_installation()).encode("utf-8", "surrogateescape")).digest()
 
 
 def describe_installation() -> Iterator[str]:
@@ -93,12 +118,14 @@ def named_scenes(library: LibraryFiles) -> Iterator[Path]:
 
 
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
-    """Yield everything that a check depends on other than the installation."""
+    """Yield everything that a check depends on other than the installation and the texts of the library's own files."""
     yield from (os.getcwd(), library.name, str(library.root))  # noqa: PTH109
     yield from (f"{name} {namespace}" for name, namespace in sorted(library.namespaces.items()))
     if library.project:
         yield library.project.source.text
-    for source in (*library.sources, *library.importable.values()):
+    for source in library.sources:
+        yield from (source.path, str(library.places[source.path]))
+    for source in library.importable.values():
         yield from (source.path, str(library.places[source.path]), source.text)
     for source in library.vocabularies:
         yield from (source.path, source.text)
@@ -117,15 +144,15 @@ def _file(path: Path) -> Iterator[str | bytes]:
 
 
 def _python(sources: Iterable[Source]) -> Iterator[str]:
-    """Yield the signatures of the Python functions that the sources name, without those of skillc."""
+    """Yield what checks read of the Python that the sources name, without that of skillc."""
     named = {target for source in sources for target in _PYTHON.findall(source.text)}
     foreign = sorted(target for target in named if target[0].partition(".")[0] not in PACKAGES)
     if not foreign:
         return
-    from skillc_compiler.python.targets import read_target
+    from skillc_compiler.python.targets import method_returns, read_target
 
     for module, name in foreign:
-        yield from (module, name, repr(read_target(module, name)))
+        yield from (module, name, repr(read_target(module, name)), *sorted(method_returns(module, name, "tick")))
 
 
 def _states(folder: str) -> Iterator[str]:

@@ -8,16 +8,22 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from skillc.services.check_cache import CheckCacheEntry
 from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import LibraryFiles, find_library, read_single_file, source_texts
 from skillc.services.reporting import find_texts, sort_diagnostics
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.source import Source
 
+if TYPE_CHECKING:
+    from skillc_compiler.problems import AnalysisMemo
+
 STDIN = Path("-")
+Memos: TypeAlias = "dict[Path, AnalysisMemo]"
+"""The last analysis of each library, by its folder."""
 
 
 class StdinFile(NamedTuple):
@@ -52,32 +58,41 @@ def read_libraries(request: CheckRequest) -> list[LibraryFiles]:
     return [_from_stdin(request.stdin) if path == STDIN else find_library(path) for path in request.paths]
 
 
-def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles]) -> CheckResult:
-    """Return the diagnostics of libraries that were read for a request, perhaps with changed texts."""
+def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles], memos: Memos | None = None) -> CheckResult:
+    """Return the diagnostics of libraries that were read for a request, perhaps with changed texts.
+
+    `memos` has the last analysis of each library in this process.
+    """
     found: list[Diagnostic] = []
     texts: dict[str, Source] = {}
     for library in libraries:
-        own = (*check_with_cache(request, library), *_problems_of_project(library))
+        own = (*check_with_cache(request, library, memos), *_problems_of_project(library))
         found += own
         texts |= source_texts(library) if own else {}
     ordered = sort_diagnostics(found)
     return CheckResult(ordered, find_texts(ordered, texts))
 
 
-def check_with_cache(request: CheckRequest, library: LibraryFiles) -> tuple[Diagnostic, ...]:
+def check_with_cache(
+    request: CheckRequest, library: LibraryFiles, memos: Memos | None = None
+) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a library, from the cache if nothing has changed."""
     entry = CheckCacheEntry.of(library, request.scene) if request.cache else None
     known = entry.load() if entry else None
     if known is not None:
         return known
-    from skillc.services import library_checks, parse_cache
+    with gc_disabled():
+        return _check(request, library, entry, memos)
 
-    if entry is None:
-        return library_checks.check_library(library, request.scene)
-    found = library_checks.check_library(library, request.scene, parse_cache.parse_cached)
-    entry.store(found)
-    parse_cache.delete_oldest_entries()
-    return found
+
+def _check(
+    request: CheckRequest, library: LibraryFiles, entry: CheckCacheEntry | None, memos: Memos | None
+) -> tuple[Diagnostic, ...]:
+    from skillc.services.known_checks import check_and_store, check_uncached
+    from skillc_compiler.problems import AnalysisMemo
+
+    memo = None if memos is None else memos.setdefault(library.root, AnalysisMemo())
+    return check_uncached(library, request.scene, memo) if entry is None else check_and_store(entry, memo)
 
 
 def check_paths(request: CheckRequest) -> CheckResult:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from functools import cache, lru_cache
 from typing import TypeAlias
 
@@ -16,14 +15,15 @@ from skillc.services.library_files import (
 )
 from skillc.services.task_list import list_tasks
 from skillc_compiler import pipeline
+from skillc_compiler.problems import AnalysisMemo, find_problems
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
-from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
-from skillc_dsl.source import Source, Span
+from skillc_dsl.source import Source
 from skillc_dsl.spelling import did_you_mean
 from skillc_model.skills import SkillLibrary, Task
 from skillc_ontology import catalogue
@@ -37,23 +37,30 @@ _MOST_VOCABULARIES = 4
 
 
 def compile_library(
-    library: LibraryFiles, find_individuals: IndividualsByTask | None = None, parsed_by: Parser | None = None
+    library: LibraryFiles,
+    find_individuals: IndividualsByTask | None = None,
+    parsed_by: Parser | None = None,
+    memo: AnalysisMemo | None = None,
 ) -> Outcome[SkillLibrary]:
     """Compile, with the shipped and the library's own ontology as vocabulary; diagnostics have displayable paths.
 
     `find_individuals` returns the individuals that each task may name; the names in other tasks are not checked.
-    `parsed_by` is the parser, which may cache its results; without it they are kept in memory.
+    `parsed_by` is the parser, which may cache its results; without it they are kept in memory. `memo` has what the last
+    analysis of the library has found.
     """
+    memo = memo or AnalysisMemo()
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
         files = read_sources(library.sources, library.importable, library.name, parsed_by or _parse, library.namespaces)
-        program = resolve_program(files.value, known.value, library.name, pipeline.NO_SCENES)
+        program = resolve_program(files.value, known.value, library.name, pipeline.NO_SCENES, memo.resolve)
         individuals = find_individuals(program.value) if find_individuals else {}
         if individuals:
-            program = resolve_program(files.value, known.value, library.name, individuals)
-        checked = Outcome(program.value, pipeline.find_problems(files, program))
+            program = resolve_program(files.value, known.value, library.name, individuals, memo.resolve)
+        checked = Outcome(program.value, find_problems(files, program, memo))
         outcome = pipeline.lower_and_report(checked, library.sources)
-    return Outcome(outcome.value, tuple(_relocate(d, library) for d in (*known.diagnostics, *outcome.diagnostics)))
+    return Outcome(
+        outcome.value, tuple(library.with_display_paths(d) for d in (*known.diagnostics, *outcome.diagnostics))
+    )
 
 
 def compile_valid(files: LibraryFiles) -> SkillLibrary:
@@ -94,15 +101,3 @@ def find_task(library: SkillLibrary, name: str) -> Task:
 
 
 _parse = lru_cache(_MOST_FILES)(parse)
-
-
-def _relocate(diagnostic: Diagnostic, library: LibraryFiles) -> Diagnostic:
-    def moved(span: Span) -> Span:
-        return replace(span, path=library.display_path(span.path))
-
-    return replace(
-        diagnostic,
-        span=moved(diagnostic.span),
-        labels=tuple(replace(label, span=moved(label.span)) for label in diagnostic.labels),
-        fix=replace(diagnostic.fix, span=moved(diagnostic.fix.span)) if diagnostic.fix else None,
-    )

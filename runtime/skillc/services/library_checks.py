@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from skillc.services import libraries
 from skillc.services.library_files import LibraryFiles
 from skillc.services.reporting import sort_diagnostics
 from skillc.services.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
+from skillc_compiler.problems import AnalysisMemo
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -18,20 +20,46 @@ from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary
 
 if TYPE_CHECKING:
+    from skillc.services.cell_checks.report import CellJudge
     from skillc.services.task_scenes import TaskScenes
 
 
-def check_library(library: LibraryFiles, scene: Path | None, parsed_by: Parser | None = None) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a library, of its tasks' scenes and of `scene`, with displayable paths.
+@dataclass(frozen=True, slots=True)
+class Known:
+    """Where a check finds what earlier ones have found: a parser and a judge of cells that may cache their results.
 
-    `parsed_by` is the parser, which may cache its results.
+    `memo` has the last analysis of the library.
     """
+
+    parsed_by: Parser | None = None
+    judge: CellJudge | None = None
+    memo: AnalysisMemo | None = None
+
+
+NOTHING = Known()
+
+
+class Checked(NamedTuple):
+    """The diagnostics of a library, and its program, None if it does not compile."""
+
+    diagnostics: tuple[Diagnostic, ...]
+    program: Program | None
+
+
+def check_library(library: LibraryFiles, scene: Path | None, known: Known = NOTHING) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of a library, of its tasks' scenes and of `scene`, with displayable paths."""
+    return check_whole(library, scene, known).diagnostics
+
+
+def check_whole(library: LibraryFiles, scene: Path | None, known: Known = NOTHING) -> Checked:
+    """Check a library as `check_library` does, and return also its program if it compiles without errors."""
     found = _SceneReader(library, () if scene is None else (scene,))
-    outcome = libraries.compile_library(library, found.individuals, parsed_by)
+    outcome = libraries.compile_library(library, found.individuals, known.parsed_by, known.memo)
     assert found.program is not None, "a compiled library has a program"
     sources = [Source(library.display_path(each.path), each.text) for each in library.sources]
-    around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources)
-    return sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome)))
+    around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known.judge)
+    problems = sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome)))
+    return Checked(problems, found.program if outcome.ok else None)
 
 
 def _named_goals(library: LibraryFiles, compiled: Outcome[SkillLibrary]) -> tuple[Diagnostic, ...]:
@@ -49,17 +77,18 @@ def check_with_scenes(
     scenes: TaskScenes | None,
     display_path: Callable[[str], str],
     sources: Iterable[Source],
+    judge: CellJudge | None = None,
 ) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of scenes, of tasks in them, and of text values that name nothing.
 
     `display_path` maps a path of the library to a displayable one. Diagnostics that the `sources` (with displayable
-    paths) suppress are omitted.
+    paths) suppress are omitted. `judge` may be a cached `judge_cell`.
     """
     found: tuple[Diagnostic, ...] = ()
     if scenes is not None:
         from skillc.services.task_checks import check_tasks_in_scenes
 
-        found = (*scenes.problems, *check_tasks_in_scenes(compiled, program, scenes, display_path))
+        found = (*scenes.problems, *check_tasks_in_scenes(compiled, program, scenes, display_path, judge))
     values = check_values(compiled, program, scenes, found, display_path)
     return without_suppressed((*found, *values), sources)
 

@@ -6,7 +6,7 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -15,8 +15,9 @@ from skillc.services.files import inspect_path
 from skillc.services.project import project as projects
 from skillc.services.project.project import Project
 from skillc_compiler.emit.headers import is_generated
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 
 SHIPPED = projects.SHIPPED
@@ -46,8 +47,21 @@ class LibraryFiles:
 
     def display_path(self, path: str) -> str:
         """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""
-        file, here = self.places.get(path) or catalogue.ROOT / path, Path.cwd()
-        return str(file.relative_to(here) if file.is_relative_to(here) else file)
+        file = str(self.places.get(path) or catalogue.ROOT / path)
+        return file.removeprefix(os.path.join(os.getcwd(), ""))  # noqa: PTH109, PTH118 - of each file of a library
+
+    def with_display_paths(self, problem: Diagnostic) -> Diagnostic:
+        """Return a diagnostic with paths as they are displayed."""
+
+        def shown(span: Span) -> Span:
+            return replace(span, path=self.display_path(span.path))
+
+        return replace(
+            problem,
+            span=shown(problem.span),
+            labels=tuple(replace(label, span=shown(label.span)) for label in problem.labels),
+            fix=replace(problem.fix, span=shown(problem.fix.span)) if problem.fix else None,
+        )
 
 
 def find_library(path: Path) -> LibraryFiles:

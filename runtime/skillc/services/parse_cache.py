@@ -8,10 +8,10 @@ from __future__ import annotations
 import hashlib
 import io
 import pickle
-from functools import cache, lru_cache
+from functools import lru_cache
 from pathlib import Path
 
-from skillc.services.check_cache import describe_installation
+from skillc.services.check_cache import installation_digest
 from skillc_dsl import cache as files
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
@@ -67,7 +67,7 @@ def _entry(source: Source) -> Path | None:
     folder = _folder()
     if folder is None:
         return None
-    digest = hashlib.sha256(_installation())
+    digest = hashlib.sha256(installation_digest())
     for part in (source.path, source.text):
         content = part.encode("utf-8", "surrogateescape")
         digest.update(b"%d:" % len(content) + content)
@@ -77,9 +77,3 @@ def _entry(source: Source) -> Path | None:
 def _folder() -> Path | None:
     folder = files.cache_folder()
     return folder / "parsed" if folder else None
-
-
-@cache
-def _installation() -> bytes:
-    """Return the digest of the state of skillc and Python."""
-    return hashlib.sha256("\n".join(describe_installation()).encode("utf-8", "surrogateescape")).digest()

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import TypeAlias
 
 from skillc.services import scene_diagnostics, value_checks
-from skillc.services.cell_checks.report import CellProblem, cell_problems, used_individuals
+from skillc.services.cell_checks.report import CellJudge, CellProblem, cell_problems, used_individuals
+from skillc.services.cell_checks.verdicts import judge_cell
 from skillc.services.device_checks import check_controllers, check_sheets
 from skillc.services.task_scenes import TaskScenes
 from skillc_compiler.program.typed import Program
@@ -41,15 +42,19 @@ LONGEST_TASK = 10
 
 
 def check_tasks_in_scenes(
-    compiled: Outcome[SkillLibrary], program: Program, scenes: TaskScenes, display_path: DisplayPath
+    compiled: Outcome[SkillLibrary],
+    program: Program,
+    scenes: TaskScenes,
+    display_path: DisplayPath,
+    judge: CellJudge | None = None,
 ) -> list[Diagnostic]:
     """Return the diagnostics of tasks that cannot succeed, individuals without implementations, and unusable arms.
 
     What tasks with parameters do depends on their arguments, and is checked when they run. What is wrong in a cell is
     reported there, with the tasks that it stops, and not at these again.
 
-    `program` is the compiled program. Libraries and scenes with errors are skipped, and so is what compiling has
-    reported. What affects several tasks is reported at the first.
+    `program` is the compiled program, `judge` may be a cached `judge_cell`. Libraries and scenes with errors are
+    skipped, and so is what compiling has reported. What affects several tasks is reported at the first.
     """
     if not compiled.ok:
         return []
@@ -57,7 +62,7 @@ def check_tasks_in_scenes(
     errors: list[Diagnostic] = []
     places = value_checks.value_places(program)
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
-    cells = {path: list(_of_cell(path, scenes, known)) for path in scenes.valid}
+    cells = {path: list(_of_cell(path, scenes, known, judge or judge_cell)) for path in scenes.valid}
     stopped: dict[CellProblem, list[Label]] = {}
     for name, path in scenes.files.items():
         if path in scenes.valid and name in known:
@@ -74,11 +79,11 @@ def check_tasks_in_scenes(
     return [*errors, *others, *(_with_tasks(each, stopped) for found in cells.values() for each in found)]
 
 
-def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task]) -> Iterator[CellProblem]:
+def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task], judge: CellJudge) -> Iterator[CellProblem]:
     """Yield what is wrong in the cell of a scene, with regard to the tasks in it."""
     tasks = [known[name] for name, file in scenes.files.items() if file == path and name in known]
     goals = [each.goal for each in tasks if each.goal is not None]
-    yield from cell_problems(scenes.valid[path], str(path), _used_in(tasks, scenes.valid[path]), goals)
+    yield from cell_problems(scenes.valid[path], str(path), _used_in(tasks, scenes.valid[path]), goals, judge)
 
 
 def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[Label]]) -> Diagnostic:

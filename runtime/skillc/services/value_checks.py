@@ -98,6 +98,11 @@ def unknown_value(
     return Diagnostic("unknown-value", span, message, did_you_mean(wrong.text, wrong.known), severity, labels, fix)
 
 
+def files_with_texts(program: Program) -> frozenset[str]:
+    """Return the library's own files with texts that may name something."""
+    return frozenset(each.span.path for each in _given(program))
+
+
 def _given(program: Program) -> Iterator[_GivenText]:
     """Yield the texts in a library's own files that are arguments, defaults and local values."""
     own = _own(program)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NoReturn, TypeAlias
 
 from skillc.services.check_cache import named_scenes
-from skillc.services.checking import CheckRequest, CheckResult, check_sources, read_libraries
+from skillc.services.checking import CheckRequest, CheckResult, Memos, check_sources, read_libraries
 from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles
 from skillc.services.reporting import Reporter
@@ -31,13 +31,14 @@ def watch_sources(request: CheckRequest, show: Show, reporter: Reporter) -> NoRe
     """
     if find_spec("watchfiles") is None:
         raise RequestError("--watch needs the package watchfiles: pip install 'skillc[editor]'")
+    memos: Memos = {}
     wanted = _roots(request, read_libraries(request))
     while True:
         folders = _present(wanted)
         changes = _changes(folders)
         next(changes)
         while folders == _folders(wanted):
-            wanted = _check(request, show, reporter) or wanted
+            wanted = _check(request, show, reporter, memos) or wanted
             if folders == _folders(wanted):
                 reporter.say("waiting for changes; press Ctrl-C to stop")
                 _await(changes, folders, wanted)
@@ -83,13 +84,13 @@ def _number(path: Path) -> int | None:
         return None
 
 
-def _check(request: CheckRequest, show: Show, reporter: Reporter) -> tuple[Path, ...]:
+def _check(request: CheckRequest, show: Show, reporter: Reporter, memos: Memos) -> tuple[Path, ...]:
     """Check, show the result and the time it took; return the folders of all files, none if unreadable."""
     reporter.say(f"[{datetime.now():%H:%M:%S}] checking")
     start = time.perf_counter()
     try:
         libraries = read_libraries(request)
-        result = check_sources(request, libraries)
+        result = check_sources(request, libraries, memos)
     except DiagnosticsError as error:
         show(CheckResult(tuple(error.diagnostics), dict(error.texts)))
         return ()

@@ -7,7 +7,7 @@ another folder or changes the vocabulary is checked, and refused.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -15,6 +15,7 @@ from pathlib import Path
 import msgspec
 from msgspec import structs
 
+from skillc.cells.library import find_modules, module_of
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import LibraryFiles, find_library
@@ -101,7 +102,7 @@ def _check(path: Path, basis: LibraryBasis) -> CheckedLibrary | LibraryRefused:
             return LibraryRefused(f"it now reads {folder}, with which the server was not started; {RESTART}")
     library = compile_valid(find_library(path))
     for each in library.implementations.values():
-        if isinstance(each.body, Primitive) and not _is_known(module := _module_of(each.body.python), basis):
+        if isinstance(each.body, Primitive) and not _is_known(module := module_of(each.body.python), basis):
             why = f"`{each.name}` names the Python module {module}, with which the server was not started; {RESTART}"
             return LibraryRefused(f"{each.source}: {why}")
     if digest_vocabulary(library.vocabulary) != basis.vocabulary:
@@ -116,20 +117,6 @@ def find_folders(files: LibraryFiles) -> tuple[str, ...]:
     return tuple(dict.fromkeys(str(each.resolve()) for each in (*folders, *catalogue.user_folders())))
 
 
-def find_modules(library: SkillLibrary) -> Iterator[str]:
-    """Yield the Python modules that a library and its vocabulary name."""
-    for each in library.implementations.values():
-        if isinstance(each.body, Primitive):
-            yield _module_of(each.body.python)
-    known = library.vocabulary
-    computed = (
-        *(each.computed_by for each in known.relations.values()),
-        *(each.computed_by for each in known.properties.values()),
-    )
-    yield from (_module_of(each) for each in computed if each is not None)
-    yield from (_module_of(each.python) for each in known.functions.values())
-
-
 def digest_vocabulary(vocabulary: Vocabulary) -> str:
     """Return a digest of the meaning of all terms; places and comments are not part of it."""
     tables = (vocabulary.classes, vocabulary.relations, vocabulary.properties, vocabulary.functions)
@@ -140,10 +127,6 @@ def digest_vocabulary(vocabulary: Vocabulary) -> str:
 def encode_library(library: SkillLibrary) -> bytes:
     """Return a library for a cell."""
     return msgspec.msgpack.encode(library)
-
-
-def _module_of(python: str) -> str:
-    return python.partition(":")[0]
 
 
 def _is_known(module: str, basis: LibraryBasis) -> bool:

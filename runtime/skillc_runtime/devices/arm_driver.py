@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
-from skillc_runtime.motion.joint import JointTrajectory
-from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
+
+if TYPE_CHECKING:
+    # Compiled functions are slow to import, and whoever only reads gains needs none.
+    from skillc_runtime.motion.joint import JointTrajectory
+    from skillc_runtime.motion.pose import Array, Pose
+    from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 
 
 class Infeasible(ValueError):

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from math import inf
 
 FAST, REAL = inf, 1.0
+SLOWEST = 0.01
+"""The least pace: a tick of 10 ms takes a second, so that what takes effect in the next one does so soon."""
 PACES = (0.1, 0.25, 0.5, REAL, 2.0, 4.0, 8.0, FAST)
 """The paces between which a user changes."""
 
@@ -61,8 +63,9 @@ def parse_pace(text: str) -> float:
         factor = float(text)
     except ValueError:
         factor = 0.0
-    if not 0.0 < factor < inf:
-        raise ValueError(f"`{text}` is no pace; write `fast`, `real`, or a factor such as `0.5` for half of real time")
+    if not SLOWEST <= factor < inf:
+        form = f"write `fast`, `real`, or a factor from {SLOWEST:g}, such as `0.5` for half of real time"
+        raise ValueError(f"`{text}` is no pace; {form}")
     return factor
 
 

@@ -37,14 +37,11 @@ export interface components {
             factor: number | null;
         };
         /**
-         * StopAll
-         * @description Why everything is stopped.
+         * StopReason
+         * @description Why an operation, or everything, is stopped. No form of it is a reason not to stop: a long one is cut.
          */
-        StopAll: {
-            /**
-             * @description Why, for the history.
-             * @default stopped
-             */
+        StopReason: {
+            /** @default stopped */
             reason?: string;
         };
         /**
@@ -620,14 +617,6 @@ export interface components {
             breakpoints: string[];
             /** @default  */
             who?: string;
-        };
-        /**
-         * StopReason
-         * @description Why an operation is stopped.
-         */
-        StopReason: {
-            /** @default stopped */
-            reason?: string;
         };
         /**
          * Envelope
@@ -2442,6 +2431,8 @@ export interface components {
             /** @enum {unknown} */
             role: "admin" | "edit" | "operate" | "view";
             created_ns: number;
+            /** @default false */
+            agent?: boolean;
         };
         /**
          * MadeToken
@@ -2455,12 +2446,14 @@ export interface components {
         };
         /**
          * NewToken
-         * @description A token to be made.
+         * @description A token to be made. What an `agent` asks for waits for the approval of somebody else.
          */
         NewToken: {
             name: string;
             /** @enum {unknown} */
             role: "admin" | "edit" | "operate" | "view";
+            /** @default false */
+            agent?: boolean;
         };
         /**
          * TrialSeries

@@ -105,7 +105,8 @@ function readStored(): void {
   );
 }
 
-async function readSignals(id: string): Promise<Plotted | null> {
+/** Read the recorded forces of an operation; null if it has none. */
+export async function readSignals(id: string): Promise<Plotted | null> {
   let plot: PlotColumns | null = null;
   let after: number | null = null;
   for (let more = true; more;) {

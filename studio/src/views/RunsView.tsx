@@ -1,34 +1,53 @@
 // Runs: what has run in the cell, with search; one is shown, replayed, or compared with another.
 import { signal } from "@preact/signals";
+import { useEffect, useState } from "preact/hooks";
 import { api } from "../api/client";
 import type { OperationStatus } from "../api/types";
 import { attempt, showOperation } from "../state/actions";
-import { openRecording, replayOperation } from "../state/replay";
-import { cellName, operationId, operations, replay } from "../state/studio";
+import { compareRuns } from "../state/comparison";
+import { hasWords, readOlder, searchHistory } from "../state/history";
+import { replayOperation } from "../state/replay";
+import { cellName, operationId, operations, replay, status } from "../state/studio";
 import { describeFailure, describeRequest } from "../state/text";
-import { compare, Comparison } from "./Comparison";
+import { openFile } from "./Dropping";
+import { choosing } from "./layout";
+import { formatStart, newestFirst } from "./run_times";
 import { RunBadge } from "./status";
-import { choosing, runTab } from "./layout";
 
 const search = signal("");
+const SEARCH_MS = 250;
+/** How many runs the page has at first. */
+const FIRST_PAGE = 50;
 
 export function RunsView() {
-  const text = search.value.toLowerCase();
-  const all = [...operations.value.values()].filter((each) => each.cell === cellName.value).sort(newestFirst);
-  const shown = all.filter((each) =>
-    `${each.id} ${describeRequest(each.request)} ${each.state}`.toLowerCase().includes(text),
-  );
+  const text = search.value;
+  const cell = cellName.value;
+  const [hasMore, setHasMore] = useState(true);
+  useEffect(() => {
+    if (cell === null || text.trim() === "") return setHasMore(true);
+    let isCurrent = true;
+    const timer = window.setTimeout(() => {
+      void searchHistory(cell, text).then((more) => isCurrent && setHasMore(more));
+    }, SEARCH_MS);
+    return () => {
+      isCurrent = false;
+      window.clearTimeout(timer);
+    };
+  }, [cell, text]);
+  const all = [...operations.value.values()].filter((each) => each.cell === cell).sort(newestFirst);
+  const shown = all.filter((each) => hasWords(each, text));
+  const last = shown.at(-1);
   return (
-    <div class="runs" onDragOver={(event) => event.preventDefault()} onDrop={(event) => void dropped(event)}>
+    <div class="runs">
       <div class="view-tools row">
         <input
           type="search"
-          placeholder={`Search in ${all.length} runs`}
+          placeholder="Search: task, thing, person, state"
           aria-label="Search in the runs"
-          value={search.value}
+          value={text}
           onInput={(event) => (search.value = event.currentTarget.value)}
         />
-        <label class="button-like">
+        <label class="button-like" title="Play a recording (.mcap); it can also be dropped on the page">
           Open file
           <input
             type="file"
@@ -39,11 +58,11 @@ export function RunsView() {
         </label>
       </div>
       <div class="scroll">
-        {shown.length === 0 ? (
+        {last === undefined ? (
           <div class="empty">
             {all.length === 0
-              ? "Nothing has run in this cell yet. Drop a recording (.mcap) here to play it."
-              : "No run has this text."}
+              ? "Nothing has run in this cell yet. Drop a recording (.mcap) on the page to play it."
+              : "No run of this cell has these words."}
           </div>
         ) : (
           <ul>
@@ -52,32 +71,19 @@ export function RunsView() {
             ))}
           </ul>
         )}
+        {cell !== null && last !== undefined && hasMore && all.length >= FIRST_PAGE && (
+          <button class="plain older" onClick={() => void readOlder(cell, last, text).then(setHasMore)}>
+            Show older runs
+          </button>
+        )}
       </div>
     </div>
   );
 }
 
-function newestFirst(one: OperationStatus, other: OperationStatus): number {
-  return startOf(other).localeCompare(startOf(one));
-}
-
-/** Return when an operation was submitted, as its id says: `20260131T120000Z`. */
-function startOf(operation: OperationStatus): string {
-  return /\d{8}T\d{6}Z/.exec(operation.id)?.[0] ?? "";
-}
-
-function formatStart(operation: OperationStatus): string {
-  const [, year, month, day, hour, minute, second] =
-    /(\d{4})(\d\d)(\d\d)T(\d\d)(\d\d)(\d\d)Z/.exec(operation.id) ?? [];
-  if (year === undefined) return "";
-  return new Date(`${year}-${month}-${day}T${hour}:${minute}:${second}Z`).toLocaleString(undefined, {
-    dateStyle: "short",
-    timeStyle: "medium",
-  });
-}
-
 function Run({ run }: { run: OperationStatus }) {
   const isShown = run.id === operationId.value && replay.value === null;
+  const first = status.value;
   const show = (): void => {
     choosing.value = false;
     showOperation(run);
@@ -99,8 +105,12 @@ function Run({ run }: { run: OperationStatus }) {
         <button class="plain small" onClick={() => void attempt(() => replayOperation(run.id))}>
           Replay
         </button>
-        {!isShown && (
-          <button class="plain small" onClick={() => void compare(run.id)}>
+        {first !== null && first.id !== run.id && (
+          <button
+            class="plain small"
+            title="Side by side: the run that is shown (A), and this one (B)"
+            onClick={() => void compareRuns(first, run)}
+          >
             Compare
           </button>
         )}
@@ -108,7 +118,6 @@ function Run({ run }: { run: OperationStatus }) {
           Download
         </button>
       </div>
-      <Comparison run={run.id} />
     </li>
   );
 }
@@ -122,19 +131,8 @@ async function download(id: string): Promise<void> {
   URL.revokeObjectURL(link.href);
 }
 
-async function dropped(event: DragEvent): Promise<void> {
-  event.preventDefault();
-  const file = event.dataTransfer?.files[0];
-  if (file !== undefined) await open(file);
-}
-
 async function chosen(input: HTMLInputElement): Promise<void> {
   const file = input.files?.[0];
-  if (file !== undefined) await open(file);
+  if (file !== undefined) await openFile(file);
   input.value = "";
-}
-
-async function open(file: File): Promise<void> {
-  await attempt(async () => openRecording(file.name, await file.arrayBuffer()));
-  runTab.value = "run";
 }

@@ -1,6 +1,10 @@
 // The page once somebody is logged in: the bar on top and five panels.
+import { computed } from "@preact/signals";
+import { comparison } from "../state/comparison";
 import { operation } from "../state/studio";
+import { ComparisonPage } from "./ComparisonPage";
 import { Details } from "./Details";
+import { Dropping } from "./Dropping";
 import { EventsView } from "./EventsView";
 import { Help } from "./Help";
 import { detailsTab, maximised, runTab, sizes } from "./layout";
@@ -17,6 +21,9 @@ import { TopBar } from "./TopBar";
 import { TreePanel } from "./TreeView";
 import { WorldView } from "./WorldView";
 
+/** Whether a view has the place of the panels. */
+const isCovered = computed(() => comparison.value !== null);
+
 export function Workspace() {
   const { left, middle, upper, scene } = sizes.value;
   const style = {
@@ -29,12 +36,18 @@ export function Workspace() {
     "--signals": `${1 - scene}fr`,
   };
   return (
-    <div class="page">
+    <Dropping>
       <div>
         <TopBar />
         <ReplayBar />
       </div>
-      <main class="workspace" style={style} data-maximised={maximised.value ?? undefined}>
+      {comparison.value !== null && <ComparisonPage shown={comparison.value} />}
+      <main
+        class="workspace"
+        style={style}
+        hidden={isCovered.value}
+        data-maximised={maximised.value ?? undefined}
+      >
         <RunColumn />
         <Splitter of="left" label="Width of the run panel" vertical min={240} max={480} perPixel={() => 1} />
         <div class="column column-middle">
@@ -74,7 +87,7 @@ export function Workspace() {
       </main>
       <Messages />
       <Help />
-    </div>
+    </Dropping>
   );
 }
 

@@ -58,6 +58,7 @@ export async function drawPlot(
         scale: each.unit,
         stroke: themeColour(`line${(index % 4) + 1}`),
         width: 1.5,
+        spanGaps: true,
         ...(index % 2 === 1 ? { dash: [5, 3] } : {}),
         value: (_: uPlot, value: number | null) => format(value, each.unit),
       })),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,6 +25,16 @@ LATEST_NS = 2**63 - 1
 """A wall time after all others: the clock may have been set back since something was recorded."""
 LATEST_WRITE = 2**63 - 1
 """A number after those of all writes."""
+_REQUESTED = ("task", "goal", "call", "owner", "continues", "arguments")
+_ENDED = ("state", "failure.message")
+_SEARCHED = " || ' ' || ".join(
+    [
+        "id",
+        *(f"coalesce(json_extract(CAST(request AS TEXT), '$.{each}'), '')" for each in _REQUESTED),
+        *(f"coalesce(json_extract(CAST(ended AS TEXT), '$.{each}'), '')" for each in _ENDED),
+    ]
+)
+"""The text of an operation that words are looked for in, as SQL."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +85,14 @@ class JournalReader:
         found = self._select("WHERE id = ?", operation)
         return found[0] if found else None
 
-    def latest(self, before_ns: int, limit: int) -> tuple[RecordedOperation, ...]:
-        """Return the last operations that were submitted before a wall time in ns since 1970, the last one first."""
-        return self._select("WHERE submitted_ns < ? ORDER BY submitted_ns DESC, id LIMIT ?", before_ns, limit)
+    def latest(self, before_ns: int, limit: int, words: Sequence[str] = ()) -> tuple[RecordedOperation, ...]:
+        """Return the last operations that were submitted before a wall time in ns since 1970, the last one first.
+
+        Those in which all words occur: in the id, in what was requested and by whom, or in how it ended.
+        """
+        matching = f" AND instr(lower({_SEARCHED}), ?)" * len(words)
+        where = f"WHERE submitted_ns < ?{matching} ORDER BY submitted_ns DESC, id LIMIT ?"
+        return self._select(where, before_ns, *(each.lower() for each in words), limit)
 
     def envelopes(self, operation: str, after: int = 0, limit: int = MAX_EVENTS) -> tuple[Envelope, ...]:
         """Return the events of an operation after number `after`, at most `limit` of them."""

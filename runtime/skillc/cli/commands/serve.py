@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, PATH, grouped_option
-from skillc.cli.serving import DEFAULT_BIND, parse_address, require_server
+from skillc.cli.options import PATH, grouped_option
+from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_server
 
 if TYPE_CHECKING:
     from skillc.services.backends import BackendName
@@ -28,19 +28,8 @@ skillc serve --bind 0.0.0.0:8421 --host cells.example.org:8421 --tls-cert chain.
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("libraries", metavar="[LIBRARY]..", type=PATH, nargs=-1)
-@click.option("--cell", "scenes", type=PATH, multiple=True, help="A scene to run as a cell. Can be repeated.")
+@cell_options
 @click.option("--bind", default=DEFAULT_BIND, show_default=True, metavar="HOST:PORT", help="Listen to this address.")
-@click.option("--state", type=FOLDER, default=Path(".skillc"), show_default=True, help="Keep the state in this folder.")
-@click.option(
-    "--backend",
-    type=click.Choice(("mujoco", "kinematic")),
-    default="mujoco",
-    show_default=True,
-    help="Simulate with physics, or with ideal motion and contact.",
-)
-@click.option(
-    "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
-)
 @click.option("--token-file", type=PATH, help="Keep the token of the command line in this file.")
 @click.option("--log", "log_file", type=PATH, help="Write what is requested to this file, as JSON lines.")
 @grouped_option(

@@ -18,8 +18,7 @@ from urllib.parse import urlencode
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, PATH
-from skillc.cli.serving import DEFAULT_BIND, parse_address, require_server
+from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_server
 
 if TYPE_CHECKING:
     from skillc.services.backends import BackendName
@@ -35,23 +34,12 @@ skillc studio --no-browser
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("what", metavar="[LIBRARY|TASK]", required=False)
-@click.option("--cell", "scenes", type=PATH, multiple=True, help="A scene to run as a cell. Can be repeated.")
+@cell_options
 @click.option("--no-browser", is_flag=True, help="Print the address, with the code, instead of opening a browser.")
 @click.option(
     "--bind",
     metavar="HOST:PORT",
     help=f"Listen to this address of this machine; by default {DEFAULT_BIND}, or another port if that is in use.",
-)
-@click.option("--state", type=FOLDER, default=Path(".skillc"), show_default=True, help="Keep the state in this folder.")
-@click.option(
-    "--backend",
-    type=click.Choice(("mujoco", "kinematic")),
-    default="mujoco",
-    show_default=True,
-    help="Simulate with physics, or with ideal motion and contact.",
-)
-@click.option(
-    "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."
 )
 def command(
     what: str | None,

@@ -25,11 +25,12 @@ def command() -> None:
 @command.command(cls=Command, examples="skillc token add ada --role operate")
 @click.argument("name")
 @click.option("--role", type=click.Choice(("view", "operate", "edit", "admin")), required=True, help="What it may do.")
+@click.option("--agent", is_flag=True, help="For a program that decides by itself: others approve what it submits.")
 @server_options
-def add(name: str, role: Role) -> None:
+def add(name: str, role: Role, agent: bool) -> None:
     """Make the token NAME and print it; it is not shown again."""
     with connect_server() as server:
-        click.echo(server.add_token(name, role))
+        click.echo(server.add_token(name, role, agent))
 
 
 @command.command("list", cls=Command)
@@ -45,7 +46,8 @@ def list_tokens(as_json: bool) -> None:
         print_json(tokens)
     else:
         dates = [f"{datetime.fromtimestamp(each.created_ns / 1e9, UTC):%Y-%m-%d}" for each in tokens]
-        rows = [(each.name, each.role, date) for each, date in zip(tokens, dates, strict=True)]
+        kinds = [f"{each.role}, agent" if each.agent else each.role for each in tokens]
+        rows = [(each.name, kind, date) for each, kind, date in zip(tokens, kinds, dates, strict=True)]
         print_lines(page_of(sys.stdout).columns(rows))
 
 

@@ -49,11 +49,11 @@ class Sessions:
         The hash of the secret is looked up, so the time that it takes tells nothing about other sessions.
         """
         row = self.database.execute(
-            "SELECT name, role, tokens.hash FROM sessions JOIN tokens ON tokens.hash = token "
+            "SELECT name, role, tokens.hash, agent FROM sessions JOIN tokens ON tokens.hash = token "
             "WHERE sessions.hash = ? AND ends_ns > ?",
             (_hash(secret), time.time_ns()),
         ).fetchone()
-        return Client(*row) if row is not None else None
+        return Client(row[0], row[1], row[2], bool(row[3])) if row is not None else None
 
     def _forget(self, token: bytes, now_ns: int) -> None:
         """Remove the sessions that have ended, those of revoked tokens, and those of a token beyond the newest ones."""

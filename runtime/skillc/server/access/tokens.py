@@ -22,17 +22,22 @@ CREATE TABLE tokens (
     name       TEXT PRIMARY KEY,
     role       TEXT NOT NULL,
     hash       BLOB NOT NULL UNIQUE,           -- SHA-256 of the token, which has 256 random bits
-    created_ns INTEGER NOT NULL
+    created_ns INTEGER NOT NULL,
+    agent      INTEGER NOT NULL                -- whether a program that decides by itself has it
 ) WITHOUT ROWID
 """
 
 
 class Client(msgspec.Struct, frozen=True):
-    """Who makes a request: the name of its token, what it may do, and the hash of the token."""
+    """Who makes a request: the name of its token, what it may do, and the hash of the token.
+
+    What an `agent` asks for waits for the approval of somebody else.
+    """
 
     name: str
     role: Role
     token: bytes
+    agent: bool = False
 
 
 class TokenInfo(msgspec.Struct, frozen=True):
@@ -41,6 +46,7 @@ class TokenInfo(msgspec.Struct, frozen=True):
     name: str
     role: Role
     created_ns: int
+    agent: bool = False
 
 
 class TokenExists(Exception):
@@ -53,20 +59,20 @@ class Tokens:
 
     database: sqlite3.Connection
 
-    def add(self, name: str, role: Role) -> str:
+    def add(self, name: str, role: Role, agent: bool = False) -> str:
         """Make a token and return it: it cannot be read again. TokenExists if the name is taken."""
         token = PREFIX + token_urlsafe(TOKEN_BYTES)
-        row = (name, role, _hash(token), time.time_ns())
+        row = (name, role, _hash(token), time.time_ns(), agent)
         try:
-            self.database.execute("INSERT INTO tokens (name, role, hash, created_ns) VALUES (?, ?, ?, ?)", row)
+            self.database.execute("INSERT INTO tokens VALUES (?, ?, ?, ?, ?)", row)
         except sqlite3.IntegrityError as error:
             raise TokenExists(f"there is already a token `{name}`; revoke it first, or choose another name") from error
         return token
 
     def list(self) -> tuple[TokenInfo, ...]:
         """Return all tokens, sorted by name."""
-        rows = self.database.execute("SELECT name, role, created_ns FROM tokens ORDER BY name")
-        return tuple(TokenInfo(*row) for row in rows)
+        rows = self.database.execute("SELECT name, role, created_ns, agent FROM tokens ORDER BY name")
+        return tuple(TokenInfo(name, role, created_ns, bool(agent)) for name, role, created_ns, agent in rows)
 
     def revoke(self, name: str) -> bool:
         """Remove a token; return whether there was one of this name."""
@@ -81,8 +87,10 @@ class Tokens:
 
     def find_hash(self, hashed: bytes) -> Client | None:
         """Return whose token it is that has a hash; None if there is none such."""
-        row = self.database.execute("SELECT name, role, hash FROM tokens WHERE hash = ?", (hashed,)).fetchone()
-        return Client(*row) if row is not None and hmac.compare_digest(row[2], hashed) else None
+        row = self.database.execute("SELECT name, role, hash, agent FROM tokens WHERE hash = ?", (hashed,)).fetchone()
+        if row is None or not hmac.compare_digest(row[2], hashed):
+            return None
+        return Client(row[0], row[1], row[2], bool(row[3]))
 
 
 def _hash(token: str) -> bytes:

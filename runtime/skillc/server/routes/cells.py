@@ -6,7 +6,7 @@ from http import HTTPStatus
 
 from skillc.cells.messages import Acknowledge, Message, SetPace
 from skillc.cells.operation import CellStatus
-from skillc.server.api_types import PaceSetting, StopAll
+from skillc.server.api_types import PaceSetting, StopReason
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell
 
@@ -29,7 +29,7 @@ async def acknowledge_fault(call: ApiCall) -> CellStatus:
 
 async def stop_cell(call: ApiCall) -> CellStatus:
     cell = call.server.find_cell(call.path["cell"])
-    cell.stop(f"{call.client.name}: {call.body.reason}")
+    cell.stop(f"{call.client.name}: {call.body.shown}")
     return cell.status
 
 
@@ -69,7 +69,8 @@ ENDPOINTS = (
         "Stop all operations of a cell",
         stop_cell,
         CellStatus,
-        body=StopAll,
+        body=StopReason,
+        needs_body=False,
         refusals=(NOT_FOUND,),
         unlimited=True,
     ),

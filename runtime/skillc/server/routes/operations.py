@@ -17,7 +17,7 @@ from skillc.server.api_types import StopReason
 from skillc.server.context import open_journal
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
-from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused
+from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.execution.task_state import ENDS
@@ -44,11 +44,13 @@ Command = (
 class HistoryPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Which part of a history: what was submitted before a wall time, in ns since 1970, and how much at most.
 
-    `ongoing` for all operations that have not ended instead, in the order of their submission.
+    With `search` only those in which these words occur: in the id, in what was requested and by whom, or in how it
+    ended. `ongoing` for all operations that have not ended instead, in the order of their submission.
     """
 
     before_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] | None = None
     limit: Limit = 100
+    search: Annotated[str, msgspec.Meta(max_length=200)] = ""
     ongoing: bool = False
 
 
@@ -83,6 +85,8 @@ async def show_operation(call: ApiCall) -> OperationStatus:
 
 async def give_command(call: ApiCall) -> OperationStatus:
     cell, operation = _find_running(call)
+    if call.client.agent and isinstance(call.body, commands.Approve) and operation.request.owner == call.client.name:
+        raise ApiRefusal(HTTPStatus.FORBIDDEN, "an agent cannot approve its own operation; somebody else has to")
     await command_cell(call, cell, Give(operation=operation.id, command=_sign(call.body, call.client.name)))
     return call.server.find_operation(operation.id)[1]
 
@@ -90,7 +94,7 @@ async def give_command(call: ApiCall) -> OperationStatus:
 async def stop_operation(call: ApiCall) -> OperationStatus:
     cell, operation = call.server.find_operation(call.path["operation"])
     if operation.state not in ENDS:
-        cell.stop(f"{call.client.name}: {call.body.reason}", operation.id)
+        cell.stop(f"{call.client.name}: {call.body.shown}", operation.id)
     return operation
 
 
@@ -101,7 +105,7 @@ async def list_events(call: ApiCall) -> tuple[Envelope, ...]:
 
 
 async def _submit(call: ApiCall, cell: CellSupervisor, operation: str) -> OperationStatus:
-    request: OperationRequest = structs.replace(call.body, owner=call.client.name)
+    request = sign_request(call.body, call.client)
     answer = await cell.request(Submit(operation=operation, request=request))
     if isinstance(answer, Refused) and call.key is not None and answer.kind != "off":
         call.server.keys.release(call.client.name, call.key)
@@ -123,7 +127,7 @@ def _read_history(cell: CellSupervisor, page: HistoryPage) -> Iterable[Operation
         return
     with closing(open_journal(cell)) as reader:
         before_ns = LATEST_NS if page.before_ns is None else page.before_ns
-        for each in reader.latest(before_ns, page.limit):
+        for each in reader.latest(before_ns, page.limit, page.search.split()):
             found = each.ended or cell.operations.get(each.id)
             if found is not None:
                 yield found
@@ -192,6 +196,7 @@ ENDPOINTS = (
         stop_operation,
         OperationStatus,
         body=StopReason,
+        needs_body=False,
         refusals=(NOT_FOUND,),
         unlimited=True,
     ),

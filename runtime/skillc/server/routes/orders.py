@@ -5,13 +5,15 @@ from __future__ import annotations
 from datetime import UTC, datetime, timedelta
 from http import HTTPStatus
 
+from msgspec import structs
+
 from skillc.cells.database import transaction
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
 from skillc.server.orders.order import LATE_S, Order, OrderRequest
 from skillc.server.orders.store import TooManyOrders
-from skillc.server.outcome import UNAVAILABLE
+from skillc.server.outcome import UNAVAILABLE, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.routes.world import QUERY_S
 from skillc.workers.jobs import CheckOperation
@@ -22,7 +24,8 @@ LAST = datetime(2200, 1, 1, tzinfo=UTC)
 
 
 async def add_order(call: ApiCall) -> Order:
-    cell, wanted = call.server.find_cell(call.path["cell"]).settings.name, call.body
+    cell = call.server.find_cell(call.path["cell"]).settings.name
+    wanted = structs.replace(call.body, request=sign_request(call.body.request, call.client))
     name = make_run_id(wanted.request.task or "order")
     _check(wanted, call.server.clock())
     request = wanted.request

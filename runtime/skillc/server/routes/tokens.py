@@ -16,7 +16,7 @@ async def list_tokens(call: ApiCall) -> tuple[TokenInfo, ...]:
 
 async def add_token(call: ApiCall) -> MadeToken:
     try:
-        token = call.server.state.tokens.add(call.body.name, call.body.role)
+        token = call.server.state.tokens.add(call.body.name, call.body.role, call.body.agent)
     except TokenExists as error:
         raise ApiRefusal(HTTPStatus.CONFLICT, str(error)) from error
     return MadeToken(call.body.name, call.body.role, token)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import msgspec
 
-from skillc.services.cell_checks.checks import check_cell
+from skillc.services.cell_checks.verdicts import judge_cell
 from skillc.services.scene_diagnostics import with_shown_path
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
@@ -20,6 +21,9 @@ from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.eval.explain import Obstacle
 from skillc_runtime.world.state.world_state import WorldState
+
+CellJudge: TypeAlias = Callable[[Scene, Sequence[Condition]], Iterable[SceneViolation]]
+"""Returns what is wrong in a cell, also because of goals."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,13 +69,17 @@ class CellProblem:
 
 
 def cell_problems(
-    scene: Scene, path: str, used: frozenset[str], goals: Sequence[Condition] = ()
+    scene: Scene,
+    path: str,
+    used: frozenset[str],
+    goals: Sequence[Condition] = (),
+    judge: CellJudge = judge_cell,
 ) -> Iterator[CellProblem]:
     """Yield what is wrong in the cell of a scene file at `path`.
 
-    `used` are the individuals that tasks name, `goals` those of the tasks.
+    `used` are the individuals that tasks name, `goals` those of the tasks. `judge` may be a cached `judge_cell`.
     """
-    yield from locate(grade(check_cell(scene.state, goals), used), ScenePlaces.of(scene.said, path))
+    yield from locate(grade(judge(scene, goals), used), ScenePlaces.of(scene.said, path))
 
 
 def cell_diagnostics(

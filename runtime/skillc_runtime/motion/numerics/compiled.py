@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import logging
 import os
+import sys
 from collections import namedtuple
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -73,9 +74,28 @@ def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Paramet
             made.disable_compile()
         return machine_code
 
-    made.compile = compile_once
+    made.compile, made.compile_now = compile_once, partial(compile_once, None)
     lazy: Callable[Parameters, Result] = made
     return lazy
+
+
+def has_stored_code() -> bool:
+    """Whether machine code of this version was stored before, or none is needed."""
+    base = cache_folder()
+    return not COMPILES or (base is not None and (base / f"laws-{_digest()}").is_dir())
+
+
+def compile_imported() -> None:
+    """Compile, or load, the functions of all modules that are imported, as their first calls would.
+
+    So nothing is compiled later, where it would hold up a loop: each takes up to seconds once for a version.
+    """
+    for name, module in sorted(sys.modules.items()):
+        if name.startswith("skillc_runtime."):
+            for value in tuple(vars(module).values()):
+                compile_now = getattr(value, "compile_now", None) if callable(value) else None
+                if compile_now is not None:
+                    compile_now()
 
 
 def inlined(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
@@ -114,6 +134,7 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     names["flat"] = _compiled_lazily(names["flat"])
     call: Any = names["call"]
     call.__doc__, call.__name__, call.bind = function.__doc__, function.__name__, names["bind"]
+    call.compile_now = names["flat"].compile_now
     unpacking: Callable[Parameters, Result] = call
     return unpacking
 

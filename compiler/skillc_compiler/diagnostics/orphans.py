@@ -1,0 +1,77 @@
+"""Finds declarations that nothing uses: one may have lost its name, so that whatever uses it says an unknown one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program.typed import Program, Skill
+from skillc_compiler.program.unknown import LIBRARY, UnknownName
+from skillc_compiler.program.walk import all_calls, all_values, conditions_in
+from skillc_dsl import syntax as s
+from skillc_dsl.source import Span
+from skillc_model.conditions import Given, Invoke
+
+
+def find_orphan(program: Program, unknown: UnknownName) -> s.Name | None:
+    """Return the only declaration of the kind and the owner of an unknown name that nothing uses, or None.
+
+    Of several, the one in the file of the unknown name is meant.
+    """
+    found = [*(_unused_terms if unknown.owner == LIBRARY else _unused_members)(program, unknown)]
+    here = [name for name in found if name.span.path == unknown.written.span.path]
+    return next((each[0] for each in (found, here) if len(each) == 1), None)
+
+
+def _unused_terms(program: Program, unknown: UnknownName) -> Iterator[s.Name]:
+    """Yield the names of unused skills or functions, whatever is missing."""
+    called = {call.skill.name for call in all_calls(program) if call.skill is not None}
+    invoked = {value.meaning.function for value in all_values(program) if isinstance(value.meaning, Invoke)}
+    for declaration in (d for unit in program.files for d in unit.file.declarations):
+        match declaration:
+            case s.SkillDeclaration(name=name) if unknown.kind == "skill":
+                if name.text not in called and not program.implementations_of.get(name.text):
+                    yield name
+            case s.FunctionDeclaration(name=name) if unknown.kind == "function":
+                if name.text not in invoked:
+                    yield name
+            case _:
+                pass
+
+
+def _unused_members(program: Program, unknown: UnknownName) -> Iterator[s.Name]:
+    """Yield the names of unused implementations, or parameters and other values, of the skill that lacks a name.
+
+    A skill that runs Python uses all its parameters.
+    """
+    if any(isinstance(each.body, s.RunPython) for each in program.implementations_of.get(unknown.owner or "", ())):
+        return
+    chosen = {call.implementation for call in all_calls(program) if call.skill and call.skill.name == unknown.owner}
+    used = _used_places(program)
+    for declaration in (d for unit in program.files for d in unit.file.declarations):
+        match declaration:
+            case s.ImplementationDeclaration(name=name, skill=s.Name(text=skill), members=members):
+                if skill == unknown.owner and unknown.kind == "implementation":
+                    yield from () if name.text in chosen else (name,)
+            case s.SkillDeclaration(name=s.Name(text=skill), members=members):
+                pass
+            case _:
+                continue
+        if skill == unknown.owner and unknown.kind in ("parameter", "argument"):
+            names = (member.name for member in members if isinstance(member, s.Parameter | s.Let))
+            yield from (name for name in names if name.span not in used)
+
+
+def _used_places(program: Program) -> frozenset[Span]:
+    """Return the declarations of the values that are read, and of the parameters that are passed or named."""
+    found = {value.declared for value in all_values(program) if value.declared is not None}
+    named = [(call.skill, argument.name.text) for call in all_calls(program) for argument in call.arguments]
+    named += [(skill, device.parameter.text) for skill in program.skills.values() for device in skill.devices]
+    named += [(skill, name) for skill in program.skills.values() for name in _given_names(skill)]
+    parameters = (skill.parameter(name) for skill, name in named if skill is not None)
+    return frozenset({*found, *(parameter.span for parameter in parameters if parameter is not None)})
+
+
+def _given_names(skill: Skill) -> Iterator[str]:
+    """Yield the parameters that are asked for by `given`."""
+    parts = (part for requirement in skill.requirements for part in conditions_in(requirement.condition))
+    yield from (part.meaning.parameter for part in parts if isinstance(part.meaning, Given))

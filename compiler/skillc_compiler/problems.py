@@ -1,0 +1,60 @@
+"""Finds the problems of a resolved program: all errors, and nothing that may only follow from them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field
+
+from skillc_compiler.checks import CheckMemo, run_checks
+from skillc_compiler.diagnostics.prefixes import with_prefix
+from skillc_compiler.diagnostics.suppressions import apply_suppressions
+from skillc_compiler.diagnostics.unknown_names import report_unknown_names
+from skillc_compiler.program.marks import Marks, Need
+from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.resolve.memo import ResolveMemo
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.source import Source
+
+
+@dataclass
+class AnalysisMemo:
+    """What the last analysis of a library has found, by declaration; the next one reuses what has not changed.
+
+    An analysis with it has the same result as one without it, whatever was analysed before.
+    """
+
+    resolve: ResolveMemo = field(default_factory=ResolveMemo)
+    checks: CheckMemo = field(default_factory=CheckMemo)
+
+
+def find_problems(
+    files: Outcome[tuple[ParsedFile, ...]],
+    program: Outcome[Program],
+    memo: AnalysisMemo | None = None,
+    paths: Collection[str] | None = None,
+) -> tuple[Diagnostic, ...]:
+    """Check a program; return the diagnostics of all errors, and nothing that may only follow from them.
+
+    With `paths`, only the declarations in these files are checked.
+    """
+    syntax = tuple(with_prefix(problem, program.value) for problem in files.diagnostics)
+    marks = Marks(program.value, ())
+    unknown = (problem for problem in report_unknown_names(program.value) if marks.allow(Need.TEXT, problem))
+    known = (*syntax, *unknown)
+    allowed = (problem for problem in program.diagnostics if marks.allow(Need.TEXT, problem))
+    resolving = [problem for problem in allowed if not marks.blames_broken(problem)]
+    return (*known, *run_checks(program.value, known, resolving, memo.checks if memo else None, paths))
+
+
+def visible_diagnostics(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics that the author of `sources` sees, in order of place; of other files only errors.
+
+    Suppressed warnings are left out.
+    """
+    own = {source.path for source in sources}
+    chosen = [problem for problem in problems if problem.severity == "error" or problem.span.path in own]
+    return tuple(
+        sorted(
+            set(apply_suppressions(chosen, sources)), key=lambda problem: (problem.span, problem.name, problem.message)
+        )
+    )

@@ -1,0 +1,120 @@
+"""Makes the requests of a client from what a program asks for; RequestError for a value that cannot be meant."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import datetime
+from typing import Any, Literal
+
+from skillc.api.boundary import (
+    optional_seconds,
+    optional_text,
+    read_arguments,
+    require_choice,
+    require_count,
+    require_text,
+)
+from skillc.cells.operation import OperationRequest
+from skillc.server.api_types import PlanRequest
+from skillc.server.orders.order import Missed, OrderRequest
+from skillc.services.errors import RequestError
+from skillc.workers.jobs import RehearsalRequest, TrialsRequest
+from skillc_runtime.evaluation.trials.trial import Disturbance
+from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S
+
+PLANNING_S, REHEARSAL_S = 30.0, 600.0
+
+Arguments = Mapping[str, Any] | None
+"""The values of a task's parameters by name."""
+
+
+def describe_operation(
+    task: str | None,
+    goal: str | None,
+    skill: str | None,
+    arguments: Arguments,
+    deadline_s: float | None,
+    step_deadline_s: float | None,
+    **settings: Any,
+) -> OperationRequest:
+    """Return a request for exactly one of a task, a goal and a skill call."""
+    if [task, goal, skill].count(None) != 2:
+        raise RequestError("name exactly one of a task, a goal and a skill call")
+    return OperationRequest(
+        task=optional_text(task, "the task"),
+        goal=optional_text(goal, "the goal"),
+        call=optional_text(skill, "the skill call"),
+        arguments=read_arguments(arguments),
+        deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
+        step_deadline_s=optional_seconds(step_deadline_s, "`step_deadline_s`"),
+        **settings,
+    )
+
+
+def describe_order(
+    request: OperationRequest,
+    at: datetime,
+    every_s: float | None,
+    until: datetime | None,
+    count: int | None,
+    missed: Missed,
+) -> OrderRequest:
+    """Return a request to submit something at a time, once or repeatedly."""
+    if at.tzinfo is None or (until is not None and until.tzinfo is None):
+        raise RequestError("`at` and `until` need their offset from UTC, such as `datetime.now(UTC)` has")
+    choice = require_choice(missed, Missed, "`missed`")
+    return OrderRequest(request, at, optional_seconds(every_s, "`every_s`"), until, count, choice)
+
+
+def describe_plan(
+    task: str | None,
+    goal: str | None,
+    arguments: Arguments,
+    minimise: Literal["work", "makespan"],
+    prove: bool,
+    deadline_s: float,
+) -> PlanRequest:
+    """Return a request for a plan."""
+    return PlanRequest(
+        task=optional_text(task, "the task"),
+        goal=optional_text(goal, "the goal"),
+        arguments=read_arguments(arguments),
+        minimise=require_choice(minimise, Literal["work", "makespan"], "`minimise`"),
+        prove=prove,
+        deadline_s=optional_seconds(deadline_s, "`deadline_s`") or PLANNING_S,
+    )
+
+
+def describe_rehearsal(
+    task: str | None,
+    goal: str | None,
+    skill: str | None,
+    arguments: Arguments,
+    seed: int,
+    deadline_s: float | None,
+    film: bool,
+) -> RehearsalRequest:
+    """Return a request for a rehearsal, with a film of it."""
+    return RehearsalRequest(
+        task=optional_text(task, "the task"),
+        goal=optional_text(goal, "the goal"),
+        call=optional_text(skill, "the skill call"),
+        arguments=read_arguments(arguments),
+        seed=seed,
+        deadline_s=optional_seconds(deadline_s, "`deadline_s`") or REHEARSAL_S,
+        film=film,
+    )
+
+
+def describe_trials(
+    task: str, arguments: Arguments, number: int, seed: int, disturb: Disturbance, deadline_s: float | None
+) -> TrialsRequest:
+    """Return a request for a series of trials."""
+    return TrialsRequest(
+        task=require_text(task, "the task"),
+        arguments=read_arguments(arguments),
+        number=require_count(number, "the number of trials", 1),
+        seed=require_count(seed, "the seed", 0),
+        disturb=require_choice(disturb, Disturbance, "`disturb`"),
+        deadline_s=optional_seconds(deadline_s, "`deadline_s`") or TRIAL_LIMIT_S,
+    )

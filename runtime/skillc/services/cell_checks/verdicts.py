@@ -1,0 +1,73 @@
+"""Caches what is wrong in cells, because finding it imports the simulator and solves inverse kinematics.
+
+The key of an entry is the digest of the facts about the cell, the goals, the user's models and the installation.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import msgspec
+
+from skillc.services.check_cache import installation_digest
+from skillc_dsl import cache
+from skillc_model.conditions import Condition
+from skillc_ontology.catalogue import user_models
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.violation import SceneViolation
+
+_MOST = 500
+"""The most entries in the cache; beyond it the older half is deleted."""
+
+
+def judge_cell(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
+    """Return everything that is wrong with the things in a cell, also because of goals, each once."""
+    # The simulator and the compiler of numerical code are slow to import.
+    from skillc.services.cell_checks.checks import check_cell
+
+    return check_cell(scene.state, goals)
+
+
+def judge_cell_once(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
+    """Return what `judge_cell` returns, from the cache if it is there."""
+    path = _entry(scene, goals)
+    found = _read(cache.load(path)) if path else None
+    if found is None:
+        found = judge_cell(scene, goals)
+        if path:
+            cache.store(path, msgspec.json.encode(found))
+            cache.delete_oldest(path.parent, _MOST, _MOST // 2)
+    return found
+
+
+def _read(body: bytes | None) -> tuple[SceneViolation, ...] | None:
+    if body is None:
+        return None
+    try:
+        return msgspec.json.decode(body, type=tuple[SceneViolation, ...])
+    except msgspec.MsgspecError:
+        return None
+
+
+def _entry(scene: Scene, goals: Sequence[Condition]) -> Path | None:
+    folder = cache.cache_folder()
+    if folder is None:
+        return None
+    digest = hashlib.sha256(installation_digest())
+    for content in _inputs(scene, goals):
+        digest.update(b"%d:" % len(content) + content)
+    return folder / "cells" / digest.hexdigest()
+
+
+def _inputs(scene: Scene, goals: Sequence[Condition]) -> Iterator[bytes]:
+    """Yield the terms, statements, goals and models that a verdict depends on."""
+    encoder = msgspec.msgpack.Encoder(order="deterministic")
+    yield encoder.encode(scene.state.vocabulary)
+    for each in scene.said:
+        yield f"{each.subject} {each.predicate} {each.object}".encode("utf-8", "surrogateescape")
+    yield encoder.encode(tuple(goals))
+    for model in user_models():
+        yield str(model).encode("utf-8", "surrogateescape")
+        yield model.read_bytes()

@@ -1,0 +1,56 @@
+"""Checks a library with all that is known from earlier checks, and stores what it finds for later ones."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from skillc.services import parse_cache
+from skillc.services.check_cache import CheckCacheEntry
+from skillc.services.edit_checks import check_edits
+from skillc.services.findings_cache import FindingsCache
+from skillc.services.library_files import LibraryFiles
+from skillc.services.snapshots import Snapshot, load_snapshot, store_snapshot, take_snapshot
+from skillc.services.value_checks import files_with_texts
+from skillc_compiler.problems import AnalysisMemo
+from skillc_dsl.diagnostics import Diagnostic
+
+
+def check_uncached(library: LibraryFiles, scene: Path | None, memo: AnalysisMemo | None) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of a library, without any cache on disk."""
+    from skillc.services.library_checks import Known, check_library
+
+    return check_library(library, scene, Known(memo=memo))
+
+
+def check_and_store(entry: CheckCacheEntry, memo: AnalysisMemo | None) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of a library without an entry in the cache, and store them unless an input changes."""
+    library = entry.library
+    before, files = load_snapshot(entry.around), FindingsCache(entry.around)
+    now = check_edits(library, before, parse_cache.parse_cached) if before else None
+    if now is not None:
+        found = now.diagnostics
+    else:
+        found, now = _check_whole(entry, memo or AnalysisMemo(), files)
+    if entry.is_current():
+        entry.store(found)
+        files.store()
+        if now is not None:
+            store_snapshot(entry.around, now)
+    parse_cache.delete_oldest_entries()
+    return found
+
+
+def _check_whole(
+    entry: CheckCacheEntry, memo: AnalysisMemo, files: FindingsCache
+) -> tuple[tuple[Diagnostic, ...], Snapshot | None]:
+    """Check everything; the result has a snapshot if the library compiles."""
+    # After an edit of a body, this is not imported.
+    from skillc.services.cell_checks.verdicts import judge_cell_once
+    from skillc.services.library_checks import Known, check_whole
+
+    memo.checks.files = files
+    known = Known(parse_cache.parse_cached, judge_cell_once, memo)
+    found, program = check_whole(entry.library, entry.scene, known)
+    if program is None:
+        return found, None
+    return found, take_snapshot(program, files.outlines, files_with_texts(program), found)

@@ -1,0 +1,129 @@
+"""A check that goes on from the last one finds what a check of everything finds; `SEQUENCES=300` tries so many."""
+
+import os
+import random
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from shipped import SKILLS
+from single_edits import apply_edits, single_edit
+from test_libraries import LIBRARIES, text_of
+
+from skillc.services import check_cache, parse_cache, snapshots
+from skillc.services.check_cache import CheckCacheEntry
+from skillc.services.edit_checks import check_edits
+from skillc.services.known_checks import check_and_store
+from skillc.services.library_checks import check_library
+from skillc.services.library_files import LibraryFiles, find_library
+
+SEQUENCES = int(os.environ.get("SEQUENCES", "4"))
+STEPS = 10
+
+
+@pytest.fixture(autouse=True)
+def cache_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(check_cache, "describe_installation", lambda: ("this one",))
+    return tmp_path / "cache" / "skillc"
+
+
+@dataclass
+class Author:
+    """Edits a library on disk."""
+
+    folder: Path
+    chance: random.Random
+
+    def begin(self) -> None:
+        """Write a library: the shipped skills with or without tasks, or one of another author."""
+        self.folder.mkdir()
+        shipped = [*(SKILLS / "std").glob("*.skill"), *(SKILLS / "contact").glob("*.skill")]
+        match self.chance.randrange(4):
+            case 0:
+                texts = {"m.skill": text_of(self.chance.choice(LIBRARIES).stem)}
+            case 1:
+                texts = {path.name: path.read_text("utf-8") for path in shipped}
+            case _:
+                texts = {path.name: path.read_text("utf-8") for path in shipped if path.stem != "tasks"}
+        for name, text in texts.items():
+            (self.folder / name).write_text(text, "utf-8")
+
+    def edit(self) -> None:
+        """Edit one file, mostly in a body; sometimes undo nothing of it for several steps."""
+        path = self.chance.choice(sorted(self.folder.glob("*.skill")))
+        text = path.read_text("utf-8")
+        new = self.chance.choices([_edit_body, _make_mistake, _move], [8, 1, 1])[0](text, self.chance)
+        path.write_text(new, "utf-8")
+
+
+def _edit_body(text: str, chance: random.Random) -> str:
+    """Remove, repeat, move or comment a line of a body, or change a number in it."""
+    lines = text.split("\n")
+    inside = _body_lines(lines)
+    if not inside:
+        return text
+    here = chance.choice(inside)
+    match chance.randrange(6):
+        case 0:
+            del lines[here]
+        case 1:
+            lines.insert(here, lines[here])
+        case 2:
+            lines.insert(here, "        # it is a comment")
+        case 3:
+            lines[here], lines[here - 1] = lines[here - 1], lines[here]
+        case 4:
+            lines[here] = "".join(chance.choice("123") if c.isdigit() and c != "0" else c for c in lines[here])
+        case _:
+            lines[here] = f"{lines[here]}  # it is a comment"
+    return "\n".join(lines)
+
+
+def _body_lines(lines: list[str]) -> list[int]:
+    """Return the numbers of the lines between a line `do .. {` and the end of its declaration."""
+    found, inside = [], False
+    for number, line in enumerate(lines):
+        inside = inside and line != "}"
+        found += [number] if inside else []
+        inside = inside or line.strip().startswith("do ")
+    return found
+
+
+def _make_mistake(text: str, chance: random.Random) -> str:
+    try:
+        return apply_edits(text, [single_edit(text, chance.randrange(10**6))])
+    except IndexError:  # a text without anything to edit
+        return text
+
+
+def _move(text: str, chance: random.Random) -> str:
+    lines = text.split("\n")
+    lines.insert(chance.randrange(len(lines)), chance.choice(["", "# it is a comment"]))
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("seed", range(SEQUENCES))
+def test_a_check_after_edits_equals_one_of_everything(
+    tmp_path: Path, seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    author, gone_on = Author(tmp_path / "mine", random.Random(seed)), []
+    author.begin()
+    for step in range(STEPS):
+        library = find_library(author.folder)
+        gone_on.append(_goes_on(library))
+        assert check_and_store(CheckCacheEntry.of(library, None), None) == check_library(library, None), f"step {step}"
+        before = {path: path.read_text("utf-8") for path in author.folder.glob("*.skill")}
+        author.edit()
+        if step % 3 == 2:
+            for path, text in before.items():
+                path.write_text(text, "utf-8")
+            author.edit()
+    assert len(gone_on) == STEPS
+    assert not gone_on[0]
+
+
+def _goes_on(library: LibraryFiles) -> bool:
+    before = snapshots.load_snapshot(CheckCacheEntry.of(library, None).around)
+    return before is not None and check_edits(library, before, parse_cache.parse_cached) is not None
