@@ -5,11 +5,12 @@ import { withPlanned } from "../src/state/planned";
 import { treeRows } from "../src/state/rows";
 
 const source = { path: "a.skill", line: 1, column: 1 };
+const kindOf = (name: string) => (name === "all" ? "parallel" : "call");
 const node = (id: number, parent: number, label: string) => ({
   id,
   parent,
   attempt: 1,
-  kind: "call",
+  kind: kindOf(label),
   label,
   source,
 });
@@ -21,19 +22,26 @@ const event = (sequence: number, id: number, parent: number, name: string): Enve
   run: "r",
   sequence,
   wall_time_ns: 0,
-  event: { type: "node-started", time: 0, node: id, parent, kind: "call", name, source },
+  event: { type: "node-started", time: 0, node: id, parent, kind: kindOf(name), name, source },
 });
 const rows = (state: Parameters<typeof treeRows>[0]): string[] =>
   treeRows(state, { all: false, folds: new Map(), filter: "" }).map(
     (each) => `${"  ".repeat(each.depth)}${each.node.name} ${each.node.status}`,
   );
 
+const PLANNED = { ...EMPTY, attempts: [{ plan: null, nodes: [], reason: "" }] };
+
 test("before anything has started the tree of the plan is there, pending", () => {
-  expect(rows(withPlanned(EMPTY, TREE))).toEqual(["all pending"]);
+  expect(rows(withPlanned(PLANNED, TREE))).toEqual(["all pending"]);
+});
+
+test("before there is a plan its tree is not there, nor what is in a call before its implementation is chosen", () => {
+  expect(rows(withPlanned(EMPTY, TREE))).toEqual([]);
+  expect(withPlanned(PLANNED, TREE).nodes.has(2)).toBe(false);
 });
 
 test("what runs is as the events say, what comes is pending, in the order of the plan", () => {
-  const state = applyEvents(EMPTY, [event(1, 9, 0, "all"), event(2, 3, 9, "B")]);
+  const state = applyEvents(PLANNED, [event(1, 9, 0, "all"), event(2, 3, 9, "B")]);
   expect(rows(withPlanned(state, TREE))).toEqual([
     "all running",
     "  A pending",
@@ -43,7 +51,7 @@ test("what runs is as the events say, what comes is pending, in the order of the
 });
 
 test("a node that the tree does not have yet stays", () => {
-  const state = applyEvents(EMPTY, [event(1, 9, 0, "all"), event(2, 7, 9, "new")]);
+  const state = applyEvents(PLANNED, [event(1, 9, 0, "all"), event(2, 7, 9, "new")]);
   expect(rows(withPlanned(state, TREE))).toContain("  new running");
 });
 

@@ -29,7 +29,7 @@ def scene(browser: Browser, bench: RunningServer) -> Iterator[Page]:
     context.set_default_timeout(8_000 * PATIENCE)
     page = context.new_page()
     open_studio(page, bench)
-    page.get_by_label("Cell", exact=True).select_option("bench")
+    page.get_by_role("combobox", name="Cell", exact=True).select_option("bench")
     page.get_by_role("button", name="Enlarge 3-D").click()
     _label(page, "name", "Part-A").wait_for()
     yield page

@@ -14,7 +14,7 @@ def test_a_tree_of_3000_nodes(context: BrowserContext, fragile: RunningServer) -
     page = context.new_page()
     open_studio(page, fragile)
     choose(page, "many")
-    press_start(page)  # the check of the whole plan takes longer
+    press_start(page)
     wait_for_state(page, "succeeded", "many")
     rows = page.locator(".tree-row")
     expect(rows.first).to_have_attribute("aria-setsize", str(WAITS))

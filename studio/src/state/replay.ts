@@ -1,7 +1,7 @@
 // Plays a recording: the same state as live, made of the events up to a time.
 import { batch, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
-import type { Envelope } from "../api/types";
+import type { Envelope, OperationTree } from "../api/types";
 import { Film } from "../recording/film";
 import { readRecording } from "../recording/recording";
 import { applyEvents, EMPTY, type OperationState } from "./operation";
@@ -19,7 +19,11 @@ export const rehearsed = signal<{ film: Film; operation: string | null } | null>
 
 /** Read the recording of an operation from the server, and play it. */
 export async function replayOperation(id: string): Promise<void> {
-  openRecording(id, await api.recording(id));
+  const tree = api.tree(id).catch((error: unknown) => {
+    if (!(error instanceof ApiError)) throw error;
+    return null;
+  });
+  openRecording(id, await api.recording(id), await tree);
 }
 
 /** Read the recording of a rehearsal from the server, and play it from its beginning. */
@@ -30,7 +34,7 @@ export async function replayRehearsal(id: string, name: string): Promise<void> {
 }
 
 /** Play a file; ApiError if it is no recording. */
-export function openRecording(name: string, content: ArrayBuffer): void {
+export function openRecording(name: string, content: ArrayBuffer, tree: OperationTree | null = null): void {
   const found = read(content);
   envelopes = found.envelopes;
   film = found.film;
@@ -42,6 +46,7 @@ export function openRecording(name: string, content: ArrayBuffer): void {
     studio.replay.value = {
       name,
       state: EMPTY,
+      tree,
       sample: null,
       begin,
       end,

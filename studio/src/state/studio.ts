@@ -37,6 +37,8 @@ export const live = signal<OperationState>(EMPTY);
 export interface Replay {
   name: string;
   state: OperationState;
+  /** The tree of all plans; null if only the recording is known. */
+  tree: OperationTree | null;
   sample: Sample | null;
   begin: number;
   end: number;
@@ -48,7 +50,10 @@ export const replay = signal<Replay | null>(null);
 
 /** The tree that the server has made of the plans of the operation; null while it is not known. */
 export const planned = signal<OperationTree | null>(null);
-export const operation = computed(() => replay.value?.state ?? withPlanned(live.value, planned.value));
+export const operation = computed(() => {
+  const { state, tree } = replay.value ?? { state: live.value, tree: planned.value };
+  return withPlanned(state, tree);
+});
 
 export const sample = signal<Sample | null>(null);
 export const shownSample = computed(() => (replay.value === null ? sample.value : replay.value.sample));

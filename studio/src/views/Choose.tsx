@@ -147,7 +147,11 @@ function Chosen({ wish, onChange, onDone }: ChosenProps) {
           />
         ))}
       {isComplete ? (
-        <PlanAndStart request={request} onDone={onDone} />
+        <PlanAndStart
+          request={request}
+          isPlanned={wish.kind === "goal" || wish.task.goal !== ""}
+          onDone={onDone}
+        />
       ) : (
         <p class="muted small">Fill in the values to see the plan.</p>
       )}
@@ -189,11 +193,13 @@ function ParameterInput({ parameter, value, onChange }: ParameterInputProps) {
 
 interface PlanAndStartProps {
   request: PlanWish;
+  /** Whether there is a goal to plan for; the steps of other tasks are written down. */
+  isPlanned: boolean;
   onDone: () => void;
 }
 
-function PlanAndStart({ request, onDone }: PlanAndStartProps) {
-  const { preview, problem } = usePreview(request);
+function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
+  const { preview, problem } = usePreview(request, isPlanned);
   const options = useSignal({ approve: false, ask_after_failure: false, step: false });
   const key = useRef(crypto.randomUUID());
   const [busy, setBusy] = useState(false);
@@ -220,7 +226,8 @@ function PlanAndStart({ request, onDone }: PlanAndStartProps) {
   return (
     <>
       {problem !== "" && <p class="notice bad">{problem}</p>}
-      {preview === null && problem === "" && (
+      {!isPlanned && <p class="muted small">Its steps are written down: there is nothing to plan.</p>}
+      {isPlanned && preview === null && problem === "" && (
         <p class="row muted" role="status">
           <span class="spinner" /> Planning for the world as it is now
         </p>
@@ -254,7 +261,7 @@ function PlanAndStart({ request, onDone }: PlanAndStartProps) {
 const [SETTLED_MS, AGAIN_MS] = [200, 1500];
 
 /** Plan again whenever what is wanted, or the world, has changed. */
-function usePreview(request: PlanWish): { preview: PlanPreview | null; problem: string } {
+function usePreview(request: PlanWish, isPlanned: boolean): { preview: PlanPreview | null; problem: string } {
   const [found, setFound] = useState<{ preview: PlanPreview | null; problem: string }>({
     preview: null,
     problem: "",
@@ -262,7 +269,7 @@ function usePreview(request: PlanWish): { preview: PlanPreview | null; problem: 
   const wanted = JSON.stringify(request);
   const name = cell.value?.name;
   useEffect(() => {
-    if (name === undefined) return;
+    if (name === undefined || !isPlanned) return;
     let isCurrent = true;
     setFound({ preview: null, problem: "" });
     const ask = (): void => {
@@ -281,6 +288,6 @@ function usePreview(request: PlanWish): { preview: PlanPreview | null; problem: 
       isCurrent = false;
       window.clearTimeout(timer);
     };
-  }, [wanted, name, worldSequence.value]);
+  }, [wanted, name, isPlanned, worldSequence.value]);
   return found;
 }
