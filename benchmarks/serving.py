@@ -35,7 +35,7 @@ CLIENTS, BUSY_S = 16, 3.0
 WATCHERS = (0, 1, 8, 64)
 SAMPLERS = (0, 1, 8)
 TICK_S = 0.01
-READY_S = 60.0
+READY_S = 300.0
 
 
 @contextmanager
