@@ -8,6 +8,8 @@ import "./design/layout.css";
 import "./design/views.css";
 import "./design/pages.css";
 import { LOGGED_OUT } from "./api/client";
+import { followBounds } from "./state/bounds";
+import { followLease } from "./state/lease";
 import { followServer } from "./state/live";
 import { measureSamples } from "./state/signals";
 import { session } from "./state/studio";
@@ -29,7 +31,7 @@ function App() {
 
 function LoggedIn() {
   useLayoutEffect(() => {
-    const ends = [measureSamples(), followServer()];
+    const ends = [measureSamples(), followServer(), followLease(), followBounds()];
     document.addEventListener("keydown", handleKey);
     return () => {
       document.removeEventListener("keydown", handleKey);

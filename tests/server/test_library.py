@@ -26,6 +26,7 @@ def test_skills_and_tasks_are_described(server: RunningServer) -> None:
         ("from", "infer", "skiros:Location"),
     ]
     assert [each["name"] for each in load["implementations"]] == ["by_hand"]
+    assert load["duration_s"] is None
     tasks = {each["name"]: each for each in found["tasks"]}
     assert list(tasks) == ["carry", "carry_all", "carry_two"]
     assert (tasks["carry"]["doc"], tasks["carry"]["goal"]) == ("Bring one crate to a place.", "to contain crate")
@@ -64,3 +65,11 @@ def test_implementations_add_conditions() -> None:
     described = describe_library(compile_valid(find_library(Path("wiping"))))
     added = {each.name: each.pre for skill in described.skills for each in skill.implementations if each.pre}
     assert added, "some implementations need more than their skill"
+
+
+def test_a_skill_has_the_duration_that_it_declares() -> None:
+    library = compile_valid(find_library(Path("wiping")))
+    durations = {each.name: each.duration_s for each in describe_library(library).skills}
+    declared = {name for name, skill in library.skills.items() if skill.duration is not None}
+    assert declared and {name for name, found in durations.items() if found is not None} <= declared
+    assert all(found > 0.0 for found in durations.values() if found is not None) and any(durations.values())

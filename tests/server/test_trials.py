@@ -139,3 +139,26 @@ def test_a_server_gets_the_same_figures_as_trials_without_one(tmp_path: Path) ->
         served = server.client.get(f"/trials/{begun['id']}/result").json()
     local = json.loads(json.dumps(trials(f"{tmp_path}:carry_all", 2, seed=3).to_dict()))
     assert served["passed"] == 2 and without_times(served) == without_times(local)
+
+
+def test_a_trial_is_run_again_as_it_was_and_recorded(server: RunningServer) -> None:
+    begun = post(server, seed=5)
+    wait_for(server, begun["id"], *ENDS)
+    result = server.client.get(f"/trials/{begun['id']}/result").json()
+    assert all(each["seeds"] == [5, 6, 7] and len(each["values"]) == 3 for each in result["spreads"])
+    path = f"/trials/{begun['id']}/replays/6"
+    assert server.client.get(path).status_code == 404
+    assert server.client.post(path).status_code == 201
+    replay = wait_until(lambda: server.client.get(path).json(), lambda found: found["state"] == "ended")
+    assert replay["recording"] and replay["reason"] == ""
+    trial = next(each for each in result["trials"] if each["seed"] == 6)
+    assert (replay["result"]["seed"], replay["result"]["sim_time_s"]) == (6, trial["sim_time_s"])
+    assert server.client.get(f"{path}/recording").content.startswith(b"\x89MCAP")
+    assert server.client.post(path).json() == replay
+
+
+def test_a_trial_that_a_series_does_not_have_is_not_run(server: RunningServer) -> None:
+    begun = post(server, seed=5)
+    for seed in ("8", "4", "-1", "six", "9" * 40):
+        assert server.client.post(f"/trials/{begun['id']}/replays/{seed}").status_code == 404, seed
+    server.client.delete(f"/trials/{begun['id']}")

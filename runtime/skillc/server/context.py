@@ -27,6 +27,7 @@ from skillc.server.served_library import ServedLibrary
 from skillc.server.simulation_jobs import SimulationJobs
 from skillc.server.state import SIMULATIONS, ServerState
 from skillc.server.supervisor import CellSupervisor
+from skillc.server.trials.replays import TrialReplays
 from skillc.server.trials.running import TrialRuns
 from skillc.server.trials.store import TrialStore
 from skillc.server.watchers import Watchers
@@ -54,6 +55,7 @@ class ServerContext:
     jobs: SimulationJobs = field(init=False)
     run_readers: Workers = field(default_factory=partial(Workers, answer_run_job))
     rehearsals: Rehearsals = field(init=False)
+    trial_replays: TrialReplays = field(init=False)
     reports: Reports = field(init=False)
     trials: TrialRuns = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
@@ -69,6 +71,7 @@ class ServerContext:
     def __post_init__(self) -> None:
         object.__setattr__(self, "jobs", SimulationJobs(self.state.folder / SIMULATIONS))
         object.__setattr__(self, "rehearsals", Rehearsals(self.jobs))
+        object.__setattr__(self, "trial_replays", TrialReplays(self.jobs))
         object.__setattr__(self, "reports", Reports(self.jobs))
         object.__setattr__(self, "trials", TrialRuns(TrialStore(self.state.database)))
         object.__setattr__(self, "audit", AuditLog(self.state.database))

@@ -37,6 +37,7 @@ from skillc.workers.jobs import (
     PreviewPlan,
     QueryRows,
     QueryWorld,
+    RecordTrial,
     Rehearse,
     RunTrial,
     SimulationJob,
@@ -50,7 +51,7 @@ from skillc.workers.libraries import LibraryDescription, describe_library
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
 from skillc.workers.reporting import make_report
-from skillc.workers.trying import check_trials, run_trial
+from skillc.workers.trying import check_trials, record_trial, run_trial
 from skillc.workers.world_text import write_world
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.trial import Trial
@@ -141,6 +142,8 @@ def _simulate(job: SimulationJob, known: CellSnapshot) -> TaskResult | Trial | N
             return None
         case RunTrial():
             return run_trial(job, known)
+        case RecordTrial():
+            return record_trial(job, known)
         case _:
             assert_never(job)
 
@@ -172,6 +175,7 @@ def _list_writes(job: ListWrites, known: CellSnapshot) -> tuple[WorldWrite, ...]
             origin=each.transaction.origin,
             evidence=each.evidence,
             changes=tuple(label_change(change, known.state.vocabulary) for change in each.transaction.changes),
+            undo=tuple(label_change(change, known.state.vocabulary) for change in each.undo),
         )
         for each in found
     )

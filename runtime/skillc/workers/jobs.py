@@ -117,6 +117,15 @@ class RunTrial(msgspec.Struct, frozen=True, tag="trial"):
     seed: int | None
 
 
+class RecordTrial(msgspec.Struct, frozen=True, tag="record trial"):
+    """Run the trial of a seed from the file of a scene again, and record it in a folder."""
+
+    request: TrialsRequest
+    scene: str
+    seed: int
+    folder: str
+
+
 Question: TypeAlias = (
     QueryWorld
     | ListFacts
@@ -129,7 +138,7 @@ Question: TypeAlias = (
     | CheckOperation
     | PreviewPlan
 )
-SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial
+SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial | RecordTrial
 Job: TypeAlias = Question | SimulationJob
 
 
@@ -201,6 +210,7 @@ class WorldWrite(msgspec.Struct, frozen=True):
     """A write to the world: its number, when it was made, who or what made it, how that is known, and the changes.
 
     `written_ns` is the wall time in ns since 1970, 0 if it is not known; `evidence` is None for what a person states.
+    `undo` are the changes that lead back to the world before.
     """
 
     sequence: int
@@ -208,6 +218,7 @@ class WorldWrite(msgspec.Struct, frozen=True):
     origin: str
     evidence: Evidence | None
     changes: tuple[LabelledChange, ...]
+    undo: tuple[LabelledChange, ...] = ()
 
 
 class PreviewedStep(msgspec.Struct, frozen=True):

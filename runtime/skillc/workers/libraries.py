@@ -7,6 +7,7 @@ from typing import Literal
 
 import msgspec
 
+from skillc_model import conditions
 from skillc_model.format_type import format_type
 from skillc_model.skills import Implementation, Parameter, Requirement, Skill, SkillLibrary, Task
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -33,7 +34,10 @@ class ImplementationDescription(msgspec.Struct, frozen=True):
 
 
 class SkillDescription(msgspec.Struct, frozen=True):
-    """A skill: its conditions as they are written, and its implementations in the order in which they are tried."""
+    """A skill: its conditions as they are written, and its implementations in the order in which they are tried.
+
+    `duration_s` is the duration that it declares; None if it declares none, or one that depends on its parameters.
+    """
 
     name: str
     doc: str
@@ -41,6 +45,7 @@ class SkillDescription(msgspec.Struct, frozen=True):
     pre: tuple[str, ...]
     post: tuple[str, ...]
     implementations: tuple[ImplementationDescription, ...]
+    duration_s: float | None = None
 
 
 class TaskDescription(msgspec.Struct, frozen=True):
@@ -76,6 +81,7 @@ def _describe_skill(skill: Skill, library: SkillLibrary) -> SkillDescription:
         _texts(skill.pre),
         tuple(each.text for each in skill.post),
         tuple(_describe_implementation(each, skill) for each in library.implementations_of(skill.name)),
+        float(skill.duration.value) if isinstance(skill.duration, conditions.Literal) else None,
     )
 
 

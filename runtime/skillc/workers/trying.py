@@ -2,20 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import msgspec
 
 from skillc.cells.snapshot import CellSnapshot
 from skillc.services.assignments import assign_task
+from skillc.services.errors import ServiceError
 from skillc.services.libraries import find_task
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
+from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.stores import load_world
 from skillc.services.trial_runs import make_experiment
-from skillc.workers.jobs import CheckTrials, RunTrial
-from skillc_runtime.evaluation.trials.experiment import TrialRunner
+from skillc.workers.jobs import CheckTrials, RecordTrial, RunTrial
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.trials.disturbance import PushableCell
+from skillc_runtime.evaluation.trials.experiment import NotRecorded, TrialRunner
 from skillc_runtime.evaluation.trials.trial import Trial
+from skillc_runtime.execution.attempt import CellOrigin
+from skillc_runtime.recording.envelope import make_run_id
+from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.publisher import Publisher
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError
 
 _prepared: dict[bytes, TrialRunner] = {}
 """What was loaded and planned last."""
@@ -40,7 +54,26 @@ def run_trial(job: RunTrial, known: CellSnapshot) -> Trial | None:
     return None if job.seed is None else _prepared[key].run(job.seed)
 
 
-def _prepare(job: RunTrial, known: CellSnapshot) -> TrialRunner:
+def record_trial(job: RecordTrial, known: CellSnapshot) -> TaskResult:
+    """Return the result of a trial that is run again and recorded; ServiceError if it cannot be."""
+    runner = _prepare(job, known)
+    try:
+        return runner.record(job.seed, partial(_recording, job, known.library))
+    except (NotRecorded, SheetError, FrameError) as error:
+        raise ServiceError(f"this trial does not start: {error}") from error
+
+
+@contextmanager
+def _recording(job: RecordTrial, library: SkillLibrary, cell: PushableCell) -> Iterator[tuple[Listener, ...]]:
+    """Record a trial in its folder as an MCAP file; yields who gets the events."""
+    task, reporter, run = job.request.task, SilentReporter(), make_run_id(job.request.task)
+    start, origin = KnownStart(cell.world.snapshot()), CellOrigin(job.scene, job.seed, "mujoco")
+    describe = partial(describe_contents, run, task, library, start, origin, {})
+    with recorded_in(Path(job.folder), describe, cell, reporter) as recorders:
+        yield (Publisher(run, recorders),)
+
+
+def _prepare(job: RunTrial | RecordTrial, known: CellSnapshot) -> TrialRunner:
     library, request, scene = known.library, job.request, find_scene(Path(job.scene))
     state = load_world(scene, library.vocabulary, SilentReporter())
     task = find_task(library, request.task)

@@ -1,7 +1,9 @@
 // Requests to the server. What it refuses is an error with its own words.
 import type {
   CellStatus,
+  DeviceStatus,
   Envelope,
+  Lease,
   LibraryDescription,
   LibraryStatus,
   OperationRequest,
@@ -14,7 +16,11 @@ import type {
   RunExplanation,
   Session,
   SignalRows,
+  Series,
   SourceText,
+  TrialReplay,
+  TrialSeries,
+  TrialsRequest,
   WorldFacts,
   WorldWrite,
 } from "./types";
@@ -150,6 +156,23 @@ export const api = {
   rehearsalRecording: async (id: string) =>
     readBytes(await request("GET", address(`/rehearsals/${part(id)}/recording`))),
   rehearsal: (id: string) => read<Rehearsal>(`/rehearsals/${part(id)}`),
+  devices: (cell: string) => read<DeviceStatus[]>(`/cells/${part(cell)}/robots`),
+  lease: (cell: string) => read<Lease>(`/cells/${part(cell)}/lease`),
+  /** Take the lease of a cell, or prolong it; `takeover` ends that of another client. */
+  takeLease: (cell: string, durationS: number, takeover = false) =>
+    write<Lease>("PUT", `/cells/${part(cell)}/lease`, { duration_s: durationS, takeover }),
+  releaseLease: (cell: string) => write<undefined>("DELETE", `/cells/${part(cell)}/lease`),
+  trials: (cell: string) => read<TrialSeries[]>(`/cells/${part(cell)}/trials`),
+  beginTrials: (cell: string, wanted: TrialsRequest) =>
+    write<TrialSeries>("POST", `/cells/${part(cell)}/trials`, wanted),
+  removeTrials: (id: string) => write<undefined>("DELETE", `/trials/${part(id)}`),
+  trialsResult: (id: string) => read<Series>(`/trials/${part(id)}/result`),
+  /** Run a trial again in simulation, and record it. */
+  replayTrial: (id: string, seed: number) =>
+    write<TrialReplay>("POST", `/trials/${part(id)}/replays/${seed}`),
+  trialReplay: (id: string, seed: number) => read<TrialReplay>(`/trials/${part(id)}/replays/${seed}`),
+  trialRecording: async (id: string, seed: number) =>
+    (await request("GET", address(`/trials/${part(id)}/replays/${seed}/recording`))).arrayBuffer(),
   submit: (cell: string, wanted: OperationRequest, key: string) =>
     write<OperationStatus>("POST", `/cells/${part(cell)}/operations`, wanted, { "Idempotency-Key": key }),
   operations: (cell: string, query: Query = {}) =>

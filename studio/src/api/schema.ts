@@ -1826,6 +1826,7 @@ export interface components {
          * @description A write to the world: its number, when it was made, who or what made it, how that is known, and the changes.
          *
          *         `written_ns` is the wall time in ns since 1970, 0 if it is not known; `evidence` is None for what a person states.
+         *         `undo` are the changes that lead back to the world before.
          */
         WorldWrite: {
             sequence: number;
@@ -1833,6 +1834,8 @@ export interface components {
             origin: string;
             evidence: ("assumed" | "idealised" | "reported" | "sensed") | null;
             changes: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["IndividualAdded"] | components["schemas"]["IndividualRemoved"])[];
+            /** @default [] */
+            undo?: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["IndividualAdded"] | components["schemas"]["IndividualRemoved"])[];
         };
         /**
          * VersionInfo
@@ -1870,6 +1873,8 @@ export interface components {
         /**
          * SkillDescription
          * @description A skill: its conditions as they are written, and its implementations in the order in which they are tried.
+         *
+         *         `duration_s` is the duration that it declares; None if it declares none, or one that depends on its parameters.
          */
         SkillDescription: {
             name: string;
@@ -1878,6 +1883,8 @@ export interface components {
             pre: string[];
             post: string[];
             implementations: components["schemas"]["ImplementationDescription"][];
+            /** @default null */
+            duration_s?: number | null;
         };
         /**
          * ParameterDescription
@@ -2538,7 +2545,8 @@ export interface components {
          *
          *         `low_quartile` and `high_quartile` enclose the middle half of the values; `mean_interval` is the confidence
          *         interval of the `mean`, None for a single value. `target` is the target as text, `bound` its value, None without a
-         *         target; `values` are in the order of the seeds.
+         *         target; small values are the better ones if `sense` is `at most`. `values` are in the order of `seeds`, those of the
+         *         trials in which they were measured.
          */
         Spread: {
             metric: string;
@@ -2555,6 +2563,13 @@ export interface components {
             mean_interval: components["schemas"]["Interval"] | null;
             met: number;
             values: number[];
+            /** @default [] */
+            seeds?: number[];
+            /**
+             * @default at most
+             * @enum {unknown}
+             */
+            sense?: "at least" | "at most";
             /** @default null */
             median_missed?: string | null;
         };
@@ -2685,6 +2700,25 @@ export interface components {
             error_m: number;
             turned_deg: number;
             missed_m: number | null;
+        };
+        /**
+         * TrialReplay
+         * @description A trial of a series that is run again. `recording` is whether it has one; `reason` is why it has no `result`.
+         */
+        TrialReplay: {
+            series: string;
+            seed: number;
+            /**
+             * @default going on
+             * @enum {unknown}
+             */
+            state?: "ended" | "going on";
+            /** @default  */
+            reason?: string;
+            /** @default null */
+            result?: components["schemas"]["TaskResult"] | null;
+            /** @default false */
+            recording?: boolean;
         };
         /**
          * AuditEntry

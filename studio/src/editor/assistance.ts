@@ -4,6 +4,7 @@ import type { Diagnostic } from "@codemirror/lint";
 import type { Extension, Text } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap } from "@codemirror/view";
 import type { Position } from "../api/types";
+import { changesOf, offsetOf, positionOf } from "./edits";
 import type {
   LanguageServer,
   LspCompletion,
@@ -14,17 +15,6 @@ import type {
 } from "./language_server";
 
 const SEVERITIES = { 1: "error", 2: "warning", 3: "info", 4: "hint" } as const;
-
-function offsetOf(doc: Text, { line, character }: LspPosition): number {
-  if (line >= doc.lines) return doc.length;
-  const at = doc.line(line + 1);
-  return Math.min(at.to, at.from + character);
-}
-
-function positionOf(doc: Text, offset: number): LspPosition {
-  const line = doc.lineAt(offset);
-  return { line: line.number - 1, character: offset - line.from };
-}
 
 /** Return problems of the server as those of the editor. */
 export function toDiagnostics(doc: Text, found: readonly LspDiagnostic[]): Diagnostic[] {
@@ -110,19 +100,14 @@ async function definition(server: LanguageServer, position: LspPosition): Promis
   return first == null || !first.uri.startsWith("skill:") ? null : server.placeOf(first);
 }
 
-function format(server: LanguageServer, view: EditorView): boolean {
+/** Format the text, unless it has errors. */
+export function format(server: LanguageServer, view: EditorView): boolean {
   const { doc } = view.state;
   if (view.state.readOnly) return false;
   void server
     .ask<LspEdit[]>("textDocument/formatting", { options: { tabSize: 4, insertSpaces: true } })
     .then((edits) => {
-      if (edits === null || view.state.doc !== doc) return;
-      const changes = edits.map((each) => ({
-        from: offsetOf(doc, each.range.start),
-        to: offsetOf(doc, each.range.end),
-        insert: each.newText,
-      }));
-      view.dispatch({ changes });
+      if (edits !== null && view.state.doc === doc) view.dispatch({ changes: changesOf(doc, edits) });
     });
   return true;
 }

@@ -7,7 +7,7 @@ import {
 } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { bracketMatching, HighlightStyle, syntaxHighlighting } from "@codemirror/language";
-import { lintGutter, setDiagnostics, type Diagnostic } from "@codemirror/lint";
+import { lintGutter, lintKeymap, setDiagnostics, type Diagnostic } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
 import { EditorState, RangeSet, StateEffect, StateField, type Extension } from "@codemirror/state";
 import {
@@ -124,6 +124,20 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): Editor 
   };
 }
 
+/** Return what all editors of a file share: its colours, its numbers of lines, what can be undone, and what is found. */
+export function editorBasics(path: string): Extension[] {
+  const nonce = document.querySelector<HTMLMetaElement>('meta[name="csp-nonce"]')?.content ?? "";
+  return [
+    EditorView.cspNonce.of(nonce),
+    lineNumbers(),
+    history(),
+    syntaxHighlighting(COLOURS),
+    LOOK,
+    ...(path.endsWith(".skill") ? [skillLanguage] : []),
+    keymap.of([...defaultKeymap, ...historyKeymap]),
+  ];
+}
+
 function extensionsOf(options: EditorOptions): Extension[] {
   const nonce = document.querySelector<HTMLMetaElement>('meta[name="csp-nonce"]')?.content ?? "";
   const toggleHere = (view: EditorView): boolean => {
@@ -162,6 +176,7 @@ function extensionsOf(options: EditorOptions): Extension[] {
       ...defaultKeymap,
       ...historyKeymap,
       ...searchKeymap,
+      ...lintKeymap,
       ...(options.readOnly ? [] : [indentWithTab]),
     ]),
     options.extensions ?? [],

@@ -33,11 +33,25 @@ interface Message {
   method?: string;
   params?: unknown;
   result?: unknown;
+  error?: { message: string };
+}
+
+/** Edits of several texts, by path. */
+export type TextEdits = ReadonlyMap<string, readonly LspEdit[]>;
+
+export interface LspCodeAction {
+  title: string;
+  kind?: string;
+  diagnostics?: LspDiagnostic[];
+  edit?: { changes?: Record<string, LspEdit[]> };
 }
 
 const REFUSED = 1008;
 const AGAIN_MS = 2000;
 const ANSWER_MS = 8000;
+/** How long a server may take to start. */
+const START_MS = 60_000;
+const LOOK_MS = 100;
 
 /** A client for the texts of one library; `onDiagnostics` gets what is wrong with a text. */
 export class LanguageServer {
@@ -47,7 +61,7 @@ export class LanguageServer {
   private isReady = false;
   private isOver = false;
   private open: { path: string; text: string } | null = null;
-  private readonly answers = new Map<number, (result: unknown) => void>();
+  private readonly answers = new Map<number, (answer: Message) => void>();
 
   constructor(
     private readonly library: string,
@@ -77,6 +91,26 @@ export class LanguageServer {
     return this.request<T>(method, { textDocument: { uri: this.uri(this.open.path) }, ...more });
   }
 
+  /** Ask something that may be refused: the answer, or why there is none. */
+  async demand(
+    method: string,
+    more: Record<string, unknown>,
+  ): Promise<{ result: unknown } | { refused: string }> {
+    for (let waited = 0; !this.isReady && waited < START_MS; waited += LOOK_MS)
+      await new Promise((resolve) => window.setTimeout(resolve, LOOK_MS));
+    if (!this.isReady || this.open === null) return { refused: "The language server has not started." };
+    const textDocument = { uri: this.uri(this.open.path) };
+    const answer = await this.exchange(method, { textDocument, ...more });
+    if (answer.error !== undefined) return { refused: answer.error.message };
+    if (answer.result == null) return { refused: "The language server did not answer." };
+    return { result: answer.result };
+  }
+
+  /** Return the edits that an answer has, by path. */
+  editsOf(edit: LspCodeAction["edit"]): TextEdits {
+    return new Map(Object.entries(edit?.changes ?? {}).map(([uri, edits]) => [this.pathOf(uri), edits]));
+  }
+
   close(): void {
     this.isOver = true;
     this.socket?.close();
@@ -89,7 +123,7 @@ export class LanguageServer {
     socket.onmessage = (event: MessageEvent<string>) => this.receive(JSON.parse(event.data) as Message);
     socket.onclose = (event) => {
       this.isReady = false;
-      for (const answer of this.answers.values()) answer(null);
+      for (const answer of this.answers.values()) answer({});
       this.answers.clear();
       if (!this.isOver && event.code !== REFUSED)
         window.setTimeout(() => !this.isOver && this.connect(), AGAIN_MS);
@@ -102,7 +136,7 @@ export class LanguageServer {
     await this.request(
       "initialize",
       { processId: null, rootUri: null, capabilities: { textDocument } },
-      60_000,
+      START_MS,
     );
     this.notify("initialized", {});
     this.isReady = true;
@@ -123,19 +157,23 @@ export class LanguageServer {
     } else if (message.id !== undefined && message.method !== undefined) {
       this.send({ id: message.id, result: null });
     } else if (message.id !== undefined) {
-      this.answers.get(message.id)?.(message.result ?? null);
+      this.answers.get(message.id)?.(message);
       this.answers.delete(message.id);
     }
   }
 
-  private request<T>(method: string, params: unknown, patience = ANSWER_MS): Promise<T | null> {
+  private async request<T>(method: string, params: unknown, patience = ANSWER_MS): Promise<T | null> {
+    return ((await this.exchange(method, params, patience)).result ?? null) as T | null;
+  }
+
+  private exchange(method: string, params: unknown, patience = ANSWER_MS): Promise<Message> {
     const id = ++this.number;
     this.send({ id, method, params });
     return new Promise((resolve) => {
-      const timer = window.setTimeout(() => resolve(null), patience);
-      this.answers.set(id, (result) => {
+      const timer = window.setTimeout(() => resolve({}), patience);
+      this.answers.set(id, (answer) => {
         window.clearTimeout(timer);
-        resolve(result as T | null);
+        resolve(answer);
       });
     });
   }

@@ -1,9 +1,38 @@
 // Opens the editor of a file of a library, with the language server for it; one server serves all files of a library.
+import { forEachDiagnostic, type Action } from "@codemirror/lint";
+import { keymap, type EditorView } from "@codemirror/view";
 import { isWritable, saveFile, source, toggleBreakpoint, type OpenFile } from "../state/source";
 import { select } from "../state/actions";
-import { assistance, completionsOf, toDiagnostics } from "./assistance";
+import { assistance, completionsOf, format } from "./assistance";
+import { applyEdits, positionOf } from "./edits";
 import { makeEditor, type Editor } from "./editor";
-import { LanguageServer, type LspDiagnostic } from "./language_server";
+import { applyFix, findFixes } from "./fixes";
+import {
+  LanguageServer,
+  type LspCodeAction,
+  type LspDiagnostic,
+  type LspEdit,
+  type TextEdits,
+} from "./language_server";
+
+/** An editor with what the buttons beside it do. */
+export interface SourceEditor extends Editor {
+  format(): void;
+  /** Apply all safe fixes. */
+  fixAll(): void;
+  /** Return the name at the cursor, or why it cannot be renamed. */
+  nameAtCursor(): Promise<{ name: string } | { refused: string }>;
+  /** Return what another name for it changes, in which files; or why that is not possible. */
+  /** Return a text with edits. */
+  applyEdits: typeof applyEdits;
+  rename(name: string): Promise<{ edits: TextEdits } | { refused: string }>;
+}
+
+export interface SourceEditorOptions {
+  onRename: () => void;
+  /** Called with whether there is anything that all safe fixes would change. */
+  onFixable: (isFixable: boolean) => void;
+}
 
 let server: { library: string; client: LanguageServer } | null = null;
 let listener: (path: string, found: LspDiagnostic[]) => void = () => undefined;
@@ -17,9 +46,13 @@ function serverOf(library: string): LanguageServer {
 }
 
 /** Show a file in an element; what is typed becomes its draft. */
-export function openEditor(element: HTMLElement, file: OpenFile): Editor {
+export function openEditor(element: HTMLElement, file: OpenFile, options: SourceEditorOptions): SourceEditor {
   const client = serverOf(file.library);
   const text = file.draft ?? file.text ?? "";
+  const keys = keymap.of([
+    { key: "F2", run: () => (options.onRename(), true) },
+    { key: "Mod-.", run: fixAtCursor },
+  ]);
   const editor = makeEditor(element, {
     text,
     path: file.path,
@@ -32,11 +65,52 @@ export function openEditor(element: HTMLElement, file: OpenFile): Editor {
     onSave: () => void saveFile(),
     onBreakpoint: (line) => toggleBreakpoint(file.path, line),
     complete: completionsOf(client),
-    extensions: assistance(client, (place) => select({ kind: "place", place })),
+    extensions: [keys, assistance(client, (place) => select({ kind: "place", place }))],
   });
+  const { view } = editor;
+  let safe: readonly LspEdit[] = [];
   listener = (path, found) => {
-    if (path === file.path) editor.diagnose(toDiagnostics(editor.view.state.doc, found));
+    if (path !== file.path) return;
+    const { doc } = view.state;
+    void findFixes(client, path, doc, found).then(({ diagnostics, all }) => {
+      if (view.state.doc !== doc) return;
+      safe = all;
+      options.onFixable(all.length > 0);
+      editor.diagnose(diagnostics);
+    });
   };
   client.show(file.path, text);
-  return editor;
+  const position = () => positionOf(view.state.doc, view.state.selection.main.head);
+  return {
+    ...editor,
+    applyEdits,
+    format: () => void format(client, view),
+    fixAll: () => applyFix(view, safe),
+    nameAtCursor: async () => {
+      const found = await client.demand("textDocument/prepareRename", {
+        position: position(),
+      });
+      return "refused" in found ? found : { name: (found.result as { placeholder: string }).placeholder };
+    },
+    rename: async (newName) => {
+      const found = await client.demand("textDocument/rename", {
+        position: position(),
+        newName,
+      });
+      return "refused" in found ? found : { edits: client.editsOf(found.result as LspCodeAction["edit"]) };
+    },
+  };
+}
+
+/** Apply the first fix of a problem at the cursor. */
+function fixAtCursor(view: EditorView): boolean {
+  const at = view.state.selection.main.head;
+  let first: { action: Action; from: number; to: number } | null = null;
+  forEachDiagnostic(view.state, (diagnostic, from, to) => {
+    const action = diagnostic.actions?.[0];
+    if (first === null && action !== undefined && from <= at && at <= to) first = { action, from, to };
+  });
+  const found = first as { action: Action; from: number; to: number } | null;
+  found?.action.apply(view, found.from, found.to);
+  return found !== null;
 }

@@ -1,5 +1,6 @@
 // An operation as its events tell: a pure function from events to what there is to show, live or from a recording.
 import type {
+  ArrivedPlan,
   Envelope,
   Failure,
   FailedCallContext,
@@ -41,6 +42,8 @@ export interface TreeNode {
 /** A plan and how far it is: `nodes` are the keys of the calls of its steps, null for a step that has not started. */
 export interface Attempt {
   plan: PlanMade | null;
+  /** The plan as the planner found it: what was left out of the search, and what is proved. */
+  arrived: ArrivedPlan | null;
   nodes: readonly (number | null)[];
   reason: string;
 }
@@ -52,6 +55,8 @@ export interface OperationState {
   reason: string;
   task: TaskStarted | null;
   ended: TaskEnded | null;
+  /** The plan that has arrived last. */
+  arrived: ArrivedPlan | null;
   attempts: readonly Attempt[];
   nodes: ReadonlyMap<number, TreeNode>;
   roots: readonly number[];
@@ -66,6 +71,7 @@ export const EMPTY: OperationState = {
   reason: "",
   task: null,
   ended: null,
+  arrived: null,
   attempts: [],
   nodes: new Map(),
   roots: [],
@@ -125,8 +131,16 @@ class Draft {
         this.state.state = event.state;
         this.state.reason = event.reason ?? "";
         break;
+      case "plan-arrived":
+        this.state.arrived = event.plan ?? null;
+        break;
       case "plan-made":
-        this.attempts.push({ plan: event, nodes: event.steps.map(() => null), reason: "" });
+        this.attempts.push({
+          plan: event,
+          arrived: this.state.arrived,
+          nodes: event.steps.map(() => null),
+          reason: "",
+        });
         break;
       case "replanned":
         this.replaceAttempt({ reason: event.reason });
@@ -146,7 +160,8 @@ class Draft {
 
   private changeNode(event: RunEvent, sequence: number): void {
     if (event.type === "node-started") {
-      if (this.attempts.length === 0) this.attempts.push({ plan: null, nodes: [], reason: "" });
+      if (this.attempts.length === 0)
+        this.attempts.push({ plan: null, arrived: null, nodes: [], reason: "" });
       this.startNode(event, sequence);
     } else if (event.type === "node-ended") {
       this.update(this.base + event.node, {

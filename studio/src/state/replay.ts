@@ -33,6 +33,12 @@ export async function replayRehearsal(id: string, name: string): Promise<void> {
   play(true);
 }
 
+/** Read the recording of a trial from the server, and play it from its beginning. */
+export async function replayTrial(series: string, seed: number, task: string): Promise<void> {
+  openRecording(`${task}, seed ${seed}`, await api.trialRecording(series, seed));
+  play(true);
+}
+
 /** Play a file; ApiError if it is no recording. */
 export function openRecording(name: string, content: ArrayBuffer, tree: OperationTree | null = null): void {
   const found = read(content);

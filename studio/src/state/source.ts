@@ -21,6 +21,15 @@ export const files = signal<readonly SourceName[]>([]);
 export const source = signal<OpenFile | null>(null);
 /** FILE:LINE of each place where the next operation pauses. */
 export const breakpoints = signal<ReadonlySet<string>>(new Set());
+/** A draft whose file has another text on disk meanwhile. */
+export interface Conflict {
+  path: string;
+  mine: string;
+  theirs: string;
+  /** The hash of the file as it is shown. */
+  hash: string;
+}
+export const conflict = signal<Conflict | null>(null);
 export const isWritable = computed(() => may("edit") && (source.value?.editable ?? false));
 
 /** The lines of the calls that run now. */
@@ -70,12 +79,36 @@ export async function saveFile(): Promise<void> {
     await reportCheck(library);
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
-    const text =
-      error.status === 412
-        ? "The file on disk has changed meanwhile. Nothing was overwritten; your text is still here."
-        : error.message;
-    source.value = { ...current, problem: text };
+    source.value = { ...current, problem: error.status === 412 ? CHANGED : error.message };
+    if (error.status === 412) await showConflict();
   }
+}
+
+const CHANGED = "The file on disk has changed meanwhile. Nothing was overwritten; your text is still here.";
+
+/** Show the draft beside the file that somebody else has changed. */
+export async function showConflict(): Promise<void> {
+  const current = source.peek();
+  if (current?.draft == null) return;
+  const { library, path, draft } = current;
+  await attempt(async () => {
+    const { text, hash } = await api.file(library, path);
+    conflict.value = { path, mine: draft, theirs: text, hash };
+  });
+}
+
+/** Go back to the editor; the draft stays, and so does the file. */
+export function leaveConflict(): void {
+  conflict.value = null;
+}
+
+/** Write a text in the place of the file as it was shown beside it. */
+export async function keepMine(text: string): Promise<void> {
+  const [current, shown] = [source.peek(), conflict.peek()];
+  if (current === null || shown === null) return;
+  conflict.value = null;
+  source.value = { ...current, hash: shown.hash, draft: text };
+  await saveFile();
 }
 
 const CHECK_MS = 1000;
@@ -97,6 +130,7 @@ async function reportCheck(library: string): Promise<void> {
 export async function revertFile(): Promise<void> {
   const current = source.peek();
   if (current === null) return;
+  conflict.value = null;
   source.value = { ...current, draft: null };
   await openFile(current.library, current.path);
 }

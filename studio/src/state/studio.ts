@@ -3,6 +3,7 @@ import { computed, signal } from "@preact/signals";
 import type { StreamStatus } from "../api/stream";
 import type {
   CellStatus,
+  Lease,
   LibraryDescription,
   OperationStatus,
   OperationTree,
@@ -73,6 +74,20 @@ export function may(role: "operate" | "edit" | "admin"): boolean {
   const own = session.value?.role;
   return own !== undefined && RANKS.indexOf(own) >= RANKS.indexOf(role);
 }
+
+/** Who has the lease of the cell that is shown; null while that is not known. */
+export const lease = signal<Lease | null>(null);
+
+/** Return why who is logged in may not command the cell with a role, as a sentence; nothing if that is allowed. */
+export function refusalOf(role: "operate" | "edit"): string {
+  if (!may(role)) return `This needs the role ${role}; you have ${session.value?.role ?? "none"}.`;
+  const owner = lease.value?.owner ?? null;
+  if (owner === null || owner === session.value?.name) return "";
+  return `${owner} has the lease of this cell; you may watch and stop.`;
+}
+
+/** Whether who is logged in may command the cell that is shown. */
+export const mayCommand = (role: "operate" | "edit" = "operate"): boolean => refusalOf(role) === "";
 
 /** Whether a command is possible now for the operation that is shown. */
 export function allows(command: string): boolean {

@@ -5,7 +5,7 @@ import { api, ApiError, type PlanWish } from "../api/client";
 import type { ParameterDescription, PlanPreview, TaskDescription } from "../api/types";
 import { start } from "../state/actions";
 import { breakpoints } from "../state/source";
-import { cell, facts, library, may, status, worldSequence } from "../state/studio";
+import { cell, facts, library, mayCommand, refusalOf, status, worldSequence } from "../state/studio";
 import { individualsOf } from "../state/text";
 import { GoalInput } from "./GoalInput";
 import { Preview } from "./Preview";
@@ -245,14 +245,15 @@ function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
       <div class="row">
         <button
           class="primary grow"
-          disabled={!may("operate") || busy || preview?.status === "unsolvable" || problem !== ""}
-          title={may("operate") ? "Start in the cell (Enter)" : "This needs the role operate"}
+          disabled={!mayCommand() || busy || preview?.status === "unsolvable" || problem !== ""}
+          title={refusalOf("operate") || "Start in the cell (Enter)"}
           onClick={() => void submit()}
         >
           Start
         </button>
         <Rehearse request={request} />
       </div>
+      {!mayCommand() && <p class="small is-waiting refusal">{refusalOf("operate")}</p>}
     </>
   );
 }

@@ -13,6 +13,7 @@ const KEYS: readonly [keys: string[], what: string][] = [
   [["w", "f", "s", "e"], "show Why, World (facts), Source, Events"],
   [["r"], "choose what to run next"],
   [["h"], "show the history of runs"],
+  [["g"], "show the plan over time, or the signals"],
   [["m"], "enlarge the panel with the keyboard, or show all again"],
   [["↑", "↓", "←", "→"], "move in the tree, fold and open"],
   [["/"], "search: in the tree, or in the facts"],

@@ -38,10 +38,11 @@ interface TabbedPanelProps {
   tabs: readonly Tab[];
   active: string;
   onChoose: (id: string) => void;
+  tools?: ComponentChildren;
 }
 
 /** A panel with several views, one of which is shown. */
-export function TabbedPanel({ name, title, tabs, active, onChoose }: TabbedPanelProps) {
+export function TabbedPanel({ name, title, tabs, active, onChoose, tools }: TabbedPanelProps) {
   const shown = tabs.find((each) => each.id === active) ?? tabs[0];
   const move = (event: KeyboardEvent): void => {
     const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
@@ -73,6 +74,7 @@ export function TabbedPanel({ name, title, tabs, active, onChoose }: TabbedPanel
           ))}
         </div>
         <div class="grow" />
+        {tools}
         <MaximiseButton name={name} title={title} />
       </header>
       <div class="panel-body" role="tabpanel" id={`panel-${name}`} aria-labelledby={`tab-${active}`}>

@@ -1,6 +1,8 @@
 // How far the planner is: the best plan so far and the proved bound, which grow towards each other.
+import { bounds } from "../state/bounds";
 import { status } from "../state/studio";
 import { formatTime } from "../state/text";
+import { BoundsChart } from "./BoundsChart";
 
 export function Planning() {
   const progress = status.value?.planning ?? null;
@@ -11,6 +13,7 @@ export function Planning() {
         {progress !== null && <span class="small truncate">with {progress.planner}</span>}
       </p>
       {progress !== null && <Bounds best={progress.best_s ?? null} least={progress.at_least_s ?? 0} />}
+      <BoundsChart points={bounds.value.points} />
       {(progress?.states ?? 0) > 0 && (
         <p class="small muted mono">{progress?.states?.toLocaleString("en")} states evaluated</p>
       )}

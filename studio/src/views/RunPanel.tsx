@@ -1,7 +1,9 @@
 // Run: choose what to do, see the plan first, start; then how far it is, and how it ended.
 import { command, select, start } from "../state/actions";
-import { allows, cell, isOngoing, may, operation, status } from "../state/studio";
+import { allows, cell, isOngoing, mayCommand, operation, refusalOf, status } from "../state/studio";
+import { bounds } from "../state/bounds";
 import { describeFailure, describeRequest, formatTime, formatValue } from "../state/text";
+import { BoundsChart } from "./BoundsChart";
 import { Choose } from "./Choose";
 import { Icon } from "./icons";
 import { choosing } from "./layout";
@@ -66,7 +68,7 @@ function Prompts() {
             {each.choices.map((choice) => (
               <button
                 key={choice}
-                disabled={!may("operate")}
+                disabled={!mayCommand()}
                 onClick={() => void command({ type: "answer", choice, prompt: each.id ?? 0 })}
               >
                 {choice}
@@ -99,7 +101,12 @@ function Continue() {
       {current.decisions.map((name) => {
         const known = DECISIONS.find((each) => each.name === name);
         return (
-          <button key={name} disabled={!may("operate")} title={known?.why} onClick={() => go(name)}>
+          <button
+            key={name}
+            disabled={!mayCommand()}
+            title={refusalOf("operate") || known?.why}
+            onClick={() => go(name)}
+          >
             {known?.label ?? name}
           </button>
         );
@@ -123,8 +130,8 @@ function Decisions() {
         <button
           key={each.name}
           class={index === 0 && each.name !== "replan" ? "primary" : ""}
-          disabled={!may("operate")}
-          title={each.why}
+          disabled={!mayCommand()}
+          title={refusalOf("operate") || each.why}
           onClick={() => give(each.name)}
         >
           {each.label}
@@ -179,6 +186,7 @@ function Plan() {
               );
             })}
           </ol>
+          {index === attempts.length - 1 && !isOngoing.value && <BoundsChart points={bounds.value.points} />}
           {attempt.plan?.steps.length === 0 && <p class="muted">Nothing to do: the goal holds already.</p>}
           {attempt.reason !== "" && (
             <p class="notice waiting small">

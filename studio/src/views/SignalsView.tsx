@@ -5,17 +5,26 @@ import type uPlot from "uplot";
 import { plotColumns, plotLines } from "../state/signals";
 import { select } from "../state/actions";
 import { replay, span } from "../state/studio";
-import { Panel } from "./Panel";
-import { isDark } from "./layout";
+import { GanttView } from "./GanttView";
+import { TabbedPanel } from "./Panel";
+import { isDark, signalsTab } from "./layout";
 import { drawPlot } from "./plot";
 
 const pausedAt = signal(false);
 
 export function SignalsView() {
   return (
-    <Panel name="signals" title="Signals" tools={<Tools />}>
-      <Plots />
-    </Panel>
+    <TabbedPanel
+      name="signals"
+      title="Signals and plan"
+      active={signalsTab.value}
+      onChoose={(id) => (signalsTab.value = id as typeof signalsTab.value)}
+      tools={signalsTab.value === "signals" && <Tools />}
+      tabs={[
+        { id: "signals", title: "Signals", view: () => <Plots /> },
+        { id: "plan", title: "Plan over time", view: () => <GanttView /> },
+      ]}
+    />
   );
 }
 

@@ -1,19 +1,27 @@
 // Source: the files of the library of the cell, with the line of the selected step and of what runs.
+import { signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { cell, place } from "../state/studio";
 import {
   activePlaces,
   breakpoints,
   files,
+  isWritable,
   openFile,
   openPath,
   readFiles,
   revertFile,
   saveFile,
+  showConflict,
   source,
 } from "../state/source";
-import type { Editor } from "../editor/editor";
-import { isWritable } from "../state/source";
+import type { SourceEditor } from "../editor/opening";
+import { RenameForm } from "./RenameForm";
+
+/** The editor that is shown, and whether there is anything that all safe fixes would change. */
+const shownEditor = signal<SourceEditor | null>(null);
+const isFixable = signal(false);
+const renaming = signal(false);
 
 export function SourceView() {
   const name = cell.value?.library;
@@ -28,7 +36,15 @@ export function SourceView() {
   return (
     <div class="source">
       <SourceTools library={name ?? ""} />
-      {source.value?.problem ? <p class="notice bad">{source.value.problem}</p> : null}
+      {renaming.value && shownEditor.value !== null && (
+        <RenameForm editor={shownEditor.value} library={name ?? ""} onDone={() => (renaming.value = false)} />
+      )}
+      {source.value?.problem ? (
+        <p class="notice bad row">
+          <span class="grow">{source.value.problem}</span>
+          {source.value.draft !== null && <button onClick={() => void showConflict()}>Compare</button>}
+        </p>
+      ) : null}
       {source.value === null || source.value.text === null ? (
         <div class="empty">
           {files.value.length === 0 ? "The files of this library cannot be read." : "Choose a file."}
@@ -62,6 +78,7 @@ function SourceTools({ library }: { library: string }) {
           ))}
         </select>
       </label>
+      <AssistanceTools />
       <button disabled={!isChanged} title="Go back to the file on disk" onClick={() => void revertFile()}>
         Revert
       </button>
@@ -81,21 +98,58 @@ function SourceTools({ library }: { library: string }) {
   );
 }
 
+/** What the language server changes in a text. */
+function AssistanceTools() {
+  const editor = shownEditor.value;
+  const can = editor !== null && isWritable.value && source.value?.path.endsWith(".skill") === true;
+  return (
+    <>
+      <button class="plain" disabled={!can} title="Format (Shift-Alt-F)" onClick={() => editor?.format()}>
+        Format
+      </button>
+      <button
+        class="plain"
+        disabled={!can}
+        title="Rename what is at the cursor, in all files (F2)"
+        onClick={() => (renaming.value = true)}
+      >
+        Rename
+      </button>
+      {isFixable.value && (
+        <button
+          class="plain"
+          disabled={!isWritable.value}
+          title="Apply all safe fixes; Ctrl-. fixes what is at the cursor"
+          onClick={() => editor?.fixAll()}
+        >
+          Fix all
+        </button>
+      )}
+    </>
+  );
+}
+
 function EditorBox() {
   const box = useRef<HTMLDivElement>(null);
-  const [editor, setEditor] = useState<Editor | null>(null);
+  const [editor, setEditor] = useState<SourceEditor | null>(null);
   useEffect(() => {
     let end = (): void => undefined;
     let isOver = false;
     void import("../editor/opening").then(({ openEditor }) => {
       const current = source.peek();
       if (isOver || box.current === null || current === null) return;
-      const made = openEditor(box.current, current);
+      const made = openEditor(box.current, current, {
+        onRename: () => (renaming.value = isWritable.peek()),
+        onFixable: (found) => (isFixable.value = found),
+      });
       end = () => made.destroy();
       setEditor(made);
+      shownEditor.value = made;
     });
     return () => {
       isOver = true;
+      shownEditor.value = null;
+      renaming.value = isFixable.value = false;
       end();
     };
   }, []);

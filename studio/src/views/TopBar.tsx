@@ -7,8 +7,9 @@ import {
   cells,
   connection,
   isOngoing,
-  may,
+  mayCommand,
   operation,
+  refusalOf,
   replay,
   session,
   status,
@@ -16,6 +17,7 @@ import {
 import { describeRequest, formatTime } from "../state/text";
 import { Icon, type IconName } from "./icons";
 import { helpShown, nextTheme, theme } from "./layout";
+import { LeaseControl } from "./LeaseControl";
 import { CellBadge, RunBadge } from "./status";
 
 export function TopBar() {
@@ -66,8 +68,8 @@ function CellChoice() {
       </span>
       {needsCare && (
         <button
-          disabled={!may("operate")}
-          title={current.reason}
+          disabled={!mayCommand()}
+          title={refusalOf("operate") || current.reason}
           onClick={() =>
             void attempt(() => api.acknowledge(current.name), "The cell takes operations again.")
           }
@@ -75,6 +77,7 @@ function CellChoice() {
           Acknowledge
         </button>
       )}
+      <LeaseControl />
       <Pace name={current.name} pace={current.pace} />
     </div>
   );
@@ -88,11 +91,11 @@ function Pace({ name, pace }: { name: string; pace: number | null }) {
   };
   const choices = PACES.includes(pace) ? PACES : [...PACES, pace];
   return (
-    <label title="How fast the time of the cell passes">
+    <label title={refusalOf("operate") || "How fast the time of the cell passes"}>
       <span class="visually-hidden">Pace</span>
       <select
         value={pace ?? ""}
-        disabled={!may("operate")}
+        disabled={!mayCommand()}
         onChange={(event) => set(event.currentTarget.value)}
       >
         {choices.map((each) => (
@@ -140,11 +143,12 @@ interface ControlProps {
 }
 
 function Control({ icon, label, hotkey, enabled, act, tone = "", wide = false }: ControlProps) {
+  const why = tone === "stop" ? "" : refusalOf("operate");
   return (
     <button
       class={`${tone} ${wide ? "" : "icon"}`}
       disabled={!enabled}
-      title={`${label} (${hotkey})`}
+      title={why || `${label} (${hotkey})`}
       aria-label={label}
       aria-keyshortcuts={hotkey}
       onClick={() => void act()}
@@ -164,7 +168,7 @@ export function togglePause(): void {
 function Transport() {
   if (replay.value !== null) return isOngoing.value ? <StopControl /> : null;
   const resumes = allows("resume");
-  const can = may("operate");
+  const can = mayCommand();
   return (
     <div class="transport" role="toolbar" aria-label="Operation">
       <Control

@@ -80,7 +80,7 @@ function TreeView() {
     <div
       ref={box}
       class="tree"
-      role="tree"
+      role={all.length === 0 ? "group" : "tree"}
       aria-label="Tree of the operation"
       tabIndex={0}
       data-focus

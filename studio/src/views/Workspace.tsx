@@ -1,7 +1,10 @@
 // The page once somebody is logged in: the bar on top and five panels.
 import { computed } from "@preact/signals";
 import { comparison } from "../state/comparison";
+import { conflict } from "../state/source";
 import { operation } from "../state/studio";
+import { shownSeries } from "../state/trials";
+import { ConflictPage } from "./ConflictPage";
 import { ComparisonPage } from "./ComparisonPage";
 import { Details } from "./Details";
 import { Dropping } from "./Dropping";
@@ -17,12 +20,22 @@ import { SceneView } from "./SceneView";
 import { SignalsView } from "./SignalsView";
 import { SourceView } from "./SourceView";
 import { Splitter } from "./Splitter";
+import { TrialsPage } from "./TrialsPage";
+import { TrialsView } from "./TrialsView";
 import { TopBar } from "./TopBar";
 import { TreePanel } from "./TreeView";
 import { WorldView } from "./WorldView";
 
 /** Whether a view has the place of the panels. */
-const isCovered = computed(() => comparison.value !== null);
+const isCovered = computed(
+  () => comparison.value !== null || shownSeries.value !== null || conflict.value !== null,
+);
+
+function CoveringPage() {
+  if (conflict.value !== null) return <ConflictPage conflict={conflict.value} />;
+  if (comparison.value !== null) return <ComparisonPage shown={comparison.value} />;
+  return shownSeries.value === null ? null : <TrialsPage series={shownSeries.value} />;
+}
 
 export function Workspace() {
   const { left, middle, upper, scene } = sizes.value;
@@ -41,7 +54,7 @@ export function Workspace() {
         <TopBar />
         <ReplayBar />
       </div>
-      {comparison.value !== null && <ComparisonPage shown={comparison.value} />}
+      <CoveringPage />
       <main
         class="workspace"
         style={style}
@@ -98,10 +111,11 @@ function RunColumn() {
         name="run"
         title="Run"
         active={runTab.value}
-        onChoose={(id) => (runTab.value = id as "run" | "runs")}
+        onChoose={(id) => (runTab.value = id as typeof runTab.value)}
         tabs={[
           { id: "run", title: "Run", view: () => <RunPanel /> },
           { id: "runs", title: "Runs", view: () => <RunsView /> },
+          { id: "trials", title: "Trials", view: () => <TrialsView /> },
         ]}
       />
     </div>

@@ -1,17 +1,28 @@
 // The world model: facts with their evidence, searched; its history; and edits, which say why.
 import { signal } from "@preact/signals";
-import { useEffect, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { api } from "../api/client";
-import type { WorldFact, WorldWrite } from "../api/types";
+import type { WorldFact } from "../api/types";
 import { attempt } from "../state/actions";
 import { readWorld } from "../state/live";
-import { cellName, facts, may, selection, things, worldSequence } from "../state/studio";
-import { formatChange, formatFact, individualsOf } from "../state/text";
+import { cellName, facts, mayCommand, refusalOf, selection, things } from "../state/studio";
+import { formatFact, individualsOf } from "../state/text";
+import { maximised } from "./layout";
 import { Fact } from "./links";
+import { WorldGraph } from "./WorldGraph";
+import { WorldDifferences, WorldHistory } from "./WorldHistory";
 
 const search = signal("");
-const view = signal<"facts" | "history">("facts");
+const view = signal<"facts" | "graph" | "history" | "differences">("facts");
 const editing = signal(false);
+/** What the form for edits begins with. */
+const proposed = signal({ edits: "", why: "" });
+
+/** Show the edits that undo a change in the form, to be made with who and why. */
+function proposeUndo(edits: readonly string[], why: string): void {
+  proposed.value = { edits: edits.join("\n"), why };
+  editing.value = true;
+}
 
 export function WorldView() {
   return (
@@ -28,25 +39,60 @@ export function WorldView() {
           <span class="visually-hidden">What to show</span>
           <select
             value={view.value}
-            onChange={(event) => (view.value = event.currentTarget.value as "facts" | "history")}
+            onChange={(event) => (view.value = event.currentTarget.value as typeof view.value)}
           >
             <option value="facts">facts</option>
+            <option value="graph">graph</option>
             <option value="history">who changed what</option>
+            <option value="differences">between two times</option>
           </select>
         </label>
         <button
-          disabled={!may("edit")}
-          title={may("edit") ? "Change facts, and say why" : "This needs the role edit"}
+          disabled={!mayCommand("edit")}
+          title={refusalOf("edit") || "Change facts, and say why"}
           aria-expanded={editing.value}
-          onClick={() => (editing.value = !editing.value)}
+          onClick={() => {
+            const begun = selection.value.kind === "thing" ? labelOfSelected() : "";
+            proposed.value = { edits: begun, why: "" };
+            editing.value = !editing.value;
+          }}
         >
           Edit
         </button>
       </div>
-      {editing.value && <EditForm />}
-      <div class="scroll">{view.value === "facts" ? <FactTable /> : <History />}</div>
+      {editing.value && <EditForm key={proposed.value.edits} />}
+      <Shown />
     </div>
   );
+}
+
+/** What is chosen; facts and graph are beside each other where there is room. */
+function Shown() {
+  switch (view.value) {
+    case "history":
+      return (
+        <div class="scroll">
+          <WorldHistory onUndo={proposeUndo} />
+        </div>
+      );
+    case "differences":
+      return (
+        <div class="scroll">
+          <WorldDifferences />
+        </div>
+      );
+    case "graph":
+      return <div class="scroll">{facts.value.length === 0 ? <FactTable /> : <WorldGraph />}</div>;
+    case "facts":
+      return (
+        <div class={`world-facts ${maximised.value === "details" ? "has-graph" : ""}`}>
+          <div class="scroll">
+            <FactTable />
+          </div>
+          {maximised.value === "details" && facts.value.length > 0 && <WorldGraph />}
+        </div>
+      );
+  }
 }
 
 function FactTable() {
@@ -85,46 +131,9 @@ function FactTable() {
   );
 }
 
-function History() {
-  const [writes, setWrites] = useState<WorldWrite[] | null>(null);
-  const name = cellName.value;
-  const sequence = worldSequence.value;
-  useEffect(() => {
-    if (name !== null) void attempt(async () => setWrites(await api.writes(name, { limit: 200 })));
-  }, [name, sequence]);
-  if (writes === null) return <div class="empty">Reading …</div>;
-  if (writes.length === 0) return <div class="empty">Nobody has changed anything yet.</div>;
-  return (
-    <table>
-      <thead>
-        <tr>
-          <th>when</th>
-          <th>who</th>
-          <th>changes</th>
-        </tr>
-      </thead>
-      <tbody>
-        {writes.map((each) => (
-          <tr key={each.sequence}>
-            <td class="muted">
-              {each.written_ns === 0
-                ? `write ${each.sequence}`
-                : new Date(each.written_ns / 1e6).toLocaleTimeString()}
-            </td>
-            <td>
-              {each.origin || "the scene"} <span class="muted">{each.evidence ?? "given"}</span>
-            </td>
-            <td class="mono wrap-anywhere">{each.changes.map(formatChange).join("; ")}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
-}
-
 function EditForm() {
-  const [text, setText] = useState(selection.value.kind === "thing" ? labelOfSelected() : "");
-  const [why, setWhy] = useState("");
+  const [text, setText] = useState(proposed.peek().edits);
+  const [why, setWhy] = useState(proposed.peek().why);
   const submit = async (event: Event): Promise<void> => {
     event.preventDefault();
     const [name, edits] = [cellName.value, lines(text)];

@@ -23,6 +23,8 @@ const PATHS = {
   help: <path d="M5.7 6a2.4 2.4 0 1 1 3.5 2.2c-.8.4-1.2.9-1.2 1.7M8 12.6h.01" />,
   link: <path d="M6.5 3.5h-3v9h9v-3M9 2.5h4.5V7M13.3 2.7L7.5 8.5" />,
   plug: <path d="M5.5 2v3M10.5 2v3M3.5 5h9v2a4.5 4.5 0 0 1-9 0zM8 11.5V14" />,
+  locked: <path d="M4 7.5h8v6H4zM5.5 7.5V5a2.5 2.5 0 0 1 5 0v2.5" />,
+  unlocked: <path d="M4 7.5h8v6H4zM5.5 7.5V4.5a2.5 2.5 0 0 1 4.8-1" />,
 } satisfies Record<string, JSX.Element>;
 
 export type IconName = keyof typeof PATHS;

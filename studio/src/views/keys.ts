@@ -1,6 +1,6 @@
 // The keys of the page; they do nothing while somebody writes.
 import { command, stop } from "../state/actions";
-import { allows, isOngoing, may } from "../state/studio";
+import { allows, isOngoing, mayCommand } from "../state/studio";
 import {
   choosing,
   detailsTab,
@@ -10,13 +10,14 @@ import {
   nextTheme,
   PANELS,
   runTab,
+  signalsTab,
   toggleMaximised,
   type PanelName,
 } from "./layout";
 import { togglePause } from "./TopBar";
 
 function step(type: string): void {
-  if (may("operate") && allows(type)) void command({ type });
+  if (mayCommand() && allows(type)) void command({ type });
 }
 
 function showDetails(tab: typeof detailsTab.value): void {
@@ -30,7 +31,7 @@ function showRun(tab: typeof runTab.value): void {
 }
 
 const ACTIONS: Record<string, () => void> = {
-  p: () => may("operate") && togglePause(),
+  p: () => mayCommand() && togglePause(),
   n: () => step("step-over"),
   i: () => step("step-into"),
   o: () => step("step-out"),
@@ -46,6 +47,10 @@ const ACTIONS: Record<string, () => void> = {
     showRun("run");
   },
   h: () => showRun("runs"),
+  g: () => {
+    signalsTab.value = signalsTab.value === "plan" ? "signals" : "plan";
+    focusPanel("signals");
+  },
   m: () => toggleMaximised(focusedPanel() ?? maximised.value ?? "tree"),
   t: nextTheme,
   "?": () => (helpShown.value = !helpShown.value),

@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
+from starlette.responses import Response
+
 from skillc.cells.messages import TakeSnapshot
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.problems import ApiRefusal
+from skillc.server.simulation_jobs import MAX_WAITING
+from skillc.server.trials.replays import TrialReplay
 from skillc.server.trials.running import MAX_UNFINISHED
 from skillc.server.trials.store import TrialSeries
 from skillc.workers.jobs import CheckTrials, TrialsRequest
 from skillc_runtime.evaluation.trials.series import Series
 
+MCAP = "application/octet-stream"
+MAX_DIGITS = 12
 CHECK_S = 20.0
 """How long checking a request may take, in s."""
 
@@ -48,8 +55,43 @@ async def remove_trials(call: ApiCall) -> None:
     call.server.trials.remove((await show_trials(call)).id)
 
 
+async def replay_trial(call: ApiCall) -> TrialReplay:
+    series, seed = await _find_trial(call)
+    if call.server.jobs.full:
+        raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"{MAX_WAITING} simulations wait or go on; try again later")
+    cell = call.server.find_cell(series.cell)
+    known = raise_refused(await cell.request(TakeSnapshot()))
+    return call.server.trial_replays.begin(series, seed, cell.settings.scene, known)
+
+
+async def show_replay(call: ApiCall) -> TrialReplay:
+    series, seed = await _find_trial(call)
+    if (found := call.server.trial_replays.find(series.id, seed)) is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"trial {seed} of {series.id} was not run again; POST does that")
+    return found
+
+
+async def read_replay(call: ApiCall) -> Response:
+    found = await show_replay(call)
+    recording = call.server.trial_replays.find_recording(found.series, found.seed)
+    if recording is None:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of trial {found.seed} of {found.series}")
+    return send_file(recording, MCAP, f"{found.series}-{found.seed}.mcap")
+
+
+async def _find_trial(call: ApiCall) -> tuple[TrialSeries, int]:
+    """Return the series and the seed that a request names; ApiRefusal (404) if the series has no trial of this seed."""
+    series, seed, wanted = await show_trials(call), call.path["seed"], None
+    if seed.isascii() and seed.isdigit() and len(seed) <= MAX_DIGITS:
+        wanted = int(seed)
+    if wanted is None or wanted not in range(series.request.seed, series.request.seed + series.request.number):
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"{series.id} has no trial with the seed {seed[:MAX_DIGITS]}")
+    return series, wanted
+
+
 NOT_FOUND = (HTTPStatus.NOT_FOUND,)
 PATH = "/trials/{series}"
+REPLAY = f"{PATH}/replays/{{seed}}"
 ENDPOINTS = (
     ApiEndpoint(
         "POST", "/cells/{cell}/trials", "operate", "Run a task many times in simulation, from the scene of a cell",
@@ -69,5 +111,17 @@ ENDPOINTS = (
     ApiEndpoint(
         "DELETE", PATH, "operate", "End and forget a series of trials", remove_trials, status=HTTPStatus.NO_CONTENT,
         refusals=NOT_FOUND,
+    ),
+    ApiEndpoint(
+        "POST", REPLAY, "operate", "Run a trial of a series again, and record it", replay_trial, TrialReplay,
+        status=HTTPStatus.CREATED, refusals=(*NOT_FOUND, *UNAVAILABLE),
+    ),
+    ApiEndpoint(
+        "GET", REPLAY, "view", "Show how far a trial is that is run again", show_replay, TrialReplay,
+        refusals=NOT_FOUND,
+    ),
+    ApiEndpoint(
+        "GET", f"{REPLAY}/recording", "view", "Read the recording of a trial that was run again, an MCAP file",
+        read_replay, refusals=NOT_FOUND, media_type=MCAP,
     ),
 )  # fmt: skip

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
+from typing import TypeAlias
 
 from msgspec import structs
 
@@ -17,6 +19,7 @@ from skillc_runtime.evaluation.measures.claims import find_false_claims
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
+from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushableCell, PushDisturbance
@@ -60,6 +63,14 @@ class Experiment:
     disturbance: Disturbance
 
 
+RecordTrial: TypeAlias = Callable[[PushableCell], AbstractContextManager[Sequence[Listener]]]
+"""Records what happens in the cell of a trial in a `with` statement, which yields who gets the events."""
+
+
+class NotRecorded(Exception):
+    """A trial cannot be recorded, because its task does not start; the message says why."""
+
+
 class TrialRunner:
     """Runs trials of one experiment; loading and planning are done once for all of them."""
 
@@ -78,18 +89,40 @@ class TrialRunner:
             cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
-        trial = self._run(self._prepared, cell)
+        trial = self._run(self._prepared, cell).measure(cell)
         return structs.replace(trial, false_claims=judge_claims(self._state, cell))
 
-    def _run(self, prepared: PreparedTask, cell: PushableCell) -> Trial:
+    def record(self, seed: int, recording: RecordTrial) -> TaskResult:
+        """Run the trial of a seed again and record it; NotRecorded, SheetError or FrameError if it cannot start."""
+        if isinstance(self._prepared, NotStarted):
+            raise NotRecorded(self._prepared.reason)
+        cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
+        with recording(cell) as listeners:
+            return self._run(self._prepared, cell, listeners).result
+
+    def _run(self, prepared: PreparedTask, cell: PushableCell, listeners: Sequence[Listener] = ()) -> _Executed:
         choices, push = ChoiceListener(), PushDisturbance(cell)
         disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
-        execution = execute_task(prepared, self._library, cell, (choices, *disturbances), push.update)
+        execution = execute_task(prepared, self._library, cell, (choices, *disturbances, *listeners), push.update)
         trees = tuple(attempt.tree for attempt in execution.attempts)
         state, truth = cell.world.snapshot(), cell.ground_truth
         wipings = find_wipings(trees, choices, state)
         result = summarise_run(execution, choices, self._library, wipings, cell)
-        wiping_results = tuple(zip(wipings, result.wipings, strict=True))
+        rated = tuple(zip(wipings, result.wipings, strict=True))
+        return _Executed(result, RunEvidence(self._library, state, truth, trees, choices, rated), push.pushed)
+
+
+@dataclass(frozen=True, slots=True)
+class _Executed:
+    """A trial that has ended, before it is measured."""
+
+    result: TaskResult
+    evidence: RunEvidence
+    pushed: bool
+
+    def measure(self, cell: PushableCell) -> Trial:
+        """Return the trial with what was measured, while the cell is as it was at its end."""
+        result, state, truth = self.result, self.evidence.state, self.evidence.truth
         return Trial(
             seed=result.seed,
             status=result.status,
@@ -97,14 +130,11 @@ class TrialRunner:
             verified=result.verified,
             assumed=tuple(format_fact(fact.fact) for fact in unverified_facts(result.facts)),
             variation=result.variation,
-            works=(
-                *_measure_work(RunEvidence(self._library, state, truth, trees, choices, wiping_results)),
-                *placements.measure(result.placements),
-            ),
+            works=(*_measure_work(self.evidence), *placements.measure(result.placements)),
             coverage=_least_coverage(state, truth),
             greatest_force_n=_greatest_force_n(state, truth),
             force_limit_n=_force_limit_n(state),
-            pushed=push.pushed,
+            pushed=self.pushed,
             at_rest=cell.is_at_rest(),
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,

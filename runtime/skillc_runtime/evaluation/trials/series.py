@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from statistics import fmean, quantiles
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
@@ -19,7 +19,8 @@ class Spread(msgspec.Struct, frozen=True, kw_only=True):
 
     `low_quartile` and `high_quartile` enclose the middle half of the values; `mean_interval` is the confidence
     interval of the `mean`, None for a single value. `target` is the target as text, `bound` its value, None without a
-    target; `values` are in the order of the seeds.
+    target; small values are the better ones if `sense` is `at most`. `values` are in the order of `seeds`, those of the
+    trials in which they were measured.
     """
 
     metric: str
@@ -36,6 +37,8 @@ class Spread(msgspec.Struct, frozen=True, kw_only=True):
     mean_interval: Interval | None
     met: int
     values: tuple[float, ...]
+    seeds: tuple[int, ...] = ()
+    sense: Literal["at least", "at most"] = "at most"
     median_missed: str | None = None
 
 
@@ -98,16 +101,19 @@ def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Seque
 
 def compute_spreads(trials: Sequence[Trial], judged_by_targets: bool = True) -> tuple[Spread, ...]:
     """Return the spread of each metric of each object over the trials, ordered by object and metric."""
-    found: dict[tuple[str, str], tuple[Metric[Any], list[float]]] = {}
-    for each in (value for trial in trials for value in list_trial_values(trial)):
-        found.setdefault((each.subject, each.metric.name), (each.metric, []))[1].append(each.value)
+    found: dict[tuple[str, str], tuple[Metric[Any], list[tuple[int, float]]]] = {}
+    for seed, each in ((trial.seed, value) for trial in trials for value in list_trial_values(trial)):
+        found.setdefault((each.subject, each.metric.name), (each.metric, []))[1].append((seed, each.value))
     by_subject = sorted(found.items(), key=lambda item: item[0][0])
     return tuple(
-        _compute_spread(metric, subject, values, judged_by_targets) for (subject, _), (metric, values) in by_subject
+        _compute_spread(metric, subject, measured, judged_by_targets) for (subject, _), (metric, measured) in by_subject
     )
 
 
-def _compute_spread(metric: Metric[Any], subject: str, values: list[float], judged_by_targets: bool) -> Spread:
+def _compute_spread(
+    metric: Metric[Any], subject: str, measured: list[tuple[int, float]], judged_by_targets: bool
+) -> Spread:
+    seeds, values = [seed for seed, _ in measured], [value for _, value in measured]
     low, middle, high = quantiles(values, n=4, method="inclusive") if len(values) > 1 else values * 3
     target = metric.median_target
     missed = target is not None and middle > target and judged_by_targets
@@ -126,5 +132,7 @@ def _compute_spread(metric: Metric[Any], subject: str, values: list[float], judg
         mean_interval=compute_mean_interval(values),
         met=sum(map(metric.is_met, values)),
         values=tuple(values),
+        seeds=tuple(seeds),
+        sense=metric.sense,
         median_missed=f"median {middle:.3g} {metric.unit}, wanted at most {target:g}" if missed else None,
     )

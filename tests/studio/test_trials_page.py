@@ -1,0 +1,62 @@
+"""Trials: a series is begun, its distributions are shown, and its worst case is one click from its replay."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from server.running import RunningServer
+from server.test_trials import ENDS, wait_for
+from studio.accessibility import check_axe
+
+
+@pytest.mark.parametrize(
+    "scheme", [pytest.param(each, marks=pytest.mark.looks(color_scheme=each)) for each in ("light", "dark")]
+)
+def test_the_worst_case_of_a_series_is_one_click_from_its_replay(
+    page: Page, server: RunningServer, scheme: str
+) -> None:
+    page.keyboard.press("h")
+    page.get_by_role("tab", name="Trials").click()
+    page.get_by_role("button", name="New series").click()
+    page.get_by_label("Task", exact=True).select_option("carry")
+    page.get_by_role("combobox", name="crate").fill("lab:crate-1")
+    page.get_by_role("combobox", name="to", exact=True).fill("lab:Goal")
+    page.get_by_role("spinbutton", name="Trials").fill("5")
+    check_axe(page, f"trials-new-{scheme}")
+    page.get_by_role("button", name="Begin").click()
+    page.locator(".series").first.wait_for()
+    begun = page.locator(".series").first.get_attribute("title") or ""
+    wait_for(server, begun, *ENDS)
+    expect(page.locator(".series").first).to_contain_text("5 passed")
+    page.locator(".series").first.click()
+    shown = page.get_by_role("main", name="Trials of carry")
+    shown.locator(".distribution").first.wait_for()
+    told = server.client.get(f"/trials/{begun}/result").json()
+    expect(shown.locator(".distribution")).to_have_count(len(told["spreads"]))
+    expect(shown.locator(".distribution").first.locator(".dot")).to_have_count(5)
+    check_axe(page, f"trials-{scheme}")
+    slowest = told["spreads"][0]
+    worst = slowest["seeds"][slowest["values"].index(slowest["greatest"])]
+    shown.get_by_role("button", name="Replay the worst").first.click()
+    expect(page.locator(".topbar .operation")).to_contain_text(f"carry, seed {worst}", timeout=120_000)
+    expect(page.locator(".tree-row[aria-level='1'].is-success")).to_have_count(2)
+    page.get_by_role("button", name="Back to the cell").click()
+    page.locator(".series").first.click()
+    page.once("dialog", lambda dialog: dialog.accept())
+    shown.get_by_role("button", name="Forget").click()
+    expect(shown).to_be_hidden()
+    assert server.client.get(f"/trials/{begun}").status_code == 404
+
+
+def test_trials_that_cannot_be_run_are_refused_where_they_are_written(page: Page) -> None:
+    page.keyboard.press("h")
+    page.get_by_role("tab", name="Trials").click()
+    page.get_by_role("button", name="New series").click()
+    page.get_by_label("Task", exact=True).select_option("carry")
+    expect(page.get_by_role("button", name="Begin")).to_be_disabled()
+    page.get_by_role("combobox", name="crate").fill("lab:no-such-crate")
+    page.get_by_role("combobox", name="to", exact=True).fill("lab:Goal")
+    page.get_by_role("button", name="Begin").click()
+    expect(page.get_by_role("alert").filter(has_text="no-such-crate")).to_be_visible()
+    expect(page.get_by_role("combobox", name="crate")).to_have_value("lab:no-such-crate")

@@ -1,0 +1,85 @@
+"""The world: its graph, what differs between two times, and the undo of an edit with who and why."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from server.running import RunningServer
+from studio.accessibility import check_axe
+
+
+def edit(server: RunningServer, text: str, why: str) -> None:
+    assert server.client.post("/cells/yard/world/edits", json={"edits": [text], "why": why}).status_code == 204
+
+
+def show(page: Page, what: str) -> None:
+    page.keyboard.press("f")
+    page.get_by_label("What to show").select_option(label=what)
+
+
+def test_an_edit_is_undone_with_who_and_why(page: Page, server: RunningServer) -> None:
+    edit(server, 'lab:crate-2 skiros:FrameId "first"', "it has a name")
+    edit(server, 'lab:crate-2 skiros:FrameId "second"', "it has another name")
+    page.reload()
+    page.locator(".workspace").wait_for()
+    show(page, "who changed what")
+    row = page.locator(".world tbody tr", has_text="it has another name").first
+    row.get_by_role("button", name="Undo").click()
+    expect(page.locator(".world textarea")).to_have_value(
+        'lab:crate-2 <http://rvmi.aau.dk/ontologies/skiros.owl#FrameId> "first"'
+    )
+    expect(page.get_by_label("Why", exact=True)).to_have_value(
+        f"undoes write {server.client.get('/cells/yard/world/history').json()[0]['sequence']} "
+        "(admin: it has another name)"
+    )
+    page.get_by_role("button", name="Change", exact=True).click()
+    undone = page.locator(".world tbody tr", has_text="admin: undoes write").first
+    expect(undone).to_contain_text('lab:crate-2.FrameId == "first"')
+    facts = server.client.get("/cells/yard/world", params={"subject": "lab:crate-2"}).json()["facts"]
+    assert any(each["fact"].get("value") == "first" for each in facts)
+
+
+def test_what_a_skill_changed_has_no_undo(page: Page, server: RunningServer) -> None:
+    server.wait_for(server.submit(goal="lab:Goal contain lab:crate-0")["id"], "succeeded")
+    show(page, "who changed what")
+    row = page.locator(".world tbody tr", has_text="Unload").first
+    expect(row).to_be_visible()
+    expect(row.get_by_role("button", name="Undo")).to_have_count(0)
+
+
+@pytest.mark.parametrize(
+    "scheme", [pytest.param(each, marks=pytest.mark.looks(color_scheme=each)) for each in ("light", "dark")]
+)
+def test_what_differs_between_two_times(page: Page, server: RunningServer, scheme: str) -> None:
+    edit(server, "lab:Goal skiros:contain lab:crate-3", "it was carried by hand")
+    page.reload()
+    page.locator(".workspace").wait_for()
+    show(page, "between two times")
+    begin = server.client.get("/cells/yard/world/history").json()[1]["sequence"]
+    page.get_by_label("From").select_option(str(begin))
+    row = page.locator(".world tbody tr", has_text="Goal contain lab:crate-3")
+    expect(row).to_contain_text("yes")
+    expect(row).to_contain_text("admin: it was carried by hand")
+    check_axe(page, f"world-times-{scheme}")
+    last = page.get_by_label("To").input_value()
+    page.get_by_label("From").select_option(last)
+    expect(page.get_by_text("The second time is not after the first one.")).to_be_visible()
+
+
+@pytest.mark.parametrize(
+    "scheme", [pytest.param(each, marks=pytest.mark.looks(color_scheme=each)) for each in ("light", "dark")]
+)
+def test_the_graph_is_beside_the_table_and_shares_the_selection(page: Page, scheme: str) -> None:
+    show(page, "graph")
+    graph = page.locator(".world-graph")
+    expect(graph.locator(".graph-node")).to_have_count(7)  # the place of all crates, and six crates
+    graph.get_by_role("button", name="lab:crate-4").focus()
+    page.keyboard.press("Enter")
+    expect(graph.locator(".is-centre")).to_contain_text("lab:crate-4")
+    page.get_by_label("What to show").select_option(label="facts")
+    page.get_by_role("button", name="Enlarge Details").click()
+    expect(graph.locator(".is-centre")).to_contain_text("lab:crate-4")
+    expect(page.locator(".world tr.is-selected").first).to_contain_text("lab:crate-4")
+    check_axe(page, f"world-graph-{scheme}")
+    page.keyboard.press("m")
