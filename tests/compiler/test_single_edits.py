@@ -7,7 +7,7 @@ import pytest
 
 from random_mistakes.judging import ORIGINS, Origin, Verdict, judge
 
-TRIED = int(os.environ.get("EDITS", "40"))
+TRIED = int(os.environ.get("EDITS", "80"))
 
 
 def verdicts(origin: Origin, count: int) -> Iterator[Verdict]:

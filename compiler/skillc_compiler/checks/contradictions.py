@@ -32,13 +32,15 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _in_group(conflicts: Conflicts, group: ConjunctionGroup) -> Iterator[Diagnostic]:
     names = equal_names_in((*group.given, *group.own))
     earlier = {(fact.meaning, fact.holds): fact for fact in (rename_fact(each, names) for each in group.given)}
+    own: set[object] = set()
     for fact in (rename_fact(each, names) for each in group.own):
-        if (fact.meaning, fact.holds) in earlier:
+        if (fact.meaning, fact.holds) in own:
             continue  # what contradicts it, contradicts the one before it
         against = next((other for other in earlier.values() if conflicts.exclude(other, fact)), None)
         if against is not None:
             yield _problem(fact, against)
         earlier[fact.meaning, fact.holds] = fact
+        own.add((fact.meaning, fact.holds))
 
 
 def _problem(fact: TypedFact, against: TypedFact) -> Diagnostic:
