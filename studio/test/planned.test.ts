@@ -29,7 +29,7 @@ const rows = (state: Parameters<typeof treeRows>[0]): string[] =>
     (each) => `${"  ".repeat(each.depth)}${each.node.name} ${each.node.status}`,
   );
 
-const PLANNED = { ...EMPTY, attempts: [{ plan: null, nodes: [], reason: "" }] };
+const PLANNED = { ...EMPTY, attempts: [{ plan: null, arrived: null, nodes: [], reason: "" }] };
 
 test("before anything has started the tree of the plan is there, pending", () => {
   expect(rows(withPlanned(PLANNED, TREE))).toEqual(["all pending"]);
