@@ -263,7 +263,7 @@ def test_the_documentation_has_all_states() -> None:
 def test_each_state_allows_what_the_documentation_says(state: str, tmp_path: Path) -> None:
     with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
         reach(host, state)
-        edit = partial(host.edit, ["lab:spare a skiros:Product"], "bo", "to see")
+        edit = partial(host.edit, Edit(edits=("lab:spare a skiros:Product",), who="bo", why="to see"))
         requests = (partial(host.submit, "op", TASK), edit, host.take_snapshot, host.acknowledge)
         assert [is_done(each) for each in requests] == read_table()[state]
         assert find_state(host) == ("operational", "")

@@ -12,6 +12,7 @@ import pytest
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.messages import Edit
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.services.backends import make_backend
 from skillc.services.reporting import SilentReporter
@@ -75,7 +76,7 @@ def test_an_edit_of_a_person_is_an_input_that_can_be_repeated(tmp_path: Path, ti
                 host.loop.wait(0.01)
         for _ in range(ticks):
             host.tick()
-        host.edit(["lab:Goal skiros:contain lab:crate-5"], "Ada", "I carried it")
+        host.edit(Edit(edits=("lab:Goal skiros:contain lab:crate-5",), who="Ada", why="I carried it"))
         (ended,) = run_all(host)
         assert ended.state == "succeeded"
         with closing(JournalReader(host.settings.journal)) as reader:

@@ -13,6 +13,7 @@ from running_cells.test_operations import run_all
 from running_cells.test_reality import BOARD, SORTING, TABLE, make_settings
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
+from skillc.cells.messages import Edit
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.cells.recordings import recording_file
 from skillc.cells.settings import CellSettings
@@ -123,10 +124,10 @@ def test_edits_and_disturbances_are_repeated(tmp_path: Path) -> None:
     with open_cell(settings, SilentReporter()) as host:
         stop_after(host, "before", SORTING[1], 300)
         host.disturb(Move(PART, (0.01, 0.0, 0.0)), "bo")
-        host.edit(["lab:spare a skiros:Product"], "bo", "it came")
+        host.edit(Edit(edits=("lab:spare a skiros:Product",), who="bo", why="it came"))
         host.submit("disturbed", OperationRequest(task=SORTING[1]))
         run_for(host, 200)
-        host.edit(["not lab:spare"], "bo", "it is gone")
+        host.edit(Edit(edits=("not lab:spare",), who="bo", why="it is gone"))
         host.disturb(Push(ARM, (5.0, 0.0, 0.0)), "bo")
         run_all(host)
     assert_repeated(settings, "before", "disturbed")

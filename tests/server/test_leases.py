@@ -104,6 +104,7 @@ def test_an_agent_cannot_approve_its_own_operation(server: RunningServer) -> Non
         at = (datetime.now(UTC) + timedelta(days=1)).isoformat()
         ordered = agent.post("/cells/yard/orders", json={"request": {"task": "carry_all"}, "at": at}).json()
         assert ordered["order"]["request"]["approve"] is True
+        assert agent.delete(f"/orders/{ordered['id']}").status_code == 204
     listed = server.client.get("/tokens").json()
     assert [each["name"] for each in listed if each["agent"]] == ["agent-1"]
     server.client.delete("/tokens/agent-1")

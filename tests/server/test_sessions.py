@@ -231,6 +231,7 @@ def test_a_session_and_a_database_of_an_older_format_survive_a_restart(tmp_path:
         assert httpx.get(f"{again.url}/session", headers=cookie).json() == {"name": "admin", "role": "admin"}
     with closing(sqlite3.connect(tmp_path / "served" / "server.sqlite")) as database:
         database.execute("DROP TABLE sessions")
+        database.execute("ALTER TABLE tokens DROP COLUMN agent")
         database.execute("PRAGMA user_version = 3")
     with serving(tmp_path) as migrated:
         assert migrated.client.post("/session").status_code == 204

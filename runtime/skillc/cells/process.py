@@ -59,9 +59,10 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
         return 1
     try:
         with open_cell(settings, _Log()) as host:
-            if not has_stored_code():
-                send_frame(requests, Preparing(reason="the control laws are compiled"))
-            compile_imported()
+            if host.simulation.backend.live.arms:
+                if not has_stored_code():
+                    send_frame(requests, Preparing(reason="the control laws are compiled"))
+                compile_imported()
             outbox = Outbox(requests)
             listen_for_stops(stops, lambda request: host.stop(request.operation, request.reason))
             service = CellService(host, Inbox(requests, outbox), outbox)
