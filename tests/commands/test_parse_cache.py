@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from shipped_sources import TEXTS
 
-from skillc.services import parse_cache
+from skillc.services import cache_entries, parse_cache
 from skillc_dsl import cache
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
@@ -55,7 +55,7 @@ def test_a_damaged_or_foreign_entry_is_not_read(folder: Path, damage: bytes) -> 
 def test_another_version_does_not_read_the_entry(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = Source("m.skill", TEXTS[0])
     again(source)
-    monkeypatch.setattr(parse_cache, "installation_digest", lambda: b"another")
+    monkeypatch.setattr(cache_entries, "installation_digest", lambda: b"another")
     assert again(source) == parse(source)
     assert len(list(folder.iterdir())) == 2
 

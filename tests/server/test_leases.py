@@ -86,7 +86,10 @@ def test_the_events_of_an_operation_have_who_gave_each_command(server: RunningSe
 
 def test_an_agent_cannot_approve_its_own_operation(server: RunningServer) -> None:
     server.put_back()
-    made = server.client.post("/tokens", json={"name": "agent-1", "role": "operate", "agent": True}).json()
+    wanted = {"name": "agent-1", "agent": True}
+    refused = server.client.post("/tokens", json={**wanted, "role": "admin"})
+    assert refused.status_code == 409 and "could make other tokens" in refused.json()["detail"]
+    made = server.client.post("/tokens", json={**wanted, "role": "operate"}).json()
     with server.client_of(made["token"]) as agent:
         submitted = agent.post("/cells/yard/operations", json={"task": "carry_all", "approve": False})
         operation = submitted.json()["id"]

@@ -55,23 +55,26 @@ def _unused(name: str, span: Span, message: str) -> Diagnostic:
 
 
 def _header(program: Program, unit: ParsedFile) -> Iterator[Diagnostic]:
+    """Yield a warning for each vocabulary, prefix and import of a header that is not used."""
     used = program.used[unit.file.path]
     prefixes = {text.partition(":")[0] for text in used if ":" in text}
     found = {line.path.span: path for line, path in unit.imports}
     for line in unit.file.header:
         match line:
-            case s.Use(vocabularies=vocabularies):
-                for name in vocabularies:
-                    if name.text in program.vocabulary.prefixes and not used & _terms(program.vocabulary, name.text):
-                        yield _unused(
-                            "unused-use", name.span, f"nothing of `{name.text}` is used by its bare name here"
-                        )
+            case s.Use():
+                yield from _vocabularies(program, line, used)
             case s.Prefix(name=name):
                 if name.text not in prefixes:
                     yield _unused("unused-prefix", name.span, f"the prefix `{name.text}` is never used")
             case s.Import(path=path):
                 if path.span in found and not _import_used(program, unit, found[path.span]):
                     yield _unused("unused-import", path.span, f'nothing of "{path.value}" is used here')
+
+
+def _vocabularies(program: Program, line: s.Use, used: frozenset[str]) -> Iterator[Diagnostic]:
+    for name in line.vocabularies:
+        if name.text in program.vocabulary.prefixes and not used & _terms(program.vocabulary, name.text):
+            yield _unused("unused-use", name.span, f"nothing of `{name.text}` is used by its bare name here")
 
 
 def _terms(vocabulary: Vocabulary, prefix: str) -> set[str]:

@@ -11,6 +11,7 @@ from typing import TypeAlias
 from skillc_compiler.diagnostics.orphans import find_orphan
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownName
+from skillc_compiler.program.written import skill_of
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
@@ -99,12 +100,7 @@ def _report_line(group: Sequence[UnknownName], line: HeaderLine, files: Sequence
     first = group[0]
     unit = next(unit for unit in files if unit.file.path == first.written.span.path)
     place, text = _insertion(unit, line)
-    shown = f"import {line.name}" if line.keyword == "import" else f"use {line.name}"
-    fix = Fix(
-        place,
-        text,
-        f"add `{shown.replace(line.name, f'{chr(34)}{line.name}{chr(34)}') if line.keyword == 'import' else shown}`",
-    )
+    fix = Fix(place, text, f"add `{_write_line(line)}`")
     labels = (
         Label(place, "add it here"),
         *_other_places(group),
@@ -130,7 +126,7 @@ def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:
     if line.keyword == "use" and uses:
         span = uses[-1].span
         return Span(path, span.end_line, span.end_column, span.end_line, span.end_column), f", {line.name}"
-    text = f'import "{line.name}"' if line.keyword == "import" else f"use {line.name}"
+    text = _write_line(line)
     if header and line.keyword == "import":
         span = header[-1].span
         return Span(path, span.end_line, span.end_column, span.end_line, span.end_column), f"\n{text}"
@@ -138,26 +134,28 @@ def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:
     return Span(path, number, 1, number, 1), f"{text}\n" if header else f"{text}\n\n"
 
 
+def _write_line(line: HeaderLine) -> str:
+    return f'import "{line.name}"' if line.keyword == "import" else f"use {line.name}"
+
+
 def _declaration(unknown: UnknownName, name: str, files: Iterable[ParsedFile]) -> Span | None:
     """Return the name in the declaration of a candidate, None if the owner of the unknown name does not declare it."""
-    for unit in files:
-        for declaration in unit.file.declarations:
-            if unknown.owner == LIBRARY:
-                if declaration.name.text == name and not isinstance(declaration, s.ImplementationDeclaration):
-                    return declaration.name.span
-                continue
-            match declaration:
-                case (
-                    s.SkillDeclaration(name=s.Name(text=owner)) | s.ImplementationDeclaration(skill=s.Name(text=owner))
-                ) if owner == unknown.owner:
-                    for member in declaration.members:
-                        if isinstance(member, s.Parameter | s.Let) and member.name.text == name:
-                            return member.name.span
-                    if isinstance(declaration, s.ImplementationDeclaration) and declaration.name.text == name:
-                        return declaration.name.span
-                case _:
-                    pass
-    return None
+    declarations = (declaration for unit in files for declaration in unit.file.declarations)
+    names = (each for declaration in declarations for each in _declared_names(declaration, unknown))
+    return next((each.span for each in names if each.text == name), None)
+
+
+def _declared_names(declaration: s.Declaration, unknown: UnknownName) -> Iterator[s.Name]:
+    """Yield the names of a declaration that are among those which an unknown name could be."""
+    implements = isinstance(declaration, s.ImplementationDeclaration)
+    if unknown.owner == LIBRARY:
+        yield from () if implements else (declaration.name,)
+    elif (
+        isinstance(declaration, s.SkillDeclaration | s.ImplementationDeclaration)
+        and skill_of(declaration) == unknown.owner
+    ):
+        yield from (each.name for each in declaration.members if isinstance(each, s.Parameter | s.Let))
+        yield from (declaration.name,) if implements else ()
 
 
 def _count_words(files: Iterable[ParsedFile]) -> Mapping[str, int]:

@@ -15,7 +15,7 @@ TASK = ""
 """What stands for a task in the place of a skill."""
 
 
-class Run(msgspec.Struct, frozen=True):
+class BodyOutline(msgspec.Struct, frozen=True):
     """What an implementation of `skill`, or a TASK, runs.
 
     `selected` are the calls of one implementation, `Skill[name]`; `body` is the digest of the text with its place.
@@ -27,7 +27,7 @@ class Run(msgspec.Struct, frozen=True):
     body: str
 
 
-class Outline(msgspec.Struct, frozen=True):
+class FileOutline(msgspec.Struct, frozen=True):
     """The outline of a file; `digest` is that of its lines outside of bodies, with their numbers.
 
     `described` and `implemented` are skills, `imports` paths; `adds_terms` if it changes what names mean in all files.
@@ -36,7 +36,7 @@ class Outline(msgspec.Struct, frozen=True):
     digest: str
     described: frozenset[str]
     implemented: frozenset[str]
-    runs: tuple[Run, ...]
+    runs: tuple[BodyOutline, ...]
     imports: tuple[str, ...]
     adds_terms: bool
     has_tasks: bool
@@ -47,11 +47,11 @@ class Outline(msgspec.Struct, frozen=True):
         return self.digest, tuple((run.skill, run.calls, run.selected) for run in self.runs)
 
 
-def outline_of(unit: ParsedFile) -> Outline:
+def outline_of(unit: ParsedFile) -> FileOutline:
     """Return the outline of a file."""
     file, lines = unit.file, unit.text.split("\n")
     terms = s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration
-    return Outline(
+    return FileOutline(
         digest=_digest(_outside(lines, [body for each in file.declarations for body in _bodies(each)])),
         described=_skills(file, s.SkillDeclaration),
         implemented=_skills(file, s.ImplementationDeclaration),
@@ -67,10 +67,10 @@ def _skills(file: s.File, kind: type[s.Declaration]) -> frozenset[str]:
     return frozenset(skill_of(each) for each in file.declarations if isinstance(each, kind))
 
 
-def _run(declaration: s.Declaration, lines: list[str]) -> Run:
+def _run(declaration: s.Declaration, lines: list[str]) -> BodyOutline:
     calls = list(calls_of(declaration))
     implementing = isinstance(declaration, s.ImplementationDeclaration)
-    return Run(
+    return BodyOutline(
         skill=skill_of(declaration) if implementing else TASK,
         calls=frozenset(call.skill.text for call in calls),
         selected=frozenset((call.skill.text, call.implementation.text) for call in calls if call.implementation),

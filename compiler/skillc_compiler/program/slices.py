@@ -6,10 +6,10 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 
-from skillc_compiler.program.outlines import Outline
+from skillc_compiler.program.outlines import FileOutline
 
 
-def changed_skills(before: Mapping[str, Outline], now: Mapping[str, Outline]) -> frozenset[str]:
+def changed_skills(before: Mapping[str, FileOutline], now: Mapping[str, FileOutline]) -> frozenset[str]:
     """Return the skills of the bodies that differ, TASK for those of tasks; the outlines show the same otherwise."""
     pairs = (pair for path, new in now.items() for pair in zip(before[path].runs, new.runs, strict=True))
     return frozenset(new.skill for old, new in pairs if old.body != new.body)
@@ -18,7 +18,7 @@ def changed_skills(before: Mapping[str, Outline], now: Mapping[str, Outline]) ->
 class Dependencies:
     """Which skills and files of a library depend on which, by the outlines of its files."""
 
-    def __init__(self, outlines: Mapping[str, Outline]) -> None:
+    def __init__(self, outlines: Mapping[str, FileOutline]) -> None:
         self._outlines = outlines
 
     def callers(self, changed: Iterable[str]) -> frozenset[str]:
@@ -83,7 +83,7 @@ def _reached(start: Iterable[str], edges: Mapping[str, Collection[str]]) -> set[
     return found
 
 
-def _named(outline: Outline) -> Iterator[str]:
+def _named(outline: FileOutline) -> Iterator[str]:
     """Yield the skills that a file describes, implements or calls."""
     yield from outline.described
     yield from outline.implemented

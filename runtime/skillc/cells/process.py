@@ -14,7 +14,7 @@ from contextlib import suppress
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
-from skillc.cells.host import open_cell
+from skillc.cells.host import CellHost, open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
 from skillc.cells.messages import Preparing, StartFailed
 from skillc.cells.service import CellService
@@ -59,10 +59,7 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
         return 1
     try:
         with open_cell(settings, _Log()) as host:
-            if host.simulation.backend.live.arms:
-                if not has_stored_code():
-                    send_frame(requests, Preparing(reason="the control laws are compiled"))
-                compile_imported()
+            _load_laws(host, requests)
             outbox = Outbox(requests)
             listen_for_stops(stops, lambda request: host.stop(request.operation, request.reason))
             service = CellService(host, Inbox(requests, outbox), outbox)
@@ -76,6 +73,15 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
     except (ServiceError, DatabaseError, NotDurable, StoreError, SheetError, FrameError) as error:
         return _refuse(requests, str(error))
     return 0
+
+
+def _load_laws(host: CellHost, requests: socket.socket) -> None:
+    """Load the control laws of a cell with arms before it ticks; the first process of a version compiles them."""
+    if not host.simulation.backend.live.arms:
+        return
+    if not has_stored_code():
+        send_frame(requests, Preparing(reason="the control laws are compiled"))
+    compile_imported()
 
 
 def _refuse(requests: socket.socket, reason: str) -> int:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc.server.access.roles import Role
-from skillc.server.values import Name
+from skillc.server.values import Name, Why
 from skillc.workers.devices import Device
 from skillc_dsl.rendering.json import DiagnosticData
 from skillc_runtime.execution.pace import SLOWEST
@@ -45,7 +45,7 @@ class PaceSetting(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class StopReason(msgspec.Struct, frozen=True):
-    """Why an operation, or everything, is stopped. No form of it is a reason not to stop: a long one is cut."""
+    """Why an operation, or everything, is stopped. A long reason is cut, and what else a body has is ignored."""
 
     reason: str = "stopped"
 
@@ -110,7 +110,7 @@ class WorldEdit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """
 
     edits: Annotated[tuple[EditText, ...], msgspec.Meta(min_length=1, max_length=200)]
-    why: Annotated[str, msgspec.Meta(min_length=1, max_length=500, pattern=r"\S")]
+    why: Why
 
 
 class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -121,7 +121,7 @@ class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     thing: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
     pose: tuple[float, float, float, float, float, float, float]
-    why: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
+    why: Why
 
 
 class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

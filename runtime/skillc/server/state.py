@@ -128,7 +128,8 @@ def _ensure_admin_token(state: ServerState) -> None:
     token = read_token(state.token_file)
     if token is not None and state.tokens.find(token) is not None:
         return
-    if state.token_file.exists() and not (token is not None and (not token or token.startswith(PREFIX))):
+    is_free = not state.token_file.exists() or token == "" or (token or "").startswith(PREFIX)
+    if not is_free:
         raise ServiceError(f"{state.token_file} has something else than a token; name another file, or remove it")
     state.tokens.revoke(ADMIN)
     half = state.token_file.with_name(f"{state.token_file.name}.half")

@@ -6,5 +6,6 @@ from typing import Annotated, TypeAlias
 
 import msgspec
 
-Reason: TypeAlias = Annotated[str, msgspec.Meta(max_length=500, description="Why, for the history.")]
+Why: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=500, pattern=r"\S")]
+"""Why a person changes the world."""
 Name: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$")]

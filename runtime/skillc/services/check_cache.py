@@ -80,14 +80,15 @@ def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
     models, what checks read of the Python that it names, the current folder, skillc itself and the installed
     packages.
     """
-    return _digest((*describe_installation(), *_inputs(library, scene)))
+    return digest_parts((*describe_installation(), *_inputs(library, scene)))
 
 
 def _with_texts(around: str, library: LibraryFiles) -> str:
-    return _digest((around, *(source.text for source in library.sources)))
+    return digest_parts((around, *(source.text for source in library.sources)))
 
 
-def _digest(parts: Iterable[str | bytes]) -> str:
+def digest_parts(parts: Iterable[str | bytes]) -> str:
+    """Return the digest of texts and bytes, which depends on where each ends."""
     digest = hashlib.sha256()
     for part in parts:
         content = part if isinstance(part, bytes) else part.encode("utf-8", "surrogateescape")

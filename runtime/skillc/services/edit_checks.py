@@ -14,7 +14,7 @@ from skillc.services.vocabulary_cache import load_vocabulary_once
 from skillc_compiler.checks import load_checks
 from skillc_compiler.checks.planning import UNPLANNABLE
 from skillc_compiler.problems import find_problems, visible_diagnostics
-from skillc_compiler.program.outlines import TASK, Outline, outline_of
+from skillc_compiler.program.outlines import TASK, FileOutline, outline_of
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.slices import Dependencies, changed_skills
 from skillc_compiler.program.typed import ParsedFile
@@ -54,7 +54,7 @@ def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snaps
     return update_snapshot(before, edited, now, sort_diagnostics((*kept, *found)))
 
 
-def _outlines(edited: Mapping[str, Source], before: Snapshot, parse: Parser) -> dict[str, Outline] | None:
+def _outlines(edited: Mapping[str, Source], before: Snapshot, parse: Parser) -> dict[str, FileOutline] | None:
     """Return the outlines of edited files, None if one has errors or shows other files something else."""
     found = {}
     for path, source in edited.items():

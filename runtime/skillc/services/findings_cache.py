@@ -6,14 +6,14 @@ What concerns the whole library, and which problems follow from others, is found
 from __future__ import annotations
 
 import hashlib
-import io
 import pickle
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from skillc.services.cache_entries import read_pickled
 from skillc_compiler.checks import FoundBy
-from skillc_compiler.program.outlines import Outline, outline_of
+from skillc_compiler.program.outlines import FileOutline, outline_of
 from skillc_compiler.program.slices import Dependencies
 from skillc_compiler.program.typed import Program
 from skillc_dsl import cache
@@ -31,7 +31,7 @@ class FindingsCache:
     """
 
     around: str
-    outlines: Mapping[str, Outline] = field(default_factory=dict)
+    outlines: Mapping[str, FileOutline] = field(default_factory=dict)
     _keys: Mapping[str, str] = field(default_factory=dict)
     _found: Mapping[str, FoundBy] = field(default_factory=dict)
 
@@ -39,8 +39,8 @@ class FindingsCache:
         """Return what is known of the files of a program, by path."""
         self.outlines = {unit.file.path: outline_of(unit) for unit in program.files}
         self._keys = dict(self._compute_keys(program))
-        path = self._path()
-        stored = (_read(cache.load(path)) if path else None) or {}
+        found = read_pickled(self._path(), _is_part)
+        stored = found if isinstance(found, dict) else {}
         return {file: stored[key] for file, key in self._keys.items() if key in stored}
 
     def keep(self, found: Mapping[str, FoundBy]) -> None:
@@ -73,23 +73,9 @@ class FindingsCache:
         return folder / "findings" / self.around if folder else None
 
 
-class _Reader(pickle.Unpickler):
-    """Reads diagnostics; the cache holds nothing else, and no other class is loaded from it."""
-
-    def find_class(self, module: str, name: str) -> object:
-        if module not in ("skillc_dsl.diagnostics", "skillc_dsl.source") or "." in name:
-            raise pickle.UnpicklingError(f"{module}.{name} is no part of a diagnostic")
-        return super().find_class(module, name)
-
-
-def _read(body: bytes | None) -> dict[str, FoundBy] | None:
-    if body is None:
-        return None
-    try:
-        found = _Reader(io.BytesIO(body)).load()
-    except (pickle.UnpicklingError, AttributeError, EOFError, ImportError, IndexError, TypeError, ValueError):
-        return None
-    return found if isinstance(found, dict) else None
+def _is_part(module: str, _name: str) -> bool:
+    """Whether a class is part of a diagnostic."""
+    return module in ("skillc_dsl.diagnostics", "skillc_dsl.source")
 
 
 def _has_function_twice(program: Program) -> bool:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from skillc_compiler.program.outlines import Outline
+from skillc_compiler.program.outlines import FileOutline
 from skillc_compiler.program.typed import Program
 from skillc_dsl import cache
 from skillc_dsl.diagnostics import Diagnostic
@@ -26,7 +26,7 @@ class Snapshot(msgspec.Struct, frozen=True):
     """
 
     digests: dict[str, str]
-    outlines: dict[str, Outline]
+    outlines: dict[str, FileOutline]
     texts: frozenset[str]
     found: str
 
@@ -41,7 +41,7 @@ class Snapshot(msgspec.Struct, frozen=True):
 
 
 def take_snapshot(
-    program: Program, outlines: Mapping[str, Outline], texts: Iterable[str], found: Iterable[Diagnostic]
+    program: Program, outlines: Mapping[str, FileOutline], texts: Iterable[str], found: Iterable[Diagnostic]
 ) -> Snapshot:
     """Return the snapshot of a program without errors, given the outlines of its files."""
     digests = {unit.file.path: digest_of(Source(unit.file.path, unit.text)) for unit in program.files}
@@ -51,7 +51,7 @@ def take_snapshot(
 def update_snapshot(
     before: Snapshot,
     edited: Mapping[str, Source],
-    outlines: Mapping[str, Outline],
+    outlines: Mapping[str, FileOutline],
     found: Iterable[Diagnostic],
 ) -> Snapshot:
     """Return a snapshot with new outlines of edited files."""

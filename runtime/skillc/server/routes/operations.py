@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import asyncio
+from collections.abc import Mapping
 from contextlib import closing
 from http import HTTPStatus
 from typing import Annotated
@@ -63,7 +64,9 @@ class EventPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:
     cell = call.server.find_cell(call.path["cell"])
-    return tuple(cell.operations.values() if call.query.ongoing else _read_history(cell, call.query))
+    if call.query.ongoing:
+        return tuple(cell.operations.values())
+    return await asyncio.to_thread(_read_history, cell, call.query, dict(cell.operations))
 
 
 async def submit_operation(call: ApiCall) -> OperationStatus:
@@ -121,16 +124,17 @@ def _claim(call: ApiCall, content: bytes, operation: str) -> str:
         raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error), kind=KEY_REUSED) from error
 
 
-def _read_history(cell: CellSupervisor, page: HistoryPage) -> Iterable[OperationStatus]:
-    """Return operations, the last one first; those that go on are as they are now."""
+def _read_history(
+    cell: CellSupervisor, page: HistoryPage, going_on: Mapping[str, OperationStatus]
+) -> tuple[OperationStatus, ...]:
+    """Return operations, the last one first; a search through a long history takes long, so this has a thread."""
     if not cell.settings.journal.exists():
-        return
+        return ()
     with closing(open_journal(cell)) as reader:
         before_ns = LATEST_NS if page.before_ns is None else page.before_ns
-        for each in reader.latest(before_ns, page.limit, page.search.split()):
-            found = each.ended or cell.operations.get(each.id)
-            if found is not None:
-                yield found
+        found = reader.latest(before_ns, page.limit, page.search.split())
+    statuses = (each.ended or going_on.get(each.id) for each in found)
+    return tuple(each for each in statuses if each is not None)
 
 
 def _find_running(call: ApiCall) -> tuple[CellSupervisor, OperationStatus]:

@@ -15,6 +15,10 @@ async def list_tokens(call: ApiCall) -> tuple[TokenInfo, ...]:
 
 
 async def add_token(call: ApiCall) -> MadeToken:
+    if call.body.agent and call.body.role == "admin":
+        raise ApiRefusal(
+            HTTPStatus.CONFLICT, "an agent cannot have the role `admin`, with which it could make other tokens"
+        )
     try:
         token = call.server.state.tokens.add(call.body.name, call.body.role, call.body.agent)
     except TokenExists as error:

@@ -5,13 +5,11 @@ The key of an entry is the digest of the facts about the cell, the goals, the us
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
 import msgspec
 
-from skillc.services.check_cache import installation_digest
+from skillc.services.cache_entries import find_entry
 from skillc_dsl import cache
 from skillc_model.conditions import Condition
 from skillc_ontology.catalogue import user_models
@@ -32,7 +30,7 @@ def judge_cell(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViol
 
 def judge_cell_once(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
     """Return what `judge_cell` returns, from the cache if it is there."""
-    path = _entry(scene, goals)
+    path = find_entry("cells", _inputs(scene, goals))
     found = _read(cache.load(path)) if path else None
     if found is None:
         found = judge_cell(scene, goals)
@@ -51,23 +49,13 @@ def _read(body: bytes | None) -> tuple[SceneViolation, ...] | None:
         return None
 
 
-def _entry(scene: Scene, goals: Sequence[Condition]) -> Path | None:
-    folder = cache.cache_folder()
-    if folder is None:
-        return None
-    digest = hashlib.sha256(installation_digest())
-    for content in _inputs(scene, goals):
-        digest.update(b"%d:" % len(content) + content)
-    return folder / "cells" / digest.hexdigest()
-
-
-def _inputs(scene: Scene, goals: Sequence[Condition]) -> Iterator[bytes]:
+def _inputs(scene: Scene, goals: Sequence[Condition]) -> Iterator[str | bytes]:
     """Yield the terms, statements, goals and models that a verdict depends on."""
     encoder = msgspec.msgpack.Encoder(order="deterministic")
     yield encoder.encode(scene.state.vocabulary)
     for each in scene.said:
-        yield f"{each.subject} {each.predicate} {each.object}".encode("utf-8", "surrogateescape")
+        yield f"{each.subject} {each.predicate} {each.object}"
     yield encoder.encode(tuple(goals))
     for model in user_models():
-        yield str(model).encode("utf-8", "surrogateescape")
+        yield str(model)
         yield model.read_bytes()

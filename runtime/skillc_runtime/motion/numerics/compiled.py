@@ -90,12 +90,10 @@ def compile_imported() -> None:
 
     So nothing is compiled later, where it would hold up a loop: each takes up to seconds once for a version.
     """
-    for name, module in sorted(sys.modules.items()):
-        if name.startswith("skillc_runtime."):
-            for value in tuple(vars(module).values()):
-                compile_now = getattr(value, "compile_now", None) if callable(value) else None
-                if compile_now is not None:
-                    compile_now()
+    modules = [module for name, module in sorted(sys.modules.items()) if name.startswith("skillc_runtime.")]
+    for each in [value for module in modules for value in vars(module).values() if callable(value)]:
+        if (compile_now := getattr(each, "compile_now", None)) is not None:
+            compile_now()
 
 
 def inlined(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
