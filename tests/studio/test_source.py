@@ -82,7 +82,7 @@ def test_a_problem_has_a_fix(source: Page) -> None:
     source.keyboard.press("End")
     for _ in range(5):
         source.keyboard.press("Backspace")
-    source.keyboard.insert_text("crat")
+    source.keyboard.insert_text("crte")
     expect(source.locator(".cm-lintRange-error").first).to_be_visible()
     source.keyboard.press("ArrowLeft")
     fixed = source.locator(".source-editor .cm-line", has_text="pre   cart contain crate")

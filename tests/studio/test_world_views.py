@@ -62,7 +62,7 @@ def test_what_differs_between_two_times(page: Page, server: RunningServer, schem
     expect(row).to_contain_text("yes")
     expect(row).to_contain_text("admin: it was carried by hand")
     check_axe(page, f"world-times-{scheme}")
-    last = page.get_by_label("To").input_value()
+    last = page.get_by_label("To", exact=True).input_value()
     page.get_by_label("From").select_option(last)
     expect(page.get_by_text("The second time is not after the first one.")).to_be_visible()
 

@@ -23,9 +23,9 @@ export interface SourceEditor extends Editor {
   /** Return the name at the cursor, or why it cannot be renamed. */
   nameAtCursor(): Promise<{ name: string } | { refused: string }>;
   /** Return what another name for it changes, in which files; or why that is not possible. */
+  rename(name: string): Promise<{ edits: TextEdits } | { refused: string }>;
   /** Return a text with edits. */
   applyEdits: typeof applyEdits;
-  rename(name: string): Promise<{ edits: TextEdits } | { refused: string }>;
 }
 
 export interface SourceEditorOptions {
@@ -84,8 +84,14 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
   return {
     ...editor,
     applyEdits,
-    format: () => void format(client, view),
-    fixAll: () => applyFix(view, safe),
+    format: () => {
+      void format(client, view);
+      view.focus();
+    },
+    fixAll: () => {
+      applyFix(view, safe);
+      view.focus();
+    },
     nameAtCursor: async () => {
       const found = await client.demand("textDocument/prepareRename", {
         position: position(),

@@ -59,7 +59,7 @@ function Node({ node, isCentre }: { node: GraphNode; isCentre: boolean }) {
     <g
       class={`graph-node ${isCentre ? "is-centre" : ""}`}
       role="button"
-      tabIndex={0}
+      tabindex={0}
       aria-label={`${node.label}${node.more > 0 ? `, ${node.more} more relations` : ""}`}
       onClick={act}
       onKeyDown={(event) => {
