@@ -19,7 +19,7 @@ if sys.platform == "win32":
 
 
 def pytest_configure() -> None:
-    """Let output and caches depend on tests alone, and processes that tests start listen to Ctrl-C.
+    """Let output and caches depend on tests alone, and processes that tests start listen to Ctrl-C and SIGHUP.
 
     In the background, where tests may run, they would not.
     """
@@ -28,6 +28,8 @@ def pytest_configure() -> None:
     os.environ["TERM"] = "xterm"
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    if sys.platform != "win32":
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def pytest_collection_finish() -> None:

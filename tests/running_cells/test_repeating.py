@@ -15,7 +15,7 @@ from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.messages import Edit
 from skillc.cells.operation import OperationRequest, OperationStatus
-from skillc.cells.recordings import recording_file
+from skillc.cells.recording_files import recording_file
 from skillc.cells.settings import CellSettings
 from skillc.services.backends import BackendName
 from skillc.services.errors import ServiceError

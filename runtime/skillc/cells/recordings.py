@@ -5,11 +5,12 @@ from __future__ import annotations
 import time
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from skillc.cells.operation import OperationRequest
-from skillc.cells.simulation import Beginning, CellSimulation
+from skillc.cells.recording_files import recording_file
 from skillc.cells.submitted import SubmittedOperation
 from skillc.services.reporting import Reporter
 from skillc.services.run_recordings import KnownStart, describe_contents
@@ -17,21 +18,16 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.recording.envelope import Recorder
 from skillc_runtime.recording.events import Note
-from skillc_runtime.recording.mcap.contents import NOT_REPEATABLE
-from skillc_runtime.recording.mcap.recording_file import CLOSE_S, RecordingFile
+from skillc_runtime.recording.mcap.contents import CLOSE_S, NOT_REPEATABLE
+from skillc_runtime.recording.mcap.recording_file import RecordingFile
 from skillc_runtime.recording.states import State
 from skillc_runtime.scene.load import load_sheets
 
-RECORDINGS = "recordings"
-"""The folder of recordings in that of a cell."""
+if TYPE_CHECKING:
+    from skillc.cells.simulation import Beginning, CellSimulation
 
 MOVING: frozenset[State] = frozenset({"running", "pausing", "paused", "stopping"})
 """The states of an operation in which its signals are recorded: before, nothing moves because of it."""
-
-
-def recording_file(cell: Path, operation: str) -> Path:
-    """Return the recording of an operation in the folder of its cell; there may be none."""
-    return cell / RECORDINGS / f"{operation}.mcap"
 
 
 class CellRecordings:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial
+from typing import TYPE_CHECKING
 
 import msgspec
 import numpy as np
 
 from skillc_runtime.devices.live import LiveArm, LiveSensors
-from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation, rotation_from_quaternion
+
+if TYPE_CHECKING:
+    from skillc_runtime.devices.simulation import Simulation
 
 PoseNumbers = tuple[float, float, float, float, float, float, float]
 """A pose in the world: position in m, then the unit quaternion (w, x, y, z)."""

@@ -32,7 +32,7 @@ from skillc.server.trials.running import TrialRuns
 from skillc.server.trials.store import TrialStore
 from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
-from skillc.workers.run_reading import answer_run_job
+from skillc.workers.programs import read_run
 
 FAILURES_PER_S, FAILURES = 0.2, 100.0
 """How many requests and WebSockets without a valid token an address may make."""
@@ -53,7 +53,7 @@ class ServerContext:
     failures: TokenBuckets = field(default_factory=lambda: TokenBuckets(FAILURES_PER_S, FAILURES))
     workers: Workers = field(default_factory=Workers)
     jobs: SimulationJobs = field(init=False)
-    run_readers: Workers = field(default_factory=partial(Workers, answer_run_job))
+    run_readers: Workers = field(default_factory=partial(Workers, read_run))
     rehearsals: Rehearsals = field(init=False)
     trial_replays: TrialReplays = field(init=False)
     reports: Reports = field(init=False)

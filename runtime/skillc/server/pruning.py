@@ -9,7 +9,7 @@ from pathlib import Path
 
 from skillc.cells.database import DatabaseError, describe_error, open_for_writing
 from skillc.cells.journal.pruning import prune_journal
-from skillc.cells.recordings import RECORDINGS, recording_file
+from skillc.cells.recording_files import RECORDINGS, recording_file
 from skillc.cells.settings import JOURNAL
 from skillc.server.audit import AuditEntry, AuditLog
 from skillc.server.idempotency import RequestKeys

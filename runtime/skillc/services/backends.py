@@ -1,14 +1,12 @@
-"""The backends in whose cells tasks can run."""
+"""The backends in whose cells tasks can run; each is imported for its first cell."""
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias, assert_never
+from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
 
-from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
-from skillc_runtime.devices.simulation import Simulation
-from skillc_runtime.world.state.model import WorldModel
+if TYPE_CHECKING:
+    from skillc_runtime.devices.simulation import Simulation
+    from skillc_runtime.world.state.model import WorldModel
 
 BackendName: TypeAlias = Literal["mujoco", "kinematic"]
 
@@ -19,11 +17,17 @@ def make_backend(name: BackendName, world: WorldModel, seed: int, saved: bytes |
     All is as in the cell that was `saved`, if there was one. SheetError or FrameError if facts are missing or
     contradict the models, CheckpointError if what was saved cannot be read.
     """
+    from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
+
     checkpoint = None if saved is None else decode_checkpoint(saved)
     match name:
         case "mujoco":
+            from skillc_runtime.backends.mujoco.cell import SimulatedCell
+
             return SimulatedCell(world, seed, checkpoint=checkpoint)
         case "kinematic":
+            from skillc_runtime.backends.kinematic.cell import KinematicCell
+
             return KinematicCell(world, checkpoint=checkpoint)
         case _:
             assert_never(name)

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias, TypeVar
+from typing import TypeAlias, TypeVar
 
 import msgspec
 
 from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
-from skillc.workers.answering import answer_job
 from skillc.workers.jobs import Job, JobRefused
+from skillc.workers.programs import Program, do_job
 from skillc.workers.run_jobs import RunJob
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
@@ -28,8 +28,6 @@ LOOK_S = 0.1
 
 T = TypeVar("T")
 Request: TypeAlias = tuple[Job | RunJob, bytes]
-Program: TypeAlias = Callable[[Any], bytes | JobRefused]
-"""Answers a job for an encoded snapshot, as JSON; for None it answers that it is ready."""
 
 
 class JobFailed(Exception):
@@ -59,7 +57,7 @@ class Workers:
     They do jobs by `program`. A job waits for a process for up to `turn_s`.
     """
 
-    program: Program = answer_job
+    program: Program = do_job
     count: int = MAX_WORKERS
     turn_s: float = TURN_S
     _idle: list[WorkerProcess] = field(default_factory=list)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.disturbances import Disturber
-from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.motion.pose import Array
+
+if TYPE_CHECKING:
+    from skillc_runtime.devices.ground_truth import GroundTruth
 
 
 @dataclass(frozen=True, slots=True)

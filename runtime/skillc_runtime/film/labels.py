@@ -6,7 +6,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
@@ -26,6 +25,8 @@ DARK, WHITE = (28, 32, 38), (255, 255, 255)
 @cache
 def load_font(pixels: int, bold: bool = False) -> Any:
     """Return DejaVu Sans, which comes with matplotlib, at a size in pixels."""
+    import matplotlib
+
     name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
     return ImageFont.truetype(str(Path(matplotlib.get_data_path(), "fonts", "ttf", name)), pixels)
 

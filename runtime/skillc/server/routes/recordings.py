@@ -10,13 +10,13 @@ from pathlib import Path
 
 from starlette.responses import Response
 
-from skillc.cells.recordings import recording_file
+from skillc.cells.recording_files import recording_file
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.problems import ApiRefusal
 from skillc.services.recordings import MCAP_MAGIC
 from skillc_runtime.execution.task_state import ENDS
-from skillc_runtime.recording.mcap.recording_file import CLOSE_S
+from skillc_runtime.recording.mcap.contents import CLOSE_S
 
 MEDIA_TYPE = "application/octet-stream"
 LOOK_S = 0.05

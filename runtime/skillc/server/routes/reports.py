@@ -8,7 +8,7 @@ from pathlib import Path
 from starlette.responses import Response
 
 from skillc.cells.messages import TakeSnapshot
-from skillc.cells.recordings import recording_file
+from skillc.cells.recording_files import recording_file
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import msgspec
 
-from skillc.cells.recordings import recording_file
+from skillc.cells.recording_files import recording_file
 from skillc.server.asking import ask_about_run
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.routes.recordings import wait_until_complete

@@ -1,4 +1,4 @@
-"""Figures as files: PNG and SVG, the same bytes for the same figure."""
+"""Figures as files: PNG and SVG, the same bytes for the same figure; matplotlib is imported for the first one."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from io import BytesIO
+from typing import TYPE_CHECKING
 
-import matplotlib as mpl
-from matplotlib.figure import Figure
-
-from skillc_runtime.evaluation.report import figure_style
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 DOTS_PER_INCH = 120
 
@@ -30,6 +29,8 @@ class FigureFiles:
 
         `alternative` describes the figure to those who cannot see it.
         """
+        from skillc_runtime.evaluation.report import figure_style
+
         text = self.svg.decode()
         text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
         for name in THEMED:
@@ -41,6 +42,10 @@ class FigureFiles:
 
 def render_figure(draw: Callable[[], Figure]) -> FigureFiles:
     """Return the files of the figure that a function draws."""
+    import matplotlib as mpl
+
+    from skillc_runtime.evaluation.report import figure_style
+
     with mpl.rc_context(figure_style.STYLE):
         figure = draw()
         png = _save(figure, "png", {"Software": ""})

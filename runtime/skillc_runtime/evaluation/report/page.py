@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -16,10 +17,12 @@ from skillc_runtime.evaluation.report.table import (
     split_placement,
 )
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure
-from skillc_runtime.film.film import FilmFiles
 from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
+
+if TYPE_CHECKING:
+    from skillc_runtime.film.film import FilmFiles
 
 SYMBOLS = {
     "success": "✓", "succeeded": "✓", "failure": "✗", "failed": "✗", "refused": "✗", "halted": "■", "stopped": "■",

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from skillc_runtime.evaluation.report import page
 from skillc_runtime.evaluation.report.figure_files import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
-from skillc_runtime.evaluation.report.wiping_figure import draw_figure
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure, number_files
-from skillc_runtime.film.film import FilmFiles
 from skillc_runtime.recording.node_outcome import NodeOutcome
+
+if TYPE_CHECKING:
+    from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+    from skillc_runtime.film.film import FilmFiles
 
 RESULT, REPORT, WIPING = "result.json", "report.html", "wiping"
 
@@ -48,6 +50,8 @@ def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFi
     """
     if not drawings:
         return None
+    from skillc_runtime.evaluation.report.wiping_figure import draw_figure
+
     figure = render_figure(lambda: draw_figure(drawings))
     _write_files(directory, WIPING, figure)
     return figure

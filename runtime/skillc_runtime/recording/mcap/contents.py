@@ -11,6 +11,9 @@ import msgspec
 from skillc_runtime.recording.mcap.signal_block import SignalBlock
 from skillc_runtime.recording.signals.signal import Signal
 
+CLOSE_S = 20.0
+"""How long the end of a recording may take, in s of wall time."""
+
 PROFILE = "skillc"
 EVENTS, SIGNALS = "/events", "/signals"
 """The topics of the channels."""

@@ -11,7 +11,7 @@ from threading import Thread
 from typing import TypeAlias
 
 from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.mcap.contents import RunContents
+from skillc_runtime.recording.mcap.contents import CLOSE_S, RunContents
 from skillc_runtime.recording.mcap.mcap_stream import McapStream, Metadata
 from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
 
@@ -20,9 +20,6 @@ MAX_EVENTS, MAX_BLOCKS = 100_000, 200
 
 FLUSH_S = 1.0
 """What was recorded is in the file after this wall time in s: a process that is killed loses no more."""
-
-CLOSE_S = 20.0
-"""How long the end of a recording may take, in s of wall time."""
 
 
 class _End:
