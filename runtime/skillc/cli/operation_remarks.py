@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from skillc.cells.operation import OperationStatus
+    from skillc.cells.operation import CellStatus, OperationStatus
 
 
 def remark_status(status: OperationStatus) -> None:
@@ -13,6 +13,14 @@ def remark_status(status: OperationStatus) -> None:
     from skillc.cli.console import print_remark
 
     print_remark(f"{status.id}: {describe_state(status)}")
+
+
+def remark_waiting(cell: CellStatus) -> None:
+    """Print to stderr that a cell which is off is waited for, and why it is off."""
+    from skillc.cli.console import print_remark
+
+    if cell.state == "off":
+        print_remark(f"{cell.name} is off: {cell.reason}; waiting for it")
 
 
 def remark_going_on(operation: str) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc.server.access.roles import Role
-from skillc.server.values import Name, Why
+from skillc.server.values import Name, Why, check_name, check_why
 from skillc.workers.devices import Device
 from skillc_dsl.rendering.json import DiagnosticData
 from skillc_runtime.execution.pace import SLOWEST
@@ -112,6 +112,9 @@ class WorldEdit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     edits: Annotated[tuple[EditText, ...], msgspec.Meta(min_length=1, max_length=200)]
     why: Why
 
+    def __post_init__(self) -> None:
+        check_why(self.why)
+
 
 class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Where a thing is, and why this is said: its position in m and a quaternion (w, x, y, z), in the world.
@@ -122,6 +125,9 @@ class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     thing: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
     pose: tuple[float, float, float, float, float, float, float]
     why: Why
+
+    def __post_init__(self) -> None:
+        check_why(self.why)
 
 
 class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -150,6 +156,9 @@ class NewToken(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     name: Name
     role: Role
     agent: bool = False
+
+    def __post_init__(self) -> None:
+        check_name(self.name)
 
 
 class MadeToken(msgspec.Struct, frozen=True):

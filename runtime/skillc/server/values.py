@@ -2,10 +2,25 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, TypeAlias
 
 import msgspec
 
-Why: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=500, pattern=r"\S")]
-"""Why a person changes the world."""
-Name: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$")]
+_NAME, _WORDS = r"^[A-Za-z0-9][A-Za-z0-9_.-]*$", r"\S"
+Why: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=500, extra_json_schema={"pattern": _WORDS})]
+"""Why a person changes the world; `check_why` says if there are no words in it."""
+Name: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=64, extra_json_schema={"pattern": _NAME})]
+"""The name of a token; `check_name` says what is wrong with one."""
+
+
+def check_name(name: str) -> None:
+    """Raise ValueError, whose message says how a name is written, if this one is not written so."""
+    if not re.fullmatch(_NAME, name):
+        raise ValueError("a name has letters, digits, `_`, `.` and `-`, and begins with a letter or a digit")
+
+
+def check_why(why: str) -> None:
+    """Raise ValueError if a reason is blank."""
+    if not re.search(_WORDS, why):
+        raise ValueError("say why: the reason is blank")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.operation_remarks import remark_going_on, remark_status
+from skillc.cli.operation_remarks import remark_going_on, remark_status, remark_waiting
 from skillc.cli.options import EXECUTION, grouped_option
 from skillc.cli.order_options import order_options
 from skillc.cli.server_access import request_options
@@ -107,6 +107,7 @@ def command(
         }
         if at is not None:
             return _order(place, task, at, request, **repeated)
+        remark_waiting(place.status)
         started = place.start(task, step=step, pause_at=pause_at, **request)
         click.echo(started.id)
         if attach:
