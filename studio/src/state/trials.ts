@@ -9,8 +9,8 @@ import { cellName, message } from "./studio";
 export const allSeries = signal<readonly TrialSeries[] | null>(null);
 /** The series that is shown; `result` is null while it is read. */
 export const shownSeries = signal<{ about: TrialSeries; result: Series | null } | null>(null);
-/** The seed of the trial that is run again now. */
-export const replayed = signal<number | null>(null);
+/** The trial that is run again now. */
+export const replayed = signal<{ readonly series: string; readonly seed: number } | null>(null);
 
 const LOOK_MS = 1000;
 
@@ -53,18 +53,20 @@ export async function showSeries(about: TrialSeries): Promise<void> {
 
 /** Run a trial again, and play it in all panels. */
 export async function playTrial(about: TrialSeries, seed: number): Promise<void> {
-  replayed.value = seed;
+  const own = { series: about.id, seed };
+  replayed.value = own;
   const done = await attempt(async () => {
     let found = await api.replayTrial(about.id, seed);
     while (found.state === "going on") {
       await new Promise((resolve) => window.setTimeout(resolve, LOOK_MS / 2));
-      if (replayed.peek() !== seed) return;
+      if (replayed.peek() !== own) return;
       found = await api.trialReplay(about.id, seed);
     }
     if (!found.recording) throw new ApiError(0, `Trial ${seed} was not recorded: ${found.reason}`);
     await replayTrial(about.id, seed, about.request.task);
     shownSeries.value = null;
   });
+  if (replayed.peek() !== own) return;
   if (done) message.value = null;
   replayed.value = null;
 }

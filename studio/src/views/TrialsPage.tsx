@@ -130,7 +130,7 @@ function ReplayButton({
   seed: number;
   label?: string;
 }) {
-  const isBusy = replayed.value === seed;
+  const isBusy = replayed.value?.seed === seed;
   return (
     <button
       class="small"
