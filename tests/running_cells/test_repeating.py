@@ -22,7 +22,6 @@ from skillc.services.errors import ServiceError
 from skillc.services.replaying.check import ReplayCheck, check_run
 from skillc.services.replaying.report import report_recorded
 from skillc.services.reporting import SilentReporter
-from skillc.services.run_report import PRIMITIVE_LOOKS
 from skillc_runtime.devices.disturbances import Move, Push
 from skillc_runtime.recording.mcap.contents import START
 from skillc_runtime.recording.mcap.reader import read_recording
@@ -83,7 +82,7 @@ def test_later_operations_are_repeated_and_get_a_report(
     assert ended.state == "succeeded" and began_s > 15.0
     assert_repeated(settings, "op-0", "op-1", "last")
     recording = recording_file(Path(settings.folder), "last")
-    result = report_recorded(recording, tmp_path / "report", None, PRIMITIVE_LOOKS, False, SilentReporter()).result
+    result = report_recorded(recording, tmp_path / "report", None, SilentReporter(), film=False).result
     assert (result.status, result.verified) == ("succeeded", ended.verified)
     assert result.sim_time_s == pytest.approx(took_s) and (tmp_path / "report" / "report.html").exists()
 
@@ -148,7 +147,7 @@ def test_who_is_not_alone_is_not_repeated_and_why_is_said(tmp_path: Path) -> Non
     assert_repeated(settings, "three")
     recording = recording_file(tmp_path / "state", "one")
     with pytest.raises(ServiceError, match="the operation two went on in the same cell, so it cannot be repeated"):
-        report_recorded(recording, tmp_path / "report", None, PRIMITIVE_LOOKS, False, SilentReporter())
+        report_recorded(recording, tmp_path / "report", None, SilentReporter(), film=False)
     assert not (tmp_path / "report").exists()
 
 

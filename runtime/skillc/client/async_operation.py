@@ -99,12 +99,12 @@ class AsyncOperation:
         await self._connection.download(join("operations", self.id, "recording"), file)
         return file
 
-    async def report(self, folder: str | Path) -> OperationReport:
+    async def report(self, folder: str | Path, film: bool = True) -> OperationReport:
         """Write its report with figures and film to a folder, once it has ended; the server runs it again for that.
 
-        RefusedError if it has not ended, or cannot be repeated.
+        Without `film` that takes a fraction of the time. RefusedError if it has not ended, or cannot be repeated.
         """
-        return await make_report(self._connection, self.id, Path(folder))
+        return await make_report(self._connection, self.id, Path(folder), film)
 
     async def approve(self) -> None:
         """Run the plan that waits for approval."""

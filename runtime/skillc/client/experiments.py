@@ -9,6 +9,7 @@ from pathlib import Path
 
 from skillc.client.connection import Connection, join
 from skillc.client.errors import RefusedError
+from skillc.server.api_types import ReportRequest
 from skillc.server.rehearsals import Rehearsal
 from skillc.server.reports import OperationReport
 from skillc.server.trials.store import TrialSeries
@@ -34,10 +35,10 @@ async def rehearse(connection: Connection, path: str, request: RehearsalRequest,
     return found
 
 
-async def make_report(connection: Connection, operation: str, folder: Path) -> OperationReport:
-    """Let the server make the report of an operation, and write its files to a folder."""
+async def make_report(connection: Connection, operation: str, folder: Path, film: bool) -> OperationReport:
+    """Let the server make the report of an operation, with a film or without, and write its files to a folder."""
     path = join("operations", operation, "report")
-    found = await connection.send("POST", path, OperationReport)
+    found = await connection.send("POST", path, OperationReport, ReportRequest(film))
     try:
         while found.state != "ended":  # wait ends: the server limits how long a report takes
             await asyncio.sleep(LOOK_S)

@@ -73,9 +73,12 @@ class ServerOperation:
         """Write its recording to a file, an MCAP file, and return the file; `skillc.open_run` reads it."""
         return self._loop.run(self._operation.recording(path))
 
-    def report(self, folder: str | Path) -> OperationReport:
-        """Write its report with figures and film to a folder, once it has ended; the server runs it again for that."""
-        return self._loop.run(self._operation.report(folder))
+    def report(self, folder: str | Path, film: bool = True) -> OperationReport:
+        """Write its report with figures and film to a folder, once it has ended; the server runs it again for that.
+
+        Without `film` that takes a fraction of the time.
+        """
+        return self._loop.run(self._operation.report(folder, film))
 
     def approve(self) -> None:
         """Run the plan that waits for approval."""

@@ -55,6 +55,12 @@ class StopReason(msgspec.Struct, frozen=True):
         return self.reason if len(self.reason) <= MAX_REASON else f"{self.reason[:MAX_REASON]} .."
 
 
+class ReportRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a report has: without a `film` it is made in a fraction of the time."""
+
+    film: bool = True
+
+
 class VersionInfo(msgspec.Struct, frozen=True):
     """The version of skillc, and that of the API."""
 

@@ -41,9 +41,9 @@ class Reports:
 
     jobs: SimulationJobs
 
-    def begin(self, operation: str, recording: Path, snapshot: bytes) -> OperationReport:
+    def begin(self, operation: str, recording: Path, film: bool, snapshot: bytes) -> OperationReport:
         """Make the report of an operation from its recording; `snapshot` has the library of its cell, encoded."""
-        self.jobs.begin(_name(operation), lambda folder: MakeReport(str(recording), str(folder)), snapshot)
+        self.jobs.begin(_name(operation), lambda folder: MakeReport(str(recording), str(folder), film), snapshot)
         return OperationReport(operation=operation)
 
     def find(self, operation: str) -> OperationReport | None:

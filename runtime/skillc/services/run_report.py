@@ -44,7 +44,7 @@ class RunResult:
 
 @dataclass(frozen=True, slots=True)
 class RunSamples:
-    """What is sampled during a run: the pictures of the film (None without a report), and what devices do."""
+    """What is sampled during a run: the pictures of the film, unless there is to be none, and what devices do."""
 
     film: Film | None
     trace: RunTrace
@@ -75,22 +75,24 @@ def report_run(
     folder: Path | None,
     reporter: Reporter,
 ) -> RunResult:
-    """Make the result of a run, and write it with the report and the film to a folder, unless that is None."""
+    """Make the result of a run, and write it with the report, and a film if it was sampled, to a folder, if any."""
     simulation = execution.backend
     trees = [attempt.tree for attempt in execution.attempts]
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
     record = RunRecord(trees, choices, state, truth, samples.trace)
     works, began_s = measure_work(record), samples.trace.began_s
     result = summarise_run(execution, choices, library, record.wipings, simulation, works, began_s)
-    if folder is None or samples.film is None:
+    if folder is None:
         return RunResult(result)
     drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in record.wipings)
     try:
         with writing_to(folder):
             write_result(folder, result)
-            moments = find_moments(record.wipings, trees, choices, state, truth)
-            story = make_story(moments, trees, choices, library, result, state)
-            filmed = _write_film(samples.film, folder, story, reporter)
+            filmed = None
+            if samples.film is not None:
+                moments = find_moments(record.wipings, trees, choices, state, truth)
+                story = make_story(moments, trees, choices, library, result, state)
+                filmed = _write_film(samples.film, folder, story, reporter)
             write_report(folder, result, trees, list_figures(record), filmed)
     except ServiceError as error:
         reporter.say(f"error: {error}")

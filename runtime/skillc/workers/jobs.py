@@ -96,10 +96,11 @@ class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
 
 
 class MakeReport(msgspec.Struct, frozen=True, tag="report"):
-    """Write the report of the operation that is recorded in a file to a folder."""
+    """Write the report of the operation that is recorded in a file to a folder, with a film or without."""
 
     recording: str
     folder: str
+    film: bool = True
 
 
 class CheckTrials(msgspec.Struct, frozen=True, tag="check trials"):

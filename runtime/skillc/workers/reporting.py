@@ -8,16 +8,13 @@ from skillc.cells.snapshot import CellSnapshot
 from skillc.services.errors import RequestError
 from skillc.services.replaying.report import report_recorded
 from skillc.services.reporting import SilentReporter
-from skillc.services.run_report import PRIMITIVE_LOOKS
 from skillc.workers.jobs import MakeReport
 from skillc_runtime.evaluation.report.result import TaskResult
 
 
 def make_report(job: MakeReport, known: CellSnapshot) -> TaskResult:
     """Write the report to the folder of the job, and return the result; ServiceError if it cannot be made."""
-    made = report_recorded(
-        Path(job.recording), Path(job.folder), known.library, PRIMITIVE_LOOKS, False, SilentReporter()
-    )
+    made = report_recorded(Path(job.recording), Path(job.folder), known.library, SilentReporter(), film=job.film)
     if not made.written:
         raise RequestError("the report cannot be written")
     return made.result

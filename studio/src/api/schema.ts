@@ -38,7 +38,7 @@ export interface components {
         };
         /**
          * StopReason
-         * @description Why an operation, or everything, is stopped. No form of it is a reason not to stop: a long one is cut.
+         * @description Why an operation, or everything, is stopped. A long reason is cut, and what else a body has is ignored.
          */
         StopReason: {
             /** @default stopped */
@@ -2386,6 +2386,14 @@ export interface components {
             result?: components["schemas"]["TaskResult"] | null;
             /** @default [] */
             files?: string[];
+        };
+        /**
+         * ReportRequest
+         * @description What a report has: without a `film` it is made in a fraction of the time.
+         */
+        ReportRequest: {
+            /** @default true */
+            film?: boolean;
         };
         /**
          * LoginCode

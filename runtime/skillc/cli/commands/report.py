@@ -12,11 +12,11 @@ from pathlib import Path
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, PATH, gif_option, json_option, looks_option
+from skillc.cli.options import FOLDER, OUTPUT, PATH, gif_option, grouped_option, json_option, looks_option
 
 EXAMPLES = """
 skillc report out
-skillc report recording.mcap --out report
+skillc report recording.mcap --out report --no-film
 """
 
 
@@ -24,10 +24,11 @@ skillc report recording.mcap --out report
 @click.argument("run", metavar="RUN_DIR", type=PATH)
 @click.option("--out", type=FOLDER, help="Write to this folder; by default to RUN_DIR.")
 @click.option("--library", type=PATH, help="The library of the run; by default the one in the recording.")
+@grouped_option(OUTPUT, "--film/--no-film", default=True, help="Make a film and stills, which takes most of the time.")
 @looks_option
 @gif_option
 @json_option
-def command(run: Path, out: Path | None, library: Path | None, looks: str, gif: bool, as_json: bool) -> int:
+def command(run: Path, out: Path | None, library: Path | None, film: bool, looks: str, gif: bool, as_json: bool) -> int:
     """Write report.html, result.json, figures, film and stills of a recorded run, as `skillc run --out` does.
 
     Figures and film need more than a recording has, so the task is run again from the recorded inputs; if an event is
@@ -42,7 +43,7 @@ def command(run: Path, out: Path | None, library: Path | None, looks: str, gif: 
         raise click.UsageError(f"{run} is no folder: name the folder of the report with --out")
     folder = out or run
     check_writable(folder)
-    made = report_recorded(run, folder, library, looks, gif, Terminal())
+    made = report_recorded(run, folder, library, Terminal(), looks, film, gif)
     if as_json:
         print_json(made.result)
     else:

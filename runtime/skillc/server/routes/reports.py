@@ -9,6 +9,7 @@ from starlette.responses import Response
 
 from skillc.cells.messages import TakeSnapshot
 from skillc.cells.recording_files import recording_file
+from skillc.server.api_types import ReportRequest
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
@@ -33,7 +34,7 @@ async def make_report(call: ApiCall) -> OperationReport:
     if call.server.jobs.full:
         raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"{MAX_WAITING} simulations wait or go on; try again later")
     snapshot = raise_refused(await cell.request(TakeSnapshot()))
-    return call.server.reports.begin(operation.id, recording, snapshot)
+    return call.server.reports.begin(operation.id, recording, call.body.film, snapshot)
 
 
 async def show_report(call: ApiCall) -> OperationReport:
@@ -63,7 +64,7 @@ ENDPOINTS = (
     ApiEndpoint(
         "POST", PATH, "operate", "Make the report of an operation that has ended, by running it again in simulation",
         make_report, OperationReport, status=HTTPStatus.ACCEPTED,
-        refusals=(*NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE),
+        refusals=(*NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE), body=ReportRequest, needs_body=False,
     ),
     ApiEndpoint(
         "GET", PATH, "view", "Show the report of an operation, with its result and the names of its files", show_report,

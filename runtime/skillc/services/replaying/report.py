@@ -10,7 +10,7 @@ from skillc.services.files import writing_to
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
-from skillc.services.run_report import RunResult, make_samples, report_run
+from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.execution.execute import describe_execution
@@ -18,9 +18,17 @@ from skillc_runtime.execution.repeat import NotRepeatable
 
 
 def report_recorded(
-    run: Path, out: Path, library: Path | SkillLibrary | None, looks: str, gif: bool, reporter: Reporter
+    run: Path,
+    out: Path,
+    library: Path | SkillLibrary | None,
+    reporter: Reporter,
+    looks: str = PRIMITIVE_LOOKS,
+    film: bool = True,
+    gif: bool = False,
 ) -> RunResult:
     """Write the report, the figures and the film of a recorded run to a folder, and return its result.
+
+    The film shows the meshes of `looks`; with `gif` there is one that repeats, too.
 
     ServiceError if it cannot be repeated, or has no end; what `read_inputs` raises.
     """
@@ -29,7 +37,7 @@ def report_recorded(
         raise ServiceError(f"no report can be made of {run}: {inputs.obstacle}, so it cannot be repeated")
     reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
     with closing(build_cell(inputs)) as cell:
-        samples, choices = make_samples(cell, looks, True, gif), ChoiceListener()
+        samples, choices = make_samples(cell, looks, film, gif), ChoiceListener()
         try:
             repeated = repeat(inputs, cell, (choices,), (samples.sample,))
         except NotRepeatable as error:
