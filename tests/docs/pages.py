@@ -41,7 +41,7 @@ class Reader:
     `sh` is typed and ends with the exit code of `exit=N`, else 0; `text` is found in what the last commands printed,
     line by line; `diff FILE` changes a file; `python run` is executed; any other language with a word after it is a
     file of that name. `console` blocks are not followed. Unless `everything` is done, slow commands are left out, with
-    what they print, and so is Python.
+    what they print, and so is Python. Films are not made: they take most of the time, and other tests make them.
     """
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, everything: bool) -> None:
@@ -88,6 +88,8 @@ class Reader:
                 self.monkeypatch.chdir(folder)
                 return "", 0
             case ["skillc", *arguments]:
+                if arguments[0] == "run" and "--out" in arguments:
+                    arguments.append("--no-film")
                 result = CliRunner().invoke(skillc, arguments)
                 return result.output, result.exit_code
             case ["pytest", *arguments]:

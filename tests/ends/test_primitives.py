@@ -47,7 +47,7 @@ CASES = (
 def test_whatever_a_primitive_does_the_run_has_an_end(tmp_path: Path, backend: str, case: Case) -> None:
     command = ("run", f"{LIBRARY}:{case.task}", "--json", "--tick-timeout", "5", "--backend", backend)
     done = subprocess.run(
-        (sys.executable, "-m", "skillc", *command, "--out", str(tmp_path)),
+        (sys.executable, "-m", "skillc", *command, "--no-film", "--out", str(tmp_path)),
         capture_output=True,
         text=True,
         timeout=300,
@@ -67,7 +67,7 @@ def test_whatever_a_primitive_does_the_run_has_an_end(tmp_path: Path, backend: s
 
 @pytest.mark.sim
 def test_a_terminal_that_keys_were_read_from_is_as_it_was(tmp_path: Path) -> None:
-    command = ("run", f"{LIBRARY}:lock", "--tick-timeout", "5", "--backend", "kinematic", "--out", str(tmp_path))
+    command = ("run", f"{LIBRARY}:lock", "--tick-timeout", "5", "--backend", "kinematic", "--no-film", "--out", str(tmp_path))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     with Terminal((sys.executable, "-m", "skillc", *command), environment) as terminal:
         terminal.expect("q stop")

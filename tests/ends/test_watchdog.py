@@ -28,12 +28,9 @@ def run(
 ) -> subprocess.CompletedProcess[str]:
     """Run a program to its end, and that of its watchdog, which holds the same pipes."""
     (folder / "tmp").mkdir()
-    environment = {
-        **os.environ,
-        "TMPDIR": str(folder / "tmp"),
-        "PYTHONPATH": os.pathsep.join(sys.path),
-        "SKILLC_CACHE": str(folder / "cache"),
-    }
+    environment = {**os.environ, "TMPDIR": str(folder / "tmp"), "PYTHONPATH": os.pathsep.join(sys.path)}
+    if program is run_to_end:
+        environment["SKILLC_CACHE"] = str(folder / "cache")  # one of them has to compile
     command = (sys.executable, str(program.__file__), str(folder / "out"), str(timeout_s), how)
     done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=300, check=False)
     assert not list((folder / "tmp").iterdir()), "a temporary folder is left"

@@ -98,7 +98,7 @@ def test_a_manifest_fits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
 @pytest.mark.sim
 def test_a_run_fits_and_its_names_mean_one_thing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    task = ["run", "contact:press_button", "--out", "out", "--signals", "csv", "--json"]
+    task = ["run", "contact:press_button", "--no-film", "--out", "out", "--signals", "csv", "--json"]
     run = CliRunner().invoke(skillc, task)
     assert run.exit_code == 0, run.output
     events = [json.loads(line) for line in Path("out/events.jsonl").read_text().splitlines()]

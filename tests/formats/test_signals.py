@@ -125,7 +125,7 @@ def test_without_a_folder_or_a_package_there_is_a_sentence(monkeypatch: pytest.M
 @pytest.mark.sim
 def test_the_force_that_is_sensed_is_that_of_the_contacts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    run = CliRunner().invoke(skillc, ["run", "clean_whiteboard", "--out", "out", "--signals", "parquet"])
+    run = CliRunner().invoke(skillc, ["run", "clean_whiteboard", "--no-film", "--out", "out", "--signals", "parquet"])
     assert run.exit_code == 0, run.output
     table = pd.read_parquet("out/signals.parquet")
     truth = table["Eraser-1/truth/contact_force_n"]

@@ -36,7 +36,7 @@ class Operator:
 def check(request: TaskRequest, folder: Path, backend: BackendName, pause_at_s: float) -> None:
     """Run a task with an operator, and repeat it from its recording."""
     with load_task(request, SilentReporter()) as loaded:
-        options = RunOptions(folder, seed=3, backend=backend)
+        options = RunOptions(folder, seed=3, backend=backend, film=False)
         ran = run_task(loaded, options, Monitor(Operator(pause_at_s)), SilentReporter())
     recorded = tuple(TraceReader(folder / "events.jsonl").events)
     assert ran.result.status == "succeeded", ran.result.failure

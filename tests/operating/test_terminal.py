@@ -24,7 +24,7 @@ LIFT, CARRY, LOWER = (f"depot.skill:{line_of(f'    {name}()')}" for name in ("Li
 def command(folder: Path, *options: str, far_s: int = 2000) -> tuple[str, ...]:
     """Return the command that runs the delivery; its recording is written to the folder `out` in a folder."""
     place = write_depot(folder, far_s)
-    given = ("--skill", "Deliver()", "--out", str(folder / "out"))
+    given = ("--skill", "Deliver()", "--no-film", "--out", str(folder / "out"))
     return (sys.executable, "-m", "skillc", "run", *place, *given, *options)
 
 

@@ -33,7 +33,7 @@ from skillc_runtime.recording.reader import TraceError
 def run(tmp_path_factory: pytest.TempPathFactory) -> skillc.Run:
     """A run with all that is recorded, shared by tests that only read."""
     folder = tmp_path_factory.mktemp("run")
-    return skillc.run("contact:press_button", backend="kinematic", out=folder, signals="csv")
+    return skillc.run("contact:press_button", backend="kinematic", out=folder, signals="csv", film=False)
 
 
 @pytest.mark.sim
@@ -92,7 +92,7 @@ def test_the_file_alone_explains_itself(run: skillc.Run, tmp_path: Path) -> None
 
 @pytest.mark.sim
 def test_a_run_that_is_killed_can_be_read_up_to_the_last_chunk(tmp_path: Path) -> None:
-    start = [sys.executable, "-m", "skillc", "run", "contact:press_button", "--out", str(tmp_path), "--pace", "real"]
+    start = [sys.executable, "-m", "skillc", "run", "contact:press_button", "--no-film", "--out", str(tmp_path), "--pace", "real"]
     file = tmp_path / "recording.mcap"
     with subprocess.Popen([*start, "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         _wait(lambda: file.exists() and _count_samples(file) > 1000)

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from functools import cache
 from pathlib import Path
 
@@ -123,12 +124,12 @@ def test_the_same_seed_gives_the_same_run() -> None:
 
 
 def test_ctrl_c_halts_reports_and_exits_with_3(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "skillc", "run", "clean_table", "--json", "--out", str(tmp_path)]
+    command = [sys.executable, "-m", "skillc", "run", "clean_table", "--json", "--no-film", "--out", str(tmp_path)]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     events = tmp_path / "events.jsonl"
     try:
         while process.poll() is None and not (events.exists() and "Grasp" in events.read_text(encoding="utf-8")):
-            pass
+            time.sleep(0.1)
         process.send_signal(signal.SIGINT)
         output, _ = process.communicate(timeout=120)
     finally:

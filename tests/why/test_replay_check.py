@@ -29,7 +29,7 @@ def check(*arguments: object) -> Result:
 def record(request: TaskRequest, folder: Path, pause_at_s: float, backend: BackendName = "kinematic") -> None:
     """Record a run that is paused, stepped and resumed."""
     with load_task(request, SilentReporter()) as loaded:
-        options = RunOptions(folder, seed=3, backend=backend)
+        options = RunOptions(folder, seed=3, backend=backend, film=False)
         ran = run_task(loaded, options, Monitor(Operator(pause_at_s)), SilentReporter())
     assert ran.result.status == "succeeded", ran.result.failure
 
@@ -131,7 +131,7 @@ def test_another_seed_is_found_as_a_difference_of_the_events(tmp_path: Path) -> 
 )
 def test_runs_of_other_arms_are_repeated_from_their_recordings(tmp_path: Path, task: str, backend: BackendName) -> None:
     with load_task(TaskRequest(task), SilentReporter()) as loaded:
-        options = RunOptions(tmp_path, seed=1, backend=backend)
+        options = RunOptions(tmp_path, seed=1, backend=backend, film=False)
         run_task(loaded, options, Monitor(lambda run, now: ()), SilentReporter())
     result = check(tmp_path / "recording.mcap")
     assert result.exit_code == 0 and "repeated:" in result.stdout, result.output

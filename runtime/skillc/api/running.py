@@ -56,6 +56,7 @@ def run(
     library: AnyPath | None = None,
     out: AnyPath | None = None,
     signals: SignalFormat | None = None,
+    film: bool = True,
     gif: bool = False,
     seed: int = 0,
     backend: BackendName = "mujoco",
@@ -67,11 +68,11 @@ def run(
     """Run a task, a goal or a skill call in simulation, and return how it ended; a failure is a result, not an error.
 
     `task`, `arguments`, `goal`, `scene`, `library` and `minimise` are as in `plan`; `skill` is a call such as
-    `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and a film; `signals`
-    adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats. `seed` determines how the
-    simulation differs from the world model; the backend `kinematic` is faster, without physics. The task fails when
-    it takes longer than `deadline_s` s of the cell's time, a primitive or a wait when it takes longer than
-    `step_deadline_s` s.
+    `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and, unless `film`
+    is false, a film; `signals` adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats.
+    `seed` determines how the simulation differs from the world model; the backend `kinematic` is faster, without
+    physics. The task fails when it takes longer than `deadline_s` s of the cell's time, a primitive or a wait when it
+    takes longer than `step_deadline_s` s.
 
     An interrupt from the keyboard stops the task safely, and is raised again. Errors as of `start`.
     """
@@ -84,6 +85,7 @@ def run(
         library=library,
         out=out,
         signals=signals,
+        film=film,
         gif=gif,
         seed=seed,
         backend=backend,
@@ -105,6 +107,7 @@ def start(
     library: AnyPath | None = None,
     out: AnyPath | None = None,
     signals: SignalFormat | None = None,
+    film: bool = True,
     gif: bool = False,
     seed: int = 0,
     backend: BackendName = "mujoco",
@@ -141,6 +144,7 @@ def start(
             step=step,
             pause_at=tuple(pause_at),
             signals=signals,
+            film=film,
             gif=gif,
         )
 

@@ -149,6 +149,12 @@ def looks_option(function: Function) -> Function:
     )(function)
 
 
+def film_option(function: Function) -> Function:
+    """Add `--no-film`, for a report without a film."""
+    text = "Leave out film and stills of the report, which take most of the time."
+    return grouped_option(OUTPUT, "--no-film", is_flag=True, help=text)(function)
+
+
 def gif_option(function: Function) -> Function:
     """Add `--gif`, a short film that repeats."""
     text = "Write film.gif as well, a film of at most 4 MB that repeats."

@@ -53,7 +53,8 @@ class RunOptions:
     the result as JSON, and the watchdog does if the run is interrupted. The task fails if it has not ended
     `deadline_s` of the cell's time after its start, or if a plan takes as long, and a primitive or a wait if it has not
     ended `step_deadline_s` after its start. The task pauses before its first call with
-    `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop. The devices are
+    `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop; there is none
+    without `film`. The devices are
     as in `saved`, a checkpoint of the backend, if it is given.
 
     RequestError for meshes or a loop without a folder, because then no film is made, and for signals that cannot be
@@ -73,6 +74,7 @@ class RunOptions:
     backend: BackendName = "mujoco"
     signals: SignalFormat | None = None
     gif: bool = False
+    film: bool = True
     saved: bytes | None = None
     run_id: str = ""
     recorders: tuple[Recorder, ...] = ()
@@ -84,6 +86,8 @@ class RunOptions:
         check_signals(self.signals, self.out)
         if self.gif and self.out is None:
             raise RequestError("--gif writes a film, which requires --out")
+        if self.gif and not self.film:
+            raise RequestError("--gif writes a film, which --no-film leaves out")
 
 
 def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter) -> RunResult:
@@ -103,7 +107,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
         try:
             monitor.say("planning, and building the simulation")
             cell = make_backend(options.backend, task.world, options.seed, options.saved)
-            samples = make_samples(cell, options.looks, options.out is not None, options.gif)
+            samples = make_samples(cell, options.looks, options.out is not None and options.film, options.gif)
         except (SheetError, FrameError, StoreError) as error:
             return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)
         except KeyboardInterrupt as interrupt:

@@ -12,7 +12,7 @@ from pathlib import Path
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, OUTPUT, PATH, gif_option, grouped_option, json_option, looks_option
+from skillc.cli.options import FOLDER, PATH, film_option, gif_option, json_option, looks_option
 
 EXAMPLES = """
 skillc report out
@@ -24,11 +24,13 @@ skillc report recording.mcap --out report --no-film
 @click.argument("run", metavar="RUN_DIR", type=PATH)
 @click.option("--out", type=FOLDER, help="Write to this folder; by default to RUN_DIR.")
 @click.option("--library", type=PATH, help="The library of the run; by default the one in the recording.")
-@grouped_option(OUTPUT, "--film/--no-film", default=True, help="Make a film and stills, which takes most of the time.")
+@film_option
 @looks_option
 @gif_option
 @json_option
-def command(run: Path, out: Path | None, library: Path | None, film: bool, looks: str, gif: bool, as_json: bool) -> int:
+def command(
+    run: Path, out: Path | None, library: Path | None, no_film: bool, looks: str, gif: bool, as_json: bool
+) -> int:
     """Write report.html, result.json, figures, film and stills of a recorded run, as `skillc run --out` does.
 
     Figures and film need more than a recording has, so the task is run again from the recorded inputs; if an event is
@@ -43,7 +45,7 @@ def command(run: Path, out: Path | None, library: Path | None, film: bool, looks
         raise click.UsageError(f"{run} is no folder: name the folder of the report with --out")
     folder = out or run
     check_writable(folder)
-    made = report_recorded(run, folder, library, Terminal(), looks, film, gif)
+    made = report_recorded(run, folder, library, Terminal(), looks, not no_film, gif)
     if as_json:
         print_json(made.result)
     else:

@@ -19,6 +19,7 @@ from skillc.cli.options import (
     FOLDER,
     OUTPUT,
     PATH,
+    film_option,
     gif_option,
     grouped_option,
     json_option,
@@ -60,6 +61,7 @@ skillc run clean_table --pause-at Wipe
     type=click.Choice(["csv", "parquet"]),
     help="Record forces, poses, joints and references, 100 samples a second, to the folder of --out.",
 )
+@film_option
 @looks_option
 @gif_option
 @store_options
@@ -101,6 +103,7 @@ def command(
     library: Path | None,
     out: Path | None,
     signals: SignalFormat | None,
+    no_film: bool,
     looks: str,
     gif: bool,
     store: str | None,
@@ -149,6 +152,7 @@ def command(
         backend,
         signals,
         gif,
+        not no_film,
     )
     check_operable(options)
     check_writable(out)
