@@ -43,8 +43,8 @@ check: .venv/.dev ## check style, types and import rules
 	$(BIN)/ruff format --check .
 	$(BIN)/skillc fmt --check skills_src
 	$(BIN)/mypy
-	$(BIN)/mypy --platform win32 --cache-dir .mypy_cache/win32
-	$(BIN)/mypy --platform darwin --cache-dir .mypy_cache/darwin
+	$(BIN)/mypy --platform win32 --cache-dir .mypy_cache/win32 & other=$$!; \
+	    $(BIN)/mypy --platform darwin --cache-dir .mypy_cache/darwin && wait $$other
 	$(BIN)/lint-imports
 
 reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with tools of other projects (some need Java)
