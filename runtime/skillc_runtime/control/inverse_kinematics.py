@@ -23,6 +23,8 @@ def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits:
     The result is the solution from `seed` (nv,) if there is one, else the one nearest to it from seeds all over the
     range. Joints keep away from the ends of their ranges, where they are pushed back.
     """
+    if not arm.may_reach(target):
+        return None
     margin = range_margin(limits)
     free = np.stack([limits[:, 0] + margin, limits[:, 1] - margin], axis=1)
     direct = descend(arm, target, seed, seed, free)

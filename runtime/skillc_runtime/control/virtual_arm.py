@@ -87,6 +87,28 @@ class VirtualArm:
         """The tool centre point in base; a copy."""
         return Pose(self._position.copy(), self._rotation.copy())
 
+    def may_reach(self, target: Pose) -> bool:
+        """Return whether the hand would be as near to the base as all links in a line, with the tool at `target` in it.
+
+        If not, no posture puts it there; otherwise there need not be one either.
+        """
+        mount = Pose.of(self._model.body_pos[self._body], self._model.body_quat[self._body])
+        hand = target @ mount.inverse()
+        return float(np.linalg.norm(hand.position)) <= self._measure_links(int(self._model.body_parentid[self._body]))
+
+    def _measure_links(self, body: int) -> float:
+        """Return the distance in m between the base and the origin of a body that no posture exceeds."""
+        model = self._model
+        if body == 0:
+            return 0.0
+        longest = float(np.linalg.norm(model.body_pos[body]))
+        for joint in range(model.body_jntadr[body], model.body_jntadr[body] + model.body_jntnum[body]):
+            if self.turning[joint]:
+                longest += 2.0 * float(np.linalg.norm(model.jnt_pos[joint]))
+            else:
+                longest += float(np.abs(model.jnt_range[joint]).max()) if model.jnt_limited[joint] else np.inf
+        return longest + self._measure_links(int(model.body_parentid[body]))
+
     def joint_name(self, index: int) -> str:
         """Return the name of a joint, counted from 0, in the arm's model, or its number from 1 if it has none."""
         name = self._model.joint(index).name
