@@ -17,8 +17,7 @@ from typing import Any
 
 from killed_servers.auditing import BY_HAND, Faults, Place, audit
 from running_cells.yard import write_yard
-from server.running import RunningServer, is_listening, start_server, wait_until
-from server.test_serving import find_cell
+from server.running import RunningServer, find_cell_process, is_listening, start_server, wait_until
 
 TAKES_MS = 60
 LONGEST_S = 1.6
@@ -99,7 +98,7 @@ class KillSeries:
         if self._chance.random() < 0.5:
             self._kill_server("server")
             return
-        os.kill(cell := find_cell(server.process.pid), signal.SIGKILL)
+        os.kill(cell := find_cell_process(server), signal.SIGKILL)
         self.counts["killed: cell"] += 1
         wait_until(lambda: _is_alive(cell), lambda alive: not alive)
         wait_until(lambda: server.client.get("/cells/yard").json(), lambda it: it["state"] == "off")

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from running_cells.test_operations import run_all
-from running_cells.test_reality import SORTING, make_settings, reality
+from running_cells.test_reality import ONE_PART, SORTING, make_settings, reality
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.messages import Acknowledge, Edit, Refused, Submit, TakeSnapshot
-from skillc.cells.operation import CellState, OperationRequest, OperationStatus
+from skillc.cells.operation import CellState, OperationStatus
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import RequestError
 from skillc.services.replaying.check import check_run
@@ -28,7 +28,7 @@ from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, Pres
 
 DOCS = Path(__file__).parents[2] / "docs"
 ARM = "lab:Arm-1"
-TASK = OperationRequest(task=SORTING[1])
+TASK = ONE_PART
 PRESS, RELEASE = PressEmergencyStop(), PressEmergencyStop(False)
 
 

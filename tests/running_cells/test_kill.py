@@ -11,7 +11,7 @@ from random import Random
 from running_cells.checking import check_cell
 from running_cells.yard import CRATES, find_settings, write_yard
 
-KILLS = int(os.environ.get("SKILLC_CELL_KILLS", "4"))
+KILLS = int(os.environ.get("SKILLC_CELL_KILLS", "2"))
 """How often the process of a cell is killed."""
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from running_cells.test_operations import run_all
-from running_cells.test_reality import SORTING, make_settings
+from running_cells.test_reality import ONE_PART, SORTING, make_settings
 from running_cells.yard import write_yard
 from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
@@ -48,7 +48,7 @@ def nodes_after(envelopes: tuple[Envelope, ...], library: SkillLibrary) -> dict[
     [
         ("yard", OperationRequest(task="carry_all")),
         ("yard", OperationRequest(task="carry_two")),
-        ("sorting", OperationRequest(task=SORTING[1])),
+        ("sorting", ONE_PART),
     ],
 )
 def test_each_node_is_known_before_it_starts(tmp_path: Path, case: str, request_: OperationRequest) -> None:

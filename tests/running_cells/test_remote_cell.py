@@ -67,61 +67,58 @@ async def serving(settings: CellSettings) -> AsyncIterator[tuple[RemoteCell, Ser
         await asyncio.wait_for(cell.gone, 30.0)
 
 
-def test_an_operation_runs_pauses_and_stops(tmp_path: Path) -> None:
-    async def operate() -> None:
-        async with serving(write_yard(tmp_path)) as (cell, server):
+def test_a_cell_is_operated_says_what_it_cannot_do_and_comes_to_rest_without_its_server(tmp_path: Path) -> None:
+    settings = write_yard(tmp_path)
+
+    async def use() -> None:
+        async with serving(settings) as (cell, server):
             await server.see(StatusChanged)
-            assert (await cell.request(SetPace(factor=2.0))).refused is None
-            assert (await cell.request(Submit(operation="op", request=CARRY))).refused is None
-            refused = (await cell.request(Give(operation="op", command=Resume()))).refused
-            assert refused is not None and refused.kind == "state" and "stop" in refused.allowed
-            await server.see_state("op", "running")
-            assert (await cell.request(Give(operation="op", command=Pause()))).refused is None
-            await server.see_state("op", "paused")
-            assert (await cell.request(Give(operation="op", command=Resume()))).refused is None
-            cell.stop("enough", "op")
-            ended = await server.see_state("op", "stopped")
-            assert ended.failure is not None and ended.failure.message == "enough"
-            again = (await cell.request(Submit(operation="op", request=CARRY))).refused
-            assert again is not None and "already an operation op" in again.reason
-            assert (await cell.request(Give(operation="op", command=Stop()))).refused is not None
+            await ask_what_cannot_be_done(cell, server)
+            await operate(cell, server)
+            await abandon(cell, server)
 
-    asyncio.run(operate())
+    asyncio.run(use())
+    with closing(JournalReader(settings.journal)) as reader:
+        last = reader.envelopes("left", reader.last_sequence("left") - 1)[0].event
+    assert (last.status, last.failure.message) == ("interrupted", "the server of the cell is gone")
 
 
-def test_what_cannot_be_done_says_why(tmp_path: Path) -> None:
+async def ask_what_cannot_be_done(cell: RemoteCell, server: Server) -> None:
     requests = {
         "there is no task `carry_none`": OperationRequest(task="carry_none"),
         "goal:1:1": OperationRequest(goal="lab:Nowhere contain lab:crate-0"),
         "exactly one of a task, a goal and a call": OperationRequest(),
         "there is no skill `Lift`": OperationRequest(task="carry_all", breakpoints=("Lift",)),
     }
-
-    async def operate() -> None:
-        async with serving(write_yard(tmp_path)) as (cell, server):
-            for number, (message, request) in enumerate(requests.items()):
-                refused = (await cell.request(Submit(operation=f"op-{number}", request=request))).refused
-                assert refused is not None and message in refused.describe(), refused
-            assert server.operations == {}
-
-    asyncio.run(operate())
+    for number, (message, request) in enumerate(requests.items()):
+        refused = (await cell.request(Submit(operation=f"op-{number}", request=request))).refused
+        assert refused is not None and message in refused.describe(), refused
+    assert server.operations == {}
 
 
-def test_a_cell_without_its_server_comes_to_rest_and_says_so(tmp_path: Path) -> None:
-    settings = write_yard(tmp_path)
+async def operate(cell: RemoteCell, server: Server) -> None:
+    assert (await cell.request(SetPace(factor=2.0))).refused is None
+    assert (await cell.request(Submit(operation="op", request=CARRY))).refused is None
+    refused = (await cell.request(Give(operation="op", command=Resume()))).refused
+    assert refused is not None and refused.kind == "state" and "stop" in refused.allowed
+    await server.see_state("op", "running")
+    assert (await cell.request(Give(operation="op", command=Pause()))).refused is None
+    await server.see_state("op", "paused")
+    assert (await cell.request(Give(operation="op", command=Resume()))).refused is None
+    cell.stop("enough", "op")
+    ended = await server.see_state("op", "stopped")
+    assert ended.failure is not None and ended.failure.message == "enough"
+    again = (await cell.request(Submit(operation="op", request=CARRY))).refused
+    assert again is not None and "already an operation op" in again.reason
+    assert (await cell.request(Give(operation="op", command=Stop()))).refused is not None
 
-    async def abandon() -> None:
-        async with serving(settings) as (cell, server):
-            await cell.request(SetPace(factor=1.0))
-            await cell.request(Submit(operation="op", request=CARRY))
-            await server.see_state("op", "running")
-            cell.abandon()
-            assert await asyncio.wait_for(cell.gone, 30.0) == 0
 
-    asyncio.run(abandon())
-    with closing(JournalReader(settings.journal)) as reader:
-        last = reader.envelopes("op", reader.last_sequence("op") - 1)[0].event
-    assert (last.status, last.failure.message) == ("interrupted", "the server of the cell is gone")
+async def abandon(cell: RemoteCell, server: Server) -> None:
+    await cell.request(SetPace(factor=1.0))
+    await cell.request(Submit(operation="left", request=CARRY))
+    await server.see_state("left", "running")
+    cell.abandon()
+    assert await asyncio.wait_for(cell.gone, 30.0) == 0
 
 
 def test_a_scene_that_does_not_exist_is_reported(tmp_path: Path) -> None:

@@ -40,7 +40,7 @@ def start(folder: Path, import_s: float, until: Callable[[CellSupervisor], bool]
 def test_a_cell_that_starts_slowly_is_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setattr(supervisor, "SILENCE_S", 1.0)
-    assert start(tmp_path, 4.0, lambda cell: cell.ready).starts == 1
+    assert start(tmp_path, 2.0, lambda cell: cell.ready).starts == 1
 
 
 def test_a_cell_that_is_never_ready_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

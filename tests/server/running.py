@@ -25,6 +25,8 @@ from skillc.services.library_files import SHIPPED
 READY_S = 120.0
 CLIENT_S = 60.0
 """How long an answer of the server may take, in s: a process that answers may have to start first."""
+LOOK_S = 0.05
+"""How often something is looked at that is waited for: each look at a server costs both sides, in s."""
 NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
@@ -72,8 +74,19 @@ def wait_until(look: Any, condition: Any) -> Any:
     end = time.monotonic() + READY_S
     while not condition(found := look()):
         assert time.monotonic() < end, found
-        time.sleep(0.02)
+        time.sleep(LOOK_S)
     return found
+
+
+def find_cell_process(server: RunningServer) -> int:
+    """Return the process of a cell of a server, once there is one."""
+    children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children")
+
+    def find() -> list[int]:
+        found = [int(each) for each in children.read_text().split()]
+        return [each for each in found if b"skillc.cells.process" in Path(f"/proc/{each}/cmdline").read_bytes()]
+
+    return int(wait_until(find, bool)[0])
 
 
 @contextmanager
@@ -84,15 +97,16 @@ def serving(
     authority: Path | None = None,
     environment: Mapping[str, str] = NOTHING,
     state: str = "operational",
+    libraries: Sequence[str] = (".",),
 ) -> Iterator[RunningServer]:
     """Serve a yard in a folder, in which it may have been served before; with a certificate of `authority`, if any.
 
-    Its cell is in a `state` then.
+    Its cell is in a `state` then. `libraries` has folders beside it, if they are served as well.
     """
     write_yard(folder, takes_ms)
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    process = start_server(folder, port, options, environment=environment)
+    process = start_server(folder, port, options, libraries, environment=environment)
     try:
         wait_until(lambda: is_listening(port) or process.poll() is not None, bool)
         assert process.poll() is None, "the server has ended"

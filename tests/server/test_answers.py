@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,26 +11,18 @@ from click.shell_completion import ShellComplete
 
 import skillc
 from operating.terminal import Terminal
-from running_cells.asking import write_asking_yard
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, wait_until
 from server.test_client_commands import terminal_environment, type_in
 from skillc.cli.main import skillc as command
 from skillc.events import Requested
 
 
-@pytest.fixture(scope="module")
-def asking(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    folder = tmp_path_factory.mktemp("asking")
-    write_asking_yard(folder)
-    with serving(folder) as running:
-        yield running
-
-
 @pytest.fixture
-def here(asking: RunningServer, monkeypatch: pytest.MonkeyPatch) -> RunningServer:
-    monkeypatch.setenv("SKILLC_SERVER", f"http://127.0.0.1:{asking.port}")
-    monkeypatch.setenv("SKILLC_TOKEN", asking.token)
-    return asking
+def here(server: RunningServer, monkeypatch: pytest.MonkeyPatch) -> RunningServer:
+    monkeypatch.setenv("SKILLC_SERVER", f"http://127.0.0.1:{server.port}")
+    monkeypatch.setenv("SKILLC_TOKEN", server.token)
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    return server
 
 
 def ask(server: RunningServer) -> str:

@@ -9,7 +9,6 @@ import pytest
 from click.testing import CliRunner, Result
 
 from running_cells.yard import write_yard
-from server.running import serving
 from skillc.cli.main import skillc
 
 
@@ -21,15 +20,6 @@ def serve(*arguments: str | Path) -> Result:
 def yard(tmp_path: Path) -> Path:
     write_yard(tmp_path)
     return tmp_path
-
-
-def test_it_says_where_it_serves_and_how_its_cells_are(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        address = server.url
-    assert server.process.stderr is not None
-    said = server.process.stderr.read().decode()
-    assert f"serving at {address}" in said and "admin.token" in said
-    assert "cell yard: operational, as fast as it computes" in said and server.token not in said
 
 
 def test_a_library_with_errors_is_refused(yard: Path) -> None:

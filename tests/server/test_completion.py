@@ -12,9 +12,8 @@ import pytest
 from click.shell_completion import ShellComplete
 
 from operating.terminal import Terminal
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, find_cell_process, serving, wait_until
 from server.test_client_commands import here, terminal_environment, type_in  # noqa: F401
-from server.test_serving import find_cell
 from skillc.cli.main import VARIABLE, skillc
 
 BASH = ("bash", "--norc", "--noprofile", "-i")
@@ -78,7 +77,7 @@ def test_operations_are_offered_where_they_make_sense(tmp_path: Path, monkeypatc
         server.wait_for(ended, "succeeded")
         broken = server.submit(task="carry_all")["id"]
         server.wait_for(broken, "running")
-        os.kill(find_cell(server.process.pid), signal.SIGKILL)
+        os.kill(find_cell_process(server), signal.SIGKILL)
         wait_until(lambda: server.client.get(f"/operations/{broken}").json(), lambda it: it.get("decisions"))
         waiting = server.submit(task="carry_all", approve=True)["id"]
         server.wait_for(waiting, "planned")

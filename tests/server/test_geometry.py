@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pytest
 
-from server.running import RunningServer, serving_bench
+from server.running import RunningServer
 from server.test_leases import client_of
 
 PART, TABLE = "http://example.org/lab#Part-A", "http://example.org/lab#Table"
-
-
-@pytest.fixture(scope="module")
-def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    with serving_bench(tmp_path_factory.mktemp("bench")) as running:
-        yield running
 
 
 def test_who_may_only_look_gets_the_model_and_the_poses(bench: RunningServer) -> None:

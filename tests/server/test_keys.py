@@ -5,13 +5,10 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
-import sqlite3
-from contextlib import closing
-from pathlib import Path
 
 import httpx
 
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, find_cell_process
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}, "approve": True}
 KEY = {"Idempotency-Key": "once"}
@@ -33,37 +30,14 @@ def test_requests_with_one_key_at_the_same_time_are_one_operation(server: Runnin
     server.client.post(f"/operations/{operation}/stop", json={})
 
 
-def test_a_key_whose_request_no_cell_has_taken_can_be_used_again(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        os.kill(cell_of(server), signal.SIGKILL)
-        first = submit(server)
-        server.wait_ready()
-        second, third = submit(server), submit(server)
-        assert second.status_code == third.status_code == 201, (first.text, second.text)
-        assert second.json()["id"] == third.json()["id"]
-        assert len(server.client.get("/cells/yard/operations").json()) == 1
-
-
-def test_a_server_that_dies_after_it_has_noted_a_key_submits_once_later(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        assert submit(server).status_code == 201
-        before = server.client.get("/cells/yard/operations").json()
-        server.process.send_signal(signal.SIGKILL)
-        server.process.wait(30.0)
-    with closing(sqlite3.connect(tmp_path / "served/server.sqlite")) as database, database:
-        database.execute("UPDATE requests SET operation = 'carry-never-heard-of'")
-    with serving(tmp_path) as server:
-        again = [submit(server).json()["id"] for _ in range(2)]
-        found = [each["id"] for each in server.client.get("/cells/yard/operations").json()]
-    assert again == ["carry-never-heard-of"] * 2 and found == ["carry-never-heard-of", *(each["id"] for each in before)]
-
-
-def cell_of(server: RunningServer) -> int:
-    """Return the process of the cell."""
-    children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children")
-
-    def find() -> list[int]:
-        found = [int(each) for each in children.read_text().split()]
-        return [each for each in found if b"cells.process" in Path(f"/proc/{each}/cmdline").read_bytes()]
-
-    return int(wait_until(find, bool)[0])
+def test_a_key_whose_request_no_cell_has_taken_can_be_used_again(server: RunningServer) -> None:
+    key, before = {"Idempotency-Key": "not taken"}, server.client.get("/cells/yard/operations").json()
+    os.kill(find_cell_process(server), signal.SIGKILL)
+    first = submit(server, key)
+    server.wait_ready()
+    second, third = submit(server, key), submit(server, key)
+    assert second.status_code == third.status_code == 201, (first.text, second.text)
+    assert second.json()["id"] == third.json()["id"]
+    made = {each["id"] for each in server.client.get("/cells/yard/operations").json()} - {each["id"] for each in before}
+    assert made == {second.json()["id"]}
+    server.client.post(f"/operations/{second.json()['id']}/stop", json={})

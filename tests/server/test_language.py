@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
@@ -13,20 +13,11 @@ import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, wait_until
 from skillc.server.context import MAX_OF_CLIENT
 
 OWN = "skill:///yard/yard.skill"
 Json = dict[str, Any]
-
-
-@pytest.fixture(scope="module")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    folder = tmp_path_factory.mktemp("language") / "yard"
-    folder.mkdir()
-    (folder.parent / "secret.skill").write_text("## A secret.\nskill Secret {\n    noplan\n}\n")
-    with serving(folder) as running:
-        yield running
 
 
 class Editor:

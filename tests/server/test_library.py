@@ -28,7 +28,7 @@ def test_skills_and_tasks_are_described(server: RunningServer) -> None:
     assert [each["name"] for each in load["implementations"]] == ["by_hand"]
     assert load["duration_s"] is None
     tasks = {each["name"]: each for each in found["tasks"]}
-    assert list(tasks) == ["carry", "carry_all", "carry_two"]
+    assert list(tasks) == ["carry", "carry_all", "carry_two", "confirm"]
     assert (tasks["carry"]["doc"], tasks["carry"]["goal"]) == ("Bring one crate to a place.", "to contain crate")
 
 

@@ -7,11 +7,9 @@ import json
 import socket
 import time
 from contextlib import AbstractContextManager, AsyncExitStack, ExitStack
-from pathlib import Path
 
 import httpx
 import pytest
-import trustme
 import uvicorn
 from prometheus_client.parser import text_string_to_metric_families
 from starlette.applications import Starlette
@@ -21,7 +19,7 @@ from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 from websockets.asyncio.client import connect
 
-from server.running import RunningServer, serving, serving_app
+from server.running import RunningServer, serving_app
 from skillc.cells.mailbox import ALIVE_S
 from skillc.server import connections
 from skillc.server.connections import BoundedConnection
@@ -30,36 +28,27 @@ from skillc.server.proxy import ProxiedRequests
 HERE = PlainTextResponse("here")
 
 
-def test_with_a_certificate_it_encrypts_and_answers_to_its_names(tmp_path: Path) -> None:
-    authority = trustme.CA()
-    certificate = authority.issue_cert("127.0.0.1", "cells.example.org")
-    certificate.cert_chain_pems[0].write_to_path(str(tmp_path / "chain.pem"))
-    certificate.private_key_pem.write_to_path(str(tmp_path / "key.pem"))
-    authority.cert_pem.write_to_path(str(tmp_path / "ca.pem"))
-    files = ("--tls-cert", tmp_path / "chain.pem", "--tls-key", tmp_path / "key.pem")
-    with serving(tmp_path, options=(*files, "--host", "cells.example.org"), authority=tmp_path / "ca.pem") as server:
-        assert server.client.get("/cells", headers={"Host": "cells.example.org"}).status_code == 200
-        assert server.client.get("/cells", headers={"Host": "example.org"}).status_code == 421
-        with pytest.raises(httpx.ConnectError, match="verify failed"):
-            httpx.get(f"{server.url}/cells")
-        with pytest.raises(httpx.HTTPError):
-            httpx.get(f"{server.url.replace('https', 'http')}/cells")
+def test_with_a_certificate_it_encrypts_and_answers_to_its_names(encrypted: RunningServer) -> None:
+    assert encrypted.client.get("/cells", headers={"Host": "cells.example.org"}).status_code == 200
+    assert encrypted.client.get("/cells", headers={"Host": "example.org"}).status_code == 421
+    with pytest.raises(httpx.ConnectError, match="verify failed"):
+        httpx.get(f"{encrypted.url}/cells")
+    with pytest.raises(httpx.HTTPError):
+        httpx.get(f"{encrypted.url.replace('https', 'http')}/cells")
 
 
-def test_behind_a_proxy_its_clients_are_those_that_the_proxy_names(tmp_path: Path) -> None:
-    with serving(tmp_path, options=("--behind-proxy", "127.0.0.1", "--log", tmp_path / "log")) as server:
-        for claimed in ("10.1.2.3", "6.6.6.6, 10.1.2.3"):
-            server.client.post("/cells/yard/stop", json={}, headers={"X-Forwarded-For": claimed})
-        entries = server.client.get("/audit").json()
-        assert [each["origin"] for each in entries if each["action"].startswith("POST /api/v1/cells/yard/stop")] == [
-            "10.1.2.3",
-            "10.1.2.3",
-        ]
-        server.client.get("/cells/a%0A%7B%22event%22:%22forged%22%7D")
-    lines = [json.loads(line) for line in (tmp_path / "log").read_text().splitlines()]
-    assert {"cell", "request"} == {each["event"] for each in lines} and server.token not in (
-        tmp_path / "log"
-    ).read_text()
+def test_behind_a_proxy_its_clients_are_those_that_the_proxy_names(proxied: RunningServer) -> None:
+    for claimed in ("10.1.2.3", "6.6.6.6, 10.1.2.3"):
+        proxied.client.post("/cells/yard/stop", json={}, headers={"X-Forwarded-For": claimed})
+    entries = proxied.client.get("/audit", params={"limit": 10_000}).json()
+    assert [each["origin"] for each in entries if each["action"].startswith("POST /api/v1/cells/yard/stop")] == [
+        "10.1.2.3",
+        "10.1.2.3",
+    ]
+    proxied.client.get("/cells/a%0A%7B%22event%22:%22forged%22%7D")
+    log = (proxied.folder / "log").read_text()
+    lines = [json.loads(line) for line in log.splitlines()]
+    assert {"cell", "request"} == {each["event"] for each in lines} and proxied.token not in log
     assert next(each for each in lines if each["event"] == "request")["who"] == "admin"
 
 

@@ -6,7 +6,6 @@ import asyncio
 import json
 import re
 import sqlite3
-import time
 from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import dataclass, field
@@ -18,7 +17,7 @@ from typing import Any, cast
 import pytest
 
 import skillc
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, wait_until
 from server.test_client_commands import here, type_in  # noqa: F401  a fixture
 from skillc.cells.database import Schema, open_for_writing
 from skillc.cells.host import CellSettings
@@ -242,20 +241,6 @@ def test_what_is_no_order_is_refused(server: RunningServer, order: dict[str, Any
     refused = add(server, 10.0, "refused", **order)
     assert refused.status_code == 422 and detail in refused.json()["detail"]
     assert server.client.get("/cells/yard/orders").json() == before
-
-
-def test_orders_that_were_due_while_the_server_was_killed_are_submitted_once(tmp_path: Path) -> None:
-    with serving(tmp_path, takes_ms=20) as server:
-        order = add(server, 0.0, every_s=1.0, request={"task": "carry_all"}).json()["id"]
-        wait_until(lambda: find_submitted(server, order), bool)
-        server.process.kill()
-        server.process.wait(10.0)
-    time.sleep(2.0)
-    with serving(tmp_path, takes_ms=20) as server:
-        wait_until(lambda: len(find_submitted(server, order)), lambda count: count >= 3)
-        server.client.delete(f"/orders/{order}")
-        numbers = sorted(int(each.rpartition("-")[2]) for each in find_submitted(server, order))
-    assert len(set(numbers)) == len(numbers) and numbers[-1] > len(numbers)
 
 
 def test_programs_and_the_shell_order(here: RunningServer) -> None:  # noqa: F811

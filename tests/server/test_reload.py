@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
-import socket
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 
 from running_cells.yard import SKILLS, write_yard
-from server.running import RunningServer, serving, start_server, wait_until
+from server.running import RunningServer, serving, wait_until
 from server.test_client_commands import type_in
 
 NEW_TASK = """
@@ -44,11 +42,32 @@ class Beep(Primitive):
 """
 
 
-@pytest.fixture
-def server(tmp_path: Path) -> Iterator[RunningServer]:
-    with serving(tmp_path / "yard", takes_ms=500) as running:
-        running.client.put("/cells/yard/pace", json={"factor": 1.0})
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    """A server of a yard that beeps, and of another library in a folder beside it, with a cell of its own."""
+    folder, south = tmp_path_factory.mktemp("reload") / "yard", "south.ttl"
+    write_yard(folder.parent / "south")
+    (folder.parent / "south" / "yard.ttl").rename(folder.parent / "south" / south)
+    skills = (SKILLS.replace("TAKES", "500") + NEW_TASK).replace("yard.ttl", south)
+    (folder.parent / "south" / "yard.skill").write_text(skills, encoding="utf-8")
+    folder.mkdir()
+    (folder / "horn.py").write_text(CODE, encoding="utf-8")
+    (folder / "horn.skill").write_text(f"# A horn.\n{WITH_CODE}", encoding="utf-8")
+    options = ("--cell", f"../south/{south}")
+    with serving(folder, takes_ms=500, options=options, libraries=(".", "../south")) as running:
         yield running
+
+
+@pytest.fixture(autouse=True)
+def unchanged(server: RunningServer) -> Iterator[None]:
+    """The library is as it was at first before each test; the pace is real."""
+    first = cell(server)["library_hash"]
+    server.client.put("/cells/yard/pace", json={"factor": 1.0})
+    yield
+    (server.folder / "horn.py").write_text(CODE, encoding="utf-8")
+    (server.folder / "whistle.py").unlink(missing_ok=True)
+    write(server, text())
+    wait_until(lambda: cell(server), lambda it: (it["library_hash"], it["library_problem"]) == (first, ""))
 
 
 def text(takes_ms: int = 500) -> str:
@@ -63,10 +82,11 @@ def cell(server: RunningServer) -> Any:
     return server.client.get("/cells/yard").json()
 
 
-def find_cell_process(server: RunningServer) -> int:
-    """Return the id of the process of the cell."""
-    children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children").read_text().split()
-    return next(int(each) for each in children if b"skillc.cells" in Path(f"/proc/{each}/cmdline").read_bytes())
+def find_yard_process(server: RunningServer) -> int:
+    """Return the process of the cell `yard`, which the file of its store has."""
+    text = (server.folder / "served/cells/yard/world/owner").read_text()
+    assert text.startswith("the cell yard (process ")
+    return int(text.rpartition(" ")[2].rstrip(")"))
 
 
 def test_a_change_is_taken_for_the_next_operation(server: RunningServer) -> None:
@@ -92,7 +112,7 @@ def test_an_error_keeps_the_library_that_was_checked(server: RunningServer, monk
     monkeypatch.setenv("SKILLC_SERVER", f"http://127.0.0.1:{server.port}")
     monkeypatch.setenv("SKILLC_TOKEN", server.token)
     assert "there is no relation `contains`" in type_in("ps").stdout
-    os.kill(find_cell_process(server), signal.SIGKILL)
+    os.kill(find_yard_process(server), signal.SIGKILL)
     wait_until(lambda: cell(server)["state"], lambda state: state == "off")
     server.wait_ready()
     assert cell(server)["library_hash"] == before
@@ -103,74 +123,44 @@ def test_an_error_keeps_the_library_that_was_checked(server: RunningServer, monk
 
 
 def test_code_that_was_not_there_at_first_is_not_run(server: RunningServer) -> None:
-    (server.folder / "horn.py").write_text(CODE, encoding="utf-8")
-    write(server, text() + WITH_CODE)
+    whistle = WITH_CODE.replace("Beep", "Whistle").replace("horn", "whistle")
+    (server.folder / "whistle.py").write_text(CODE.replace("loaded", "whistled"), encoding="utf-8")
+    write(server, text() + whistle)
     problem = wait_until(lambda: cell(server)["library_problem"], bool)
-    assert "names the Python module horn, with which the server was not started" in problem
+    assert "names the Python module whistle, with which the server was not started" in problem
     assert "start the server again to use it" in problem
-    assert not (server.folder / "loaded").exists()
-    assert server.client.post("/cells/yard/operations", json={"call": "Beep()"}).status_code == 409
-    write(server, text() + 'function blow(cart: lab:Cart) -> Bool = python "horn:blow"\n')
+    assert not (server.folder / "whistled").exists()
+    assert server.client.post("/cells/yard/operations", json={"call": "Whistle()"}).status_code == 409
+    write(server, text() + 'function blow(cart: lab:Cart) -> Bool = python "whistle:blow"\n')
     changed = wait_until(lambda: cell(server)["library_problem"], lambda found: "names" not in found)
-    assert "its vocabulary has changed" in changed and not (server.folder / "loaded").exists()
+    assert "its vocabulary has changed" in changed and not (server.folder / "whistled").exists()
 
 
-def test_code_that_has_changed_is_not_loaded_by_a_cell_that_dies(tmp_path: Path) -> None:
-    folder = tmp_path / "yard"
-    write_yard(folder)
+def test_code_that_has_changed_is_not_loaded_by_a_cell_that_dies(server: RunningServer) -> None:
+    folder = server.folder
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    assert server.wait_for(server.submit(call="Beep()")["id"], "succeeded") and (folder / "loaded").exists()
+    (folder / "horn.py").write_text(f"{CODE}\nPath(__file__).with_name('changed').touch()\n", encoding="utf-8")
+    problem = wait_until(lambda: cell(server)["library_problem"], bool)
+    assert "Python files have changed (horn.py), which is not loaded" in problem
+    assert server.wait_for(server.submit(call="Beep()")["id"], "succeeded")
+    os.kill(find_yard_process(server), signal.SIGKILL)
+    wait_until(lambda: cell(server)["reason"], lambda reason: "Python files have changed (horn.py)" in reason)
+    assert cell(server)["state"] == "off" and not (folder / "changed").exists()
     (folder / "horn.py").write_text(CODE, encoding="utf-8")
-    (folder / "horn.skill").write_text(f"# A horn.\n{WITH_CODE}", encoding="utf-8")
-    with serving(folder) as server:
-        assert server.wait_for(server.submit(call="Beep()")["id"], "succeeded")
-        (folder / "horn.py").write_text(f"{CODE}\nPath(__file__).with_name('changed').touch()\n", encoding="utf-8")
-        problem = wait_until(lambda: cell(server)["library_problem"], bool)
-        assert "Python files have changed (horn.py), which is not loaded" in problem
-        assert server.wait_for(server.submit(call="Beep()")["id"], "succeeded")
-        os.kill(find_cell_process(server), signal.SIGKILL)
-        wait_until(lambda: cell(server)["reason"], lambda reason: "Python files have changed (horn.py)" in reason)
-        assert cell(server)["state"] == "off" and not (folder / "changed").exists()
-        (folder / "horn.py").write_text(CODE, encoding="utf-8")
-        server.wait_ready()
-        (folder / "sounds").mkdir()
-        (folder / "sounds" / "tone.py").write_text("", encoding="utf-8")
-        wait_until(lambda: cell(server)["library_problem"], lambda found: "(tone.py)" in found)
+    server.wait_ready()
+    (folder / "sounds").mkdir()
+    (folder / "sounds" / "tone.py").write_text("", encoding="utf-8")
+    wait_until(lambda: cell(server)["library_problem"], lambda found: "(tone.py)" in found)
+    shutil.rmtree(folder / "sounds")
 
 
-def test_a_cell_has_the_library_in_whose_folder_its_scene_is(tmp_path: Path) -> None:
-    for name in ("north", "south"):
-        write_yard(tmp_path / name)
-        (tmp_path / name / "yard.ttl").rename(tmp_path / name / f"{name}.ttl")
-    with (tmp_path / "south" / "yard.skill").open("a", encoding="utf-8") as file:
-        file.write(NEW_TASK.replace("yard.ttl", "south.ttl"))
-    for name in ("north", "south"):
-        skills = tmp_path / name / "yard.skill"
-        skills.write_text(skills.read_text().replace("yard.ttl", f"{name}.ttl"), encoding="utf-8")
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
-    cells = ("--cell", "north/north.ttl", "--cell", "south/south.ttl")
-    process = start_server(tmp_path, port, libraries=("north", "south"), cells=cells)
-    try:
-        url = f"http://127.0.0.1:{port}/api/v1"
-        wait_until(lambda: is_up(url) or process.poll() is not None, bool)
-        token = (tmp_path / "served" / "admin.token").read_text().strip()
-        with httpx.Client(base_url=url, headers={"Authorization": f"Bearer {token}"}, timeout=30.0) as client:
-            wait_until(
-                lambda: {each["state"] for each in client.get("/cells").json()}, lambda it: it == {"operational"}
-            )
-            hashes = {each["name"]: each["library_hash"] for each in client.get("/cells").json()}
-            assert len(set(hashes.values())) == 2
-            refused = client.post("/cells/north/operations", json={"task": "carry_first"})
-            assert refused.status_code == 409 and "there is no task `carry_first`" in refused.json()["detail"]
-            assert client.post("/cells/south/operations", json={"task": "carry_first"}).status_code == 201
-            assert {each["hash"] for each in client.get("/libraries").json()} == set(hashes.values())
-    finally:
-        process.send_signal(signal.SIGTERM)
-        process.wait(30.0)
-
-
-def is_up(url: str) -> bool:
-    """Whether the server answers."""
-    try:
-        return httpx.get(f"{url}/health").status_code == 200
-    except httpx.TransportError:
-        return False
+def test_a_cell_has_the_library_in_whose_folder_its_scene_is(server: RunningServer) -> None:
+    wait_until(lambda: server.client.get("/cells/south").json()["state"], lambda state: state == "operational")
+    hashes = {each["name"]: each["library_hash"] for each in server.client.get("/cells").json()}
+    assert len(hashes) == len(set(hashes.values())) == 2
+    refused = server.client.post("/cells/yard/operations", json={"task": "carry_first"})
+    assert refused.status_code == 409 and "there is no task `carry_first`" in refused.json()["detail"]
+    taken = server.client.post("/cells/south/operations", json={"task": "carry_first"})
+    assert taken.status_code == 201 and server.wait_for(taken.json()["id"], "succeeded")
+    assert {each["hash"] for each in server.client.get("/libraries").json()} == set(hashes.values())

@@ -13,25 +13,27 @@ from server.running import RunningServer, serving, wait_until
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-0", "to": "lab:Goal"}}
 
 
-def test_a_report_has_result_and_pages_that_a_browser_runs_no_script_of(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        operation = server.submit(**CARRY)["id"]
-        path = f"/operations/{operation}/report"
-        assert server.client.get(path).status_code == 404
-        server.wait_for(operation, "succeeded")
-        begun = server.client.post(path)
-        assert begun.status_code == 202 and begun.json()["operation"] == operation
-        made = wait_until(lambda: server.client.get(path).json(), lambda found: found["state"] == "ended")
-        assert made["reason"] == "" and made["result"]["status"] == "succeeded"
-        assert {"report.html", "result.json"} <= set(made["files"])
-        page = server.client.get(f"{path}/report.html")
-        assert page.status_code == 200 and page.headers["content-type"].startswith("text/html")
-        assert page.headers["content-security-policy"].startswith("sandbox; default-src 'none'")
-        for name in ("..%2f..%2fadmin.token", "nothing.html", "%2fetc%2fpasswd"):
-            assert server.client.get(f"{path}/{name}").status_code == 404
-        assert server.client.delete(path).status_code == 204
-        assert server.client.get(path).status_code == server.client.get(f"{path}/report.html").status_code == 404
-        assert not list((tmp_path / "served/simulations").glob("*"))
+def test_a_report_has_result_and_pages_that_a_browser_runs_no_script_of(server: RunningServer) -> None:
+    server.put_back()
+    simulations = server.folder / "served/simulations"
+    before = [*simulations.glob("*")]
+    operation = server.submit(**CARRY)["id"]
+    path = f"/operations/{operation}/report"
+    assert server.client.get(path).status_code == 404
+    server.wait_for(operation, "succeeded")
+    begun = server.client.post(path)
+    assert begun.status_code == 202 and begun.json()["operation"] == operation
+    made = wait_until(lambda: server.client.get(path).json(), lambda found: found["state"] == "ended")
+    assert made["reason"] == "" and made["result"]["status"] == "succeeded"
+    assert {"report.html", "result.json"} <= set(made["files"])
+    page = server.client.get(f"{path}/report.html")
+    assert page.status_code == 200 and page.headers["content-type"].startswith("text/html")
+    assert page.headers["content-security-policy"].startswith("sandbox; default-src 'none'")
+    for name in ("..%2f..%2fadmin.token", "nothing.html", "%2fetc%2fpasswd"):
+        assert server.client.get(f"{path}/{name}").status_code == 404
+    assert server.client.delete(path).status_code == 204
+    assert server.client.get(path).status_code == server.client.get(f"{path}/report.html").status_code == 404
+    assert [*simulations.glob("*")] == before
 
 
 def test_no_report_is_made_of_what_goes_on(server: RunningServer) -> None:

@@ -3,35 +3,16 @@
 from __future__ import annotations
 
 import sqlite3
-import stat
 from contextlib import closing
 from pathlib import Path
 
 import httpx
 import pytest
 
-from server.running import RunningServer, serving
+from server.running import RunningServer
 from server.test_recordings import CARRY
 from skillc.server.state import open_state
 from skillc.services.errors import ServiceError
-
-
-def permissions(path: Path) -> int:
-    return stat.S_IMODE(path.stat().st_mode)
-
-
-def test_only_the_owner_reads_the_state_of_a_server(tmp_path: Path) -> None:
-    state = tmp_path / "served"
-    state.mkdir(mode=0o755)
-    with serving(tmp_path) as server:
-        server.wait_for(server.submit(**CARRY)["id"], "succeeded")
-        found = [*state.rglob("*")]
-        journal = state / "cells/yard/journal.sqlite"
-        assert journal in found and any(each.suffix == ".mcap" for each in found)
-        assert [each for each in found if permissions(each) & 0o077] == []
-    journal.chmod(0o644)
-    with serving(tmp_path):
-        assert permissions(journal) == 0o600
 
 
 def test_a_file_that_holds_no_token_is_not_overwritten(tmp_path: Path) -> None:

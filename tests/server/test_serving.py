@@ -13,11 +13,13 @@ from typing import cast
 import httpx
 import msgspec
 import pytest
+from click.testing import CliRunner
 from starlette.routing import Route
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
-from server.running import RunningServer, serving, start_server, wait_until
+from server.running import RunningServer, find_cell_process, serving, wait_until
+from skillc.cli.main import skillc
 from skillc.server.access.roles import ROLES, includes
 from skillc.server.app import Application
 from skillc.server.context import ServerContext
@@ -132,7 +134,7 @@ def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(tmp
         server.client.put("/cells/yard/pace", json={"factor": 1.0})
         operation = server.submit(task="carry_all")["id"]
         server.wait_for(operation, "running")
-        os.kill(find_cell(server.process.pid), signal.SIGKILL)
+        os.kill(find_cell_process(server), signal.SIGKILL)
         wait_until(lambda: server.client.get("/cells/yard").json(), lambda it: "signal 9" in it["reason"])
         refused = server.client.post("/cells/yard/operations", json={"task": "carry_all"})
         assert refused.status_code == 503 and "yard is off" in refused.json()["detail"]
@@ -152,7 +154,7 @@ def test_a_killed_server_leaves_a_cell_at_rest_and_a_history(tmp_path: Path) -> 
         server.client.put("/cells/yard/pace", json={"factor": 1.0})
         operation = server.submit(task="carry_all")["id"]
         server.wait_for(operation, "running")
-        cell = find_cell(server.process.pid)
+        cell = find_cell_process(server)
         server.process.kill()
         server.process.wait(30.0)
         wait_until(lambda: Path(f"/proc/{cell}").exists(), lambda there: not there)
@@ -162,12 +164,6 @@ def test_a_killed_server_leaves_a_cell_at_rest_and_a_history(tmp_path: Path) -> 
 
 
 def test_two_servers_cannot_share_a_state_folder(server: RunningServer) -> None:
-    other = start_server(server.folder, server.port + 1)
-    _, said = other.communicate(timeout=60.0)
-    assert other.returncode == 1 and b"is in use by process" in said
-
-
-def find_cell(server: int) -> int:
-    """Return the process of the cell of a server."""
-    children = Path(f"/proc/{server}/task/{server}/children").read_text().split()
-    return next(int(each) for each in children if b"skillc.cells.process" in Path(f"/proc/{each}/cmdline").read_bytes())
+    words = (server.folder, "--cell", server.folder / "yard.ttl", "--state", server.folder / "served")
+    other = CliRunner().invoke(skillc, ["serve", *map(str, words), "--bind", "127.0.0.1:0"])
+    assert other.exit_code == 1 and f"is in use by process {server.process.pid}" in other.output

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import json
-import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
 import httpx
 import pytest
-import trustme
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from server.running import RunningServer, serving
+from server.running import RunningServer
 from skillc.cells.database import open_for_writing
 from skillc.server.access import codes, sessions
 from skillc.server.access.codes import LoginCodes
@@ -123,18 +121,12 @@ def test_no_script_reads_the_cookie_and_no_other_site_sends_it(server: RunningSe
     assert found and not any(secret.encode() in each for each in found), "it is kept as a hash"
 
 
-def test_over_tls_a_cookie_is_never_sent_without(tmp_path: Path) -> None:
-    authority = trustme.CA()
-    certificate = authority.issue_cert("127.0.0.1")
-    certificate.cert_chain_pems[0].write_to_path(str(tmp_path / "chain.pem"))
-    certificate.private_key_pem.write_to_path(str(tmp_path / "key.pem"))
-    authority.cert_pem.write_to_path(str(tmp_path / "ca.pem"))
-    files = ("--tls-cert", tmp_path / "chain.pem", "--tls-key", tmp_path / "key.pem")
-    with serving(tmp_path, options=files, authority=tmp_path / "ca.pem") as server:
-        cookie = server.client.post("/session").headers["set-cookie"]
-        assert cookie.startswith(f"__Host-skillc-{server.port}=") and "; Secure" in cookie
-        del server.client.headers["Authorization"]
-        assert server.client.get("/session").json() == {"name": "admin", "role": "admin"}
+def test_over_tls_a_cookie_is_never_sent_without(encrypted: RunningServer) -> None:
+    with encrypted.client_of(encrypted.token) as browser:
+        cookie = browser.post("/session").headers["set-cookie"]
+        assert cookie.startswith(f"__Host-skillc-{encrypted.port}=") and "; Secure" in cookie
+        del browser.headers["Authorization"]
+        assert browser.get("/session").json() == {"name": "admin", "role": "admin"}
 
 
 @pytest.mark.parametrize(
@@ -221,18 +213,3 @@ def test_a_websocket_without_a_cookie_or_an_origin_is_closed(server: RunningServ
 def cookie_of(browser: httpx.Client) -> str:
     ((name, value),) = browser.cookies.items()
     return f"{name}={value}"
-
-
-def test_a_session_and_a_database_of_an_older_format_survive_a_restart(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        secret = server.client.post("/session").headers["set-cookie"].partition("=")[2].split(";")[0]
-    with serving(tmp_path) as again:
-        cookie = {"Cookie": f"skillc-{again.port}={secret}"}
-        assert httpx.get(f"{again.url}/session", headers=cookie).json() == {"name": "admin", "role": "admin"}
-    with closing(sqlite3.connect(tmp_path / "served" / "server.sqlite")) as database:
-        database.execute("DROP TABLE sessions")
-        database.execute("ALTER TABLE tokens DROP COLUMN agent")
-        database.execute("PRAGMA user_version = 3")
-    with serving(tmp_path) as migrated:
-        assert migrated.client.post("/session").status_code == 204
-    assert (tmp_path / "served" / "server.sqlite.format-3").exists()

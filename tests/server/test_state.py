@@ -14,8 +14,8 @@ from click.testing import CliRunner, Result
 from msgspec import structs
 
 from running_cells.checking import check_cell
-from running_cells.yard import CRATES, find_settings, write_yard
-from server.running import NOTHING, RunningServer, serving
+from running_cells.yard import CRATES, write_yard
+from server.running import NOTHING, RunningServer
 from skillc.cells.host import open_cell
 from skillc.cells.operation import OperationRequest
 from skillc.cells.settings import CellSettings
@@ -46,27 +46,6 @@ def test_each_backup_of_a_cell_that_works_is_consistent_and_goes_on(tmp_path: Pa
     brought = [check_cell(each)["lab:Goal"] for each in copies]
     assert brought == sorted(brought) and len(set(brought)) > 1
     assert [*carry(copies[1], "second")] and check_cell(copies[1])["lab:Goal"] == CRATES
-
-
-def test_a_backup_is_restored_in_the_place_of_a_state_that_nobody_uses(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        server.wait_for(
-            server.submit(task="carry", arguments={"crate": "lab:crate-0", "to": "lab:Goal"})["id"], "succeeded"
-        )
-        done = state("backup", tmp_path / "copy", "--state", tmp_path / "served")
-        assert done.exit_code == 0, done.output
-        later = server.submit(task="carry_all")["id"]
-        server.wait_for(later, "succeeded")
-        refused = state("restore", tmp_path / "copy", "--state", tmp_path / "served")
-        assert refused.exit_code == 2 and "is in use by process" in refused.output
-    done = state("restore", tmp_path / "copy", "--state", tmp_path / "served")
-    assert done.exit_code == 0 and "the former one is" in done.output
-    assert sorted(each.name for each in tmp_path.glob("served.until-*/cells/*")) == ["yard"]
-    with serving(tmp_path) as server:
-        assert server.client.get(f"/operations/{later}").status_code == 404
-        assert len(server.client.get("/cells/yard/operations").json()) == 1
-    settings = find_settings(tmp_path)
-    assert check_cell(structs.replace(settings, folder=str(tmp_path / "served/cells/yard")))["lab:Goal"] == 1
 
 
 def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer) -> None:

@@ -39,7 +39,10 @@ def run(folder: Path, command: Sequence[str]) -> subprocess.Popen[str]:
 
 @pytest.fixture(scope="module")
 def started(yard: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """The process of a studio, and the address that it has printed."""
+    """The process of a studio, and the address that it has printed; the server before it was killed."""
+    (yard / "served").mkdir()
+    (yard / "served" / "address").write_text("http://127.0.0.1:9\n")
+    (yard / "served" / "admin.token").write_text("skillc_old\n")
     command = (sys.executable, "-m", "skillc", "studio", ".:carry_all", *STATE, "--backend", "kinematic")
     with run(yard, command) as process:
         assert process.stdout is not None
@@ -67,7 +70,9 @@ def studio(folder: Path, monkeypatch: pytest.MonkeyPatch, *arguments: str) -> Re
     return CliRunner().invoke(skillc, ["studio", *arguments, *STATE])
 
 
-def test_it_starts_a_server_and_its_code_logs_in_once(started: tuple[subprocess.Popen[str], str]) -> None:
+def test_after_a_server_that_was_killed_it_starts_one_and_its_code_logs_in_once(
+    started: tuple[subprocess.Popen[str], str],
+) -> None:
     page, about, browser = open_page(started[1])
     with closing(browser):
         assert browser.get("/session").json() == {"name": "admin", "role": "admin"}
@@ -87,18 +92,6 @@ def test_a_server_that_runs_is_used(
     assert started[1].startswith(page) and again.output.strip() != started[1]
     refused = studio(yard, monkeypatch, ".", "--cell", "other.ttl")
     assert refused.exit_code == 2 and "has no cell other; end it, or give another --state" in refused.output
-
-
-def test_a_server_that_was_killed_is_not_waited_for(tmp_path: Path) -> None:
-    write_yard(tmp_path)
-    (tmp_path / "served").mkdir()
-    (tmp_path / "served" / "address").write_text("http://127.0.0.1:9\n")
-    (tmp_path / "served" / "admin.token").write_text("skillc_old\n")
-    command = (sys.executable, "-m", "skillc", "studio", ".", *STATE, "--backend", "kinematic", "--bind", "127.0.0.1:0")
-    with run(tmp_path, command) as process:
-        assert process.stdout is not None
-        open_page(process.stdout.readline().strip())[2].close()
-        process.send_signal(signal.SIGTERM)
 
 
 def names(choice_of: str | None, scenes: Sequence[Path] = ()) -> tuple[str, list[str], str]:

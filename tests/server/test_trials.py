@@ -91,22 +91,6 @@ def test_only_so_many_series_wait_and_one_that_is_removed_ends(server: RunningSe
     wait_for(server, post(server, number=1)["id"], "ended")
 
 
-def test_a_server_that_ends_interrupts_trials_and_keeps_what_is_done(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        ended = post(server, number=1)["id"]
-        wait_for(server, ended, "ended")
-        broken = post(server, number=1000)["id"]
-        wait_until(lambda: server.client.get(f"/trials/{broken}").json(), lambda found: found["done"] > 1)
-        server.process.send_signal(signal.SIGKILL)
-        server.process.wait(30.0)
-    with serving(tmp_path) as server:
-        kept = {each["id"]: each for each in server.client.get("/cells/yard/trials").json()}
-        assert kept[ended]["state"] == "ended" and kept[ended]["passed"] == 1
-        assert (kept[broken]["state"], kept[broken]["reason"]) == ("interrupted", "the server has ended")
-        result = server.client.get(f"/trials/{broken}/result").json()
-        assert result["done"] == len(result["trials"]) == kept[broken]["done"] > 1
-
-
 def test_trials_are_run_from_the_shell(here: RunningServer) -> None:  # noqa: F811
     words = ("trials", "carry", "crate=lab:crate-1", "to=lab:Goal", "--cell", "yard", "-n", "2")
     shown = type_in(*words)
