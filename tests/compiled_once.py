@@ -13,6 +13,7 @@ from skillc_model.skills import SkillLibrary
 TESTS = Path(__file__).parent
 compile_anew = libraries.compile_library
 _known: dict[Hashable, Outcome[SkillLibrary]] = {}
+_MOST = 20
 
 
 def compile_once(files: LibraryFiles, *more: object) -> Outcome[SkillLibrary]:
@@ -25,8 +26,9 @@ def compile_once(files: LibraryFiles, *more: object) -> Outcome[SkillLibrary]:
     # Diagnostics have paths relative to the current folder.
     texts = (files.sources, files.vocabularies, *map(_items, (files.importable, files.places, files.namespaces)))
     key = (files.name, files.root.resolve(), Path.cwd(), texts)
-    if key not in _known:
-        _known[key] = compile_anew(files)
+    _known[key] = _known.pop(key, None) or compile_anew(files)
+    if len(_known) > _MOST:
+        del _known[next(iter(_known))]
     return _known[key]
 
 
