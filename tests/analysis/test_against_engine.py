@@ -1,6 +1,6 @@
 """What is proved of random bodies is never contradicted by the engine that runs them.
 
-25 libraries by default; `PROOF_EXAMPLES` in the environment makes it more.
+10 libraries by default; `PROOF_EXAMPLES` in the environment makes it more.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.world_state import WorldState
 
-EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "16"))
+EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "10"))
 RUNS, TICKS = 6, 60
 
 

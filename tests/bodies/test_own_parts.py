@@ -97,25 +97,6 @@ def test_a_part_nearly_as_wide_as_the_gripper_opens_is_sorted() -> None:
     assert execution.status == "succeeded", execution.failure
 
 
-@pytest.mark.parametrize(
-    ("changes", "reason"),
-    [
-        (
-            added("Block", PRODUCT, (0.45, 0.15, 0.63), (0.13, 0.13, 0.04)),
-            "lab:Part-A cannot be put down: lab:Bin-A is full: no place of 40 x 40 mm is free",
-        ),
-        (
-            sized(BIN, 0.06, 0.06, 0.06),
-            "40 x 40 mm do not fit into lab:Bin-A, which is 52 x 52 mm, with room for the hand",
-        ),
-    ],
-    ids=["full", "narrow"],
-)
-def test_where_a_part_cannot_be_put_down_is_said(changes: list[Change], reason: str) -> None:
-    execution = run(changes)
-    assert execution.failure is not None and reason in execution.failure.message
-
-
 def test_nothing_is_let_go_where_nothing_supports_it() -> None:
     place = LAB + "Bin-A-placing"
     in_the_air: list[Change] = [

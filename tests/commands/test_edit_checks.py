@@ -20,8 +20,8 @@ from skillc.services.library_files import LibraryFiles, find_library
 from skillc_dsl.cache import store
 from skillc_dsl.diagnostics import Diagnostic
 
-SEQUENCES = int(os.environ.get("SEQUENCES", "4"))
-STEPS = 10
+SEQUENCES = int(os.environ.get("SEQUENCES", "2"))
+STEPS = 6
 
 
 @pytest.fixture(autouse=True)

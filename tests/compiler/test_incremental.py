@@ -21,7 +21,7 @@ from skillc_dsl.parsing.parser import parse
 from skillc_dsl.rendering import json
 from skillc_dsl.source import Source
 
-SEQUENCES = int(os.environ.get("SEQUENCES", "6"))
+SEQUENCES = int(os.environ.get("SEQUENCES", "2"))
 
 
 @cache

@@ -12,7 +12,7 @@ from skillc_dsl.parsing.parser import parse
 from skillc_dsl.parsing.reparse import ParseMemo
 from skillc_dsl.source import Source
 
-EDITED = int(os.environ.get("EDITS", "40"))
+EDITED = int(os.environ.get("EDITS", "15"))
 
 
 @pytest.mark.parametrize("number", range(len(beginnings())))

@@ -68,8 +68,14 @@ ASSIGNMENTS: list[tuple[Assignment, FailedSteps]] = [
 ]
 
 
-@pytest.mark.parametrize("start", ["fork", "thread", pytest.param("spawn", marks=pytest.mark.sim)])
-@pytest.mark.parametrize(("assignment", "failures"), ASSIGNMENTS)
+@pytest.mark.parametrize(
+    ("assignment", "failures", "start"),
+    [
+        *((*each, "fork") for each in ASSIGNMENTS),
+        *((*each, "thread") for each in ASSIGNMENTS[2:4]),
+        *(pytest.param(*each, "spawn", marks=pytest.mark.sim) for each in ASSIGNMENTS),
+    ],
+)
 def test_the_answer_is_that_of_planning_in_this_process(assignment, failures, start) -> None:
     planners = replace(find_planners(), for_makespan=None)  # Aries may answer otherwise the second time
     with PlanningJob(assignment, library(), failures, planners, start=start) as job:

@@ -18,7 +18,7 @@ PHASES = (Phase.explicit, Phase.reuse, Phase.generate)
 QUIET = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True, phases=PHASES, suppress_health_check=QUIET)
+@settings(max_examples=15, deadline=None, derandomize=True, phases=PHASES, suppress_health_check=QUIET)
 @given(DRAWN)
 def test_whatever_is_requested_a_run_ends_in_order(drawn: Drawn) -> None:
     random_runs.check(random_runs.run(drawn))

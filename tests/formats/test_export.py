@@ -50,7 +50,7 @@ def load(text: str, suffix: str = "") -> WorldState:
 
 
 @given(scenes())
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=5, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_random_scenes_are_the_same_after_each_format(text: str) -> None:
     state = load(text)
     turtle = format_scene(state, WorldState.empty(libraries.load_vocabulary()))

@@ -7,8 +7,8 @@ import pytest
 from fuzz.kinds import kind_names
 from fuzz.runner import run_case
 
-CASES = 8
-SLOW = {"editor": 1, "planning": 3}
+CASES = 4
+SLOW = {"editor": 1, "planning": 2}
 """How many cases of kinds that take long."""
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from skillc_runtime.motion.joint import joint_motion
@@ -24,6 +24,7 @@ def sampled(generator, since, until):
     return np.array([each.pose.position for each in references]), np.array([each.twist[:3] for each in references])
 
 
+@settings(max_examples=25)
 @given(speed=st.floats(0.05, 0.5), at=st.floats(0.0, 1.0), lasts=st.floats(0.01, 3.0))
 @example(speed=0.5, at=0.6640625, lasts=1.0)  # goes on right before the corner, which is slower than the way after it
 def test_a_pause_keeps_to_the_way_and_the_motion_ends_where_it_shall(speed, at, lasts):

@@ -152,10 +152,16 @@ def invoke(folder: Path, *arguments: str) -> Result:
     return result
 
 
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder for all tests, in which the library is compiled again only if a test has changed its text."""
+    (folder := tmp_path_factory.mktemp("ways") / "own").mkdir()
+    return folder.parent
+
+
 def written(folder: Path, way: Way | None) -> Path:
     """Write the library, which is named after its folder, with one thing wrong."""
     library, found = folder / "own", 0
-    library.mkdir()
     for path in sorted(FOLDER.iterdir()):
         text = path.read_text("utf-8")
         if way is not None and way.before in text:
@@ -165,17 +171,17 @@ def written(folder: Path, way: Way | None) -> Path:
     return library
 
 
-def test_the_cell_works_at_the_first_run(tmp_path: Path) -> None:
-    library = written(tmp_path, None)
+def test_the_cell_works_at_the_first_run(place: Path) -> None:
+    library = written(place, None)
     assert "no problems" in invoke(library, "check", "DIR").output
     answer = json.loads(invoke(library, "run", "DIR:sort", "--backend", "kinematic", "--json").stdout)
     assert answer["status"] == "succeeded", answer["failure"]
 
 
 @pytest.mark.parametrize("name", WAYS)
-def test_what_is_wrong_is_said(name: str, tmp_path: Path) -> None:
+def test_what_is_wrong_is_said(name: str, place: Path) -> None:
     way = WAYS[name]
-    library = written(tmp_path, way)
+    library = written(place, way)
     result = invoke(library, "run", "DIR:sort", "--backend", "kinematic", "--json")
     if way.ends == "invalid":
         assert result.exit_code == 1 and way.says in result.stderr, result.stderr
@@ -189,13 +195,13 @@ def test_what_is_wrong_is_said(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.ends != "failed"])
-def test_check_says_the_same(name: str, tmp_path: Path) -> None:
-    result = invoke(written(tmp_path, WAYS[name]), "check", "DIR")
+def test_check_says_the_same(name: str, place: Path) -> None:
+    result = invoke(written(place, WAYS[name]), "check", "DIR")
     assert result.exit_code == 1 and WAYS[name].says in result.output
 
 
-def test_what_a_device_contradicts_is_the_reason(tmp_path: Path) -> None:
-    library = written(tmp_path, WAYS["part in nothing"])
+def test_what_a_device_contradicts_is_the_reason(place: Path) -> None:
+    library = written(place, WAYS["part in nothing"])
     cell = (library / "cell.ttl").read_text("utf-8")
     held = cell.replace(f"\n    {PLACE}", "").replace(WEIGHT, "skiros:Weight 0.2 .", 1)
     held = held.replace('skiros:FrameId "hand" ;', 'skiros:FrameId "hand" ; skiros:contain lab:Part-1 ;')
@@ -207,6 +213,6 @@ def test_what_a_device_contradicts_is_the_reason(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["full box", "place without size"])
-def test_what_may_change_until_then_is_a_warning(name: str, tmp_path: Path) -> None:
-    result = invoke(written(tmp_path, WAYS[name]), "check", "DIR")
+def test_what_may_change_until_then_is_a_warning(name: str, place: Path) -> None:
+    result = invoke(written(place, WAYS[name]), "check", "DIR")
     assert result.exit_code == 0 and "warning[no-" in result.output and WAYS[name].says in result.output

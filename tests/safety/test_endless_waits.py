@@ -67,4 +67,6 @@ def test_no_wait_in_the_product_is_endless() -> None:
 
 
 def test_every_explanation_belongs_to_a_wait() -> None:
-    assert [(file, lines) for file in FILES if (lines := find_unneeded_marks(file.read_text("utf-8")))] == []
+    explained = [file for file in FILES if "# wait ends" in file.read_text("utf-8")]
+    assert len(explained) > 10
+    assert [(file, lines) for file in explained if (lines := find_unneeded_marks(file.read_text("utf-8")))] == []
