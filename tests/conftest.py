@@ -3,9 +3,7 @@
 import os
 import signal
 import sys
-from collections.abc import Iterator
 
-import pytest
 from hypothesis import HealthCheck, settings
 
 from skillc_dsl.garbage import exempt_from_gc
@@ -32,16 +30,6 @@ def pytest_configure() -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if sys.platform != "win32":
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
-
-
-@pytest.fixture(scope="session", autouse=True)
-def _compile_once() -> Iterator[None]:
-    """Compile what many tests use, such as the shipped libraries, once for all of them."""
-    from compiled_once import compile_once
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("skillc.services.libraries.compile_library", compile_once)
-        yield
 
 
 def pytest_collection_finish() -> None:
