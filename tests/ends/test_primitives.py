@@ -67,7 +67,8 @@ def test_whatever_a_primitive_does_the_run_has_an_end(tmp_path: Path, backend: s
 
 @pytest.mark.sim
 def test_a_terminal_that_keys_were_read_from_is_as_it_was(tmp_path: Path) -> None:
-    command = ("run", f"{LIBRARY}:lock", "--tick-timeout", "5", "--backend", "kinematic", "--no-film", "--out", str(tmp_path))
+    options = ("--tick-timeout", "5", "--backend", "kinematic", "--no-film", "--out", str(tmp_path))
+    command = ("run", f"{LIBRARY}:lock", *options)
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     with Terminal((sys.executable, "-m", "skillc", *command), environment) as terminal:
         terminal.expect("q stop")

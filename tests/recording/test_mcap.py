@@ -92,7 +92,8 @@ def test_the_file_alone_explains_itself(run: skillc.Run, tmp_path: Path) -> None
 
 @pytest.mark.sim
 def test_a_run_that_is_killed_can_be_read_up_to_the_last_chunk(tmp_path: Path) -> None:
-    start = [sys.executable, "-m", "skillc", "run", "contact:press_button", "--no-film", "--out", str(tmp_path), "--pace", "real"]
+    options = ["--no-film", "--out", str(tmp_path), "--pace", "real"]
+    start = [sys.executable, "-m", "skillc", "run", "contact:press_button", *options]
     file = tmp_path / "recording.mcap"
     with subprocess.Popen([*start, "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         _wait(lambda: file.exists() and _count_samples(file) > 1000)
