@@ -88,7 +88,7 @@ class Reader:
                 self.monkeypatch.chdir(folder)
                 return "", 0
             case ["skillc", *arguments]:
-                if arguments[0] == "run" and "--out" in arguments:
+                if arguments[0] == "report" or (arguments[0] == "run" and "--out" in arguments):
                     arguments.append("--no-film")
                 result = CliRunner().invoke(skillc, arguments)
                 return result.output, result.exit_code
