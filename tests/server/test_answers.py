@@ -62,6 +62,7 @@ def test_who_may_only_watch_cannot_answer(here: RunningServer) -> None:
     with here.client_of(token) as watcher:
         command = {"type": "answer", "choice": "yes"}
         assert watcher.post(f"/operations/{name}/commands", json=command).status_code == 403
+    assert here.client.delete("/tokens/watcher").status_code == 204
     assert here.client.post(f"/operations/{name}/stop", json={}).status_code == 200
 
 

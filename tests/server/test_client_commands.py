@@ -92,7 +92,7 @@ def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
         (("step", "sideways"), 2, "not one of 'into', 'over', 'out'"),
         (("pace", "slow"), 2, "`slow` is no pace; write `fast`, `real`"),
         (("skip",), 2, "missing option '--why'"),
-        (("token", "add", "a b", "--role", "view"), 1, "name"),
+        (("token", "add", "a b", "--role", "view"), 1, "a name has letters, digits,"),
         (("plan", "carry_al", "--cell", "yard"), 1, "did you mean `carry_all`"),
         (("plan", "carry_all", "--cell", "yard", "--scene", "other.ttl"), 2, "--scene cannot be used with a cell"),
         (("world", "--cell", "barn"), 2, "there is no cell `barn`"),

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc.server.access.roles import Role
-from skillc.server.values import Name, Why, check_name, check_why
+from skillc.server.values import Checked, Name, Why, check_name, check_why
 from skillc.workers.devices import Device
 from skillc_dsl.rendering.json import DiagnosticData
 from skillc_runtime.execution.pace import SLOWEST
@@ -109,7 +109,7 @@ class WorldQuery(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     sparql: Annotated[str, msgspec.Meta(min_length=1, max_length=20_000)]
 
 
-class WorldEdit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class WorldEdit(Checked, frozen=True, forbid_unknown_fields=True):
     """Changes that are made together or not at all, and why.
 
     Each is `SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`, as of `skillc scene edit`.
@@ -118,11 +118,12 @@ class WorldEdit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     edits: Annotated[tuple[EditText, ...], msgspec.Meta(min_length=1, max_length=200)]
     why: Why
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Raise ValueError for a blank reason."""
         check_why(self.why)
 
 
-class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class WorldPlacement(Checked, frozen=True, forbid_unknown_fields=True):
     """Where a thing is, and why this is said: its position in m and a quaternion (w, x, y, z), in the world.
 
     It stays with what carries it. `thing` is an IRI or `prefix:name`.
@@ -132,7 +133,8 @@ class WorldPlacement(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     pose: tuple[float, float, float, float, float, float, float]
     why: Why
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Raise ValueError for a blank reason."""
         check_why(self.why)
 
 
@@ -156,14 +158,15 @@ class SessionInfo(msgspec.Struct, frozen=True):
     role: Role
 
 
-class NewToken(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class NewToken(Checked, frozen=True, forbid_unknown_fields=True):
     """A token to be made. What an `agent` asks for waits for the approval of somebody else."""
 
     name: Name
     role: Role
     agent: bool = False
 
-    def __post_init__(self) -> None:
+    def check(self) -> None:
+        """Raise ValueError for a name with other characters."""
         check_name(self.name)
 
 

@@ -10,6 +10,7 @@ import msgspec
 from starlette.requests import ClientDisconnect, Request
 
 from skillc.server.problems import ApiRefusal
+from skillc.server.values import Checked
 
 MAX_BODY_BYTES = 2**20
 BODY_S = 10.0
@@ -66,11 +67,16 @@ async def _receive(request: Request) -> bytes:
 def decode_body(content: bytes, kind: Any) -> Any:
     """Return the value of a body; ApiRefusal if it is no JSON, or not of this type."""
     try:
-        return msgspec.json.decode(content, type=kind)
+        value = msgspec.json.decode(content, type=kind)
+        if isinstance(value, Checked):
+            value.check()
     except msgspec.ValidationError as error:
         raise ApiRefusal(INVALID, str(error)) from error
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ApiRefusal(BAD_REQUEST, f"the body is no JSON: {error}") from error
+    except ValueError as error:
+        raise ApiRefusal(INVALID, str(error)) from error
+    return value
 
 
 def read_key(request: Request) -> str | None:

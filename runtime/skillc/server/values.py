@@ -14,8 +14,16 @@ Name: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=64, extra
 """The name of a token; `check_name` says what is wrong with one."""
 
 
+class Checked(msgspec.Struct, frozen=True):
+    """A value of a request with more limits than types can state."""
+
+    def check(self) -> None:
+        """Raise ValueError, whose message says what is to be written, if this is outside them."""
+        raise NotImplementedError
+
+
 def check_name(name: str) -> None:
-    """Raise ValueError, whose message says how a name is written, if this one is not written so."""
+    """Raise ValueError if a name is not written as names are."""
     if not re.fullmatch(_NAME, name):
         raise ValueError("a name has letters, digits, `_`, `.` and `-`, and begins with a letter or a digit")
 
