@@ -93,3 +93,10 @@ def test_check_as_json_has_the_same_form(here: RunningServer, tmp_path: Path) ->
     (checked, *_) = json.loads(type_in("check", str(tmp_path), "--json").stdout)
     (found,) = here.client.post("/cells/yard/operations", json={"goal": GOAL}).json()["diagnostics"]
     assert found.keys() == checked.keys()
+
+
+def test_a_reason_has_words(server: RunningServer) -> None:
+    before = server.client.get("/cells/yard/world/history").json()
+    refused = server.client.post("/cells/yard/world/edits", json={"edits": ["not lab:crate-1"], "why": " \t"})
+    assert (refused.status_code, refused.json()["detail"]) == (422, "say why: the reason is blank")
+    assert server.client.get("/cells/yard/world/history").json() == before
