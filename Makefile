@@ -21,6 +21,9 @@ KILLS := 200
 REQUESTS := 500
 # How many random sequences of edits are analysed in `make soak`, after each edit from nothing and with what was known.
 SEQUENCES := 5000
+# How many random tasks, and how many wipings, `make soak` runs with random requests at random ticks.
+RUNS := 2000
+WIPINGS := 50
 # How often a server is attacked in each way in `make soak`, while an operation goes on and is stopped.
 ROUNDS := 20
 
@@ -65,12 +68,14 @@ fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; fa
 mistakes: .venv/.dev ## make EDITS=10000 random mistakes in libraries from SEED=0, one, two and three at once; each has to be one error
 	PYTHONPATH=tests:tests/compiler $(BIN)/python -m random_mistakes --edits $(EDITS) --seed $(SEED)
 
-soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits, RUNS=2000 tasks and WIPINGS=50 with random requests
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m killed_servers --kills $(KILLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)
-	ROUNDS=$(ROUNDS) $(BIN)/pytest tests/server/test_attacks.py
-	SEQUENCES=$(SEQUENCES) $(BIN)/pytest tests/compiler/test_incremental.py -n 2
+	ROUNDS=$(ROUNDS) $(BIN)/pytest --timeout 0 tests/server/test_attacks.py
+	SEQUENCES=$(SEQUENCES) $(BIN)/pytest --timeout 0 tests/compiler/test_incremental.py -n 2
+	SKILLC_RUNS=$(RUNS) $(BIN)/pytest --timeout 0 -m sim tests/execution/test_random_commands.py
+	SKILLC_WIPINGS=$(WIPINGS) $(BIN)/pytest --timeout 0 -m sim tests/sim/test_random_commands.py -n 2
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)
 	cmake -S tests/peers -B build/peers -D BTCPP=$(abspath $(BTCPP))

@@ -36,7 +36,7 @@ from skillc_runtime.world.state.world_state import WorldState
 pytestmark = pytest.mark.sim
 
 LAB = "http://example.org/lab#"
-RUNS = int(os.environ.get("SKILLC_WIPINGS", "50"))
+RUNS = int(os.environ.get("SKILLC_WIPINGS", "8"))
 TASKS = ("clean_table", "clean_whiteboard")
 MOST_TICKS = 2500
 START_OF_WIPING = 900
@@ -118,6 +118,6 @@ def test_whatever_is_requested_while_an_arm_wipes_ends_in_order(number: int) -> 
 
 
 def test_some_of_them_were_paused_while_they_wiped() -> None:
-    if len(pauses_of_wiping) < 10:
+    if len(pauses_of_wiping) < min(10, RUNS):
         pytest.skip("the runs above are in other processes")
     assert sum(pauses_of_wiping) > 0
