@@ -74,7 +74,7 @@ soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/so
 	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)
 	ROUNDS=$(ROUNDS) $(BIN)/pytest --timeout 0 tests/server/test_attacks.py
 	SEQUENCES=$(SEQUENCES) $(BIN)/pytest --timeout 0 tests/compiler/test_incremental.py -n 2
-	SKILLC_RUNS=$(RUNS) $(BIN)/pytest --timeout 0 -m sim tests/execution/test_random_commands.py
+	SKILLC_RUNS=$(RUNS) $(BIN)/pytest --timeout 0 -m sim tests/execution/test_random_commands.py tests/execution/test_repeat.py -n 2
 	SKILLC_WIPINGS=$(WIPINGS) $(BIN)/pytest --timeout 0 -m sim tests/sim/test_random_commands.py -n 2
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)
