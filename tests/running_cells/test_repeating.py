@@ -17,7 +17,6 @@ from skillc.cells.messages import Edit
 from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.cells.recording_files import recording_file
 from skillc.cells.settings import CellSettings
-from skillc.services import run_report
 from skillc.services.backends import BackendName
 from skillc.services.errors import ServiceError
 from skillc.services.replaying.check import ReplayCheck, check_run
@@ -75,10 +74,7 @@ def test_later_operations_are_repeated_and_get_a_report(
     backend: BackendName,
     ticks: tuple[int, int],
     tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    if backend == "kinematic":
-        monkeypatch.setattr(run_report, "_write_film", lambda *_: None)  # drawing it takes far longer than all else
     settings = make_settings(tmp_path, case, backend)
     with open_cell(settings, SilentReporter()) as host:
         for number, each in enumerate(ticks):
