@@ -156,7 +156,7 @@ def test_signals_of_mcap_files_are_compared(tmp_path: Path) -> None:
     request = TaskRequest("contact:press_button")
     for seed in (1, 2):
         with load_task(request, SilentReporter()) as loaded:
-            options = RunOptions(tmp_path / str(seed), seed=seed, backend="kinematic")
+            options = RunOptions(tmp_path / str(seed), seed=seed, backend="kinematic", film=False)
             run_task(loaded, options, Monitor(lambda run, now: ()), SilentReporter())
     result = diff(tmp_path / "1", tmp_path / "2/recording.mcap", "--json")
     found = json.loads(result.stdout)
