@@ -105,9 +105,10 @@ export function format(server: LanguageServer, view: EditorView): boolean {
   const { doc } = view.state;
   if (view.state.readOnly) return false;
   void server
-    .ask<LspEdit[]>("textDocument/formatting", { options: { tabSize: 4, insertSpaces: true } })
-    .then((edits) => {
-      if (edits !== null && view.state.doc === doc) view.dispatch({ changes: changesOf(doc, edits) });
+    .demand("textDocument/formatting", { options: { tabSize: 4, insertSpaces: true } })
+    .then((found) => {
+      if (!("result" in found) || view.state.doc !== doc) return;
+      view.dispatch({ changes: changesOf(doc, found.result as LspEdit[]) });
     });
   return true;
 }
