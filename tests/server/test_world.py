@@ -38,6 +38,8 @@ def test_facts_are_listed_with_how_they_are_known(server: RunningServer) -> None
 
 def test_a_person_edits_the_world_and_the_history_says_who_and_why(server: RunningServer) -> None:
     server.put_back()
+    assert edit(server, "lab:other a skiros:Product").status_code == 204
+    assert edit(server, "not lab:other").status_code == 204
     assert edit(server, "lab:Goal skiros:contain lab:crate-3", "lab:spare a skiros:Product").status_code == 204
     assert places(server, "crate-3") == ["lab:Goal"]
     (last,) = server.client.get("/cells/yard/world/history", params={"limit": 1}).json()
