@@ -113,7 +113,7 @@ def test_inverse_kinematics_round_trip(robot):
 def test_what_a_posture_reaches_may_be_reached(robot):
     arm = VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
     arm.mount_tool(np.array(HOMES[robot]), arm.tool @ Pose.of((0.05, -0.1, 0.2)))
-    for q in postures(robot):
+    for q in (np.zeros(arm.joints), *postures(robot)):
         arm.update_kinematics(q)
         assert arm.may_reach(arm.tool)
     assert not arm.may_reach(Pose.of((2.0, 0.0, 0.5)))

@@ -122,7 +122,10 @@ def test_another_seed_is_found_as_a_difference_of_the_events(tmp_path: Path) -> 
     ("task", "backend"),
     [
         ("clean_whiteboard", "mujoco"),
+        ("clean_table", "mujoco"),
         ("contact:insert_peg", "mujoco"),
+        ("contact:press_button", "mujoco"),
+        ("clean_both", "kinematic"),
         ("share_eraser", "kinematic"),
     ],
 )

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc.server.access.roles import Role
-from skillc.server.values import Checked, Name, Why, check_name, check_why
+from skillc.server.values import CheckedBody, Name, Why, check_name, check_why
 from skillc.workers.devices import Device
 from skillc_dsl.rendering.json import DiagnosticData
 from skillc_runtime.execution.pace import SLOWEST
@@ -109,7 +109,7 @@ class WorldQuery(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     sparql: Annotated[str, msgspec.Meta(min_length=1, max_length=20_000)]
 
 
-class WorldEdit(Checked, frozen=True, forbid_unknown_fields=True):
+class WorldEdit(CheckedBody, frozen=True, forbid_unknown_fields=True):
     """Changes that are made together or not at all, and why.
 
     Each is `SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`, as of `skillc scene edit`.
@@ -123,7 +123,7 @@ class WorldEdit(Checked, frozen=True, forbid_unknown_fields=True):
         check_why(self.why)
 
 
-class WorldPlacement(Checked, frozen=True, forbid_unknown_fields=True):
+class WorldPlacement(CheckedBody, frozen=True, forbid_unknown_fields=True):
     """Where a thing is, and why this is said: its position in m and a quaternion (w, x, y, z), in the world.
 
     It stays with what carries it. `thing` is an IRI or `prefix:name`.
@@ -158,7 +158,7 @@ class SessionInfo(msgspec.Struct, frozen=True):
     role: Role
 
 
-class NewToken(Checked, frozen=True, forbid_unknown_fields=True):
+class NewToken(CheckedBody, frozen=True, forbid_unknown_fields=True):
     """A token to be made. What an `agent` asks for waits for the approval of somebody else."""
 
     name: Name

@@ -10,7 +10,7 @@ import msgspec
 from starlette.requests import ClientDisconnect, Request
 
 from skillc.server.problems import ApiRefusal
-from skillc.server.values import Checked
+from skillc.server.values import CheckedBody
 
 MAX_BODY_BYTES = 2**20
 BODY_S = 10.0
@@ -65,17 +65,18 @@ async def _receive(request: Request) -> bytes:
 
 
 def decode_body(content: bytes, kind: Any) -> Any:
-    """Return the value of a body; ApiRefusal if it is no JSON, or not of this type."""
+    """Return the value of a body; ApiRefusal if it is no JSON, not of this type, or outside the limits of that."""
     try:
         value = msgspec.json.decode(content, type=kind)
-        if isinstance(value, Checked):
-            value.check()
     except msgspec.ValidationError as error:
         raise ApiRefusal(INVALID, str(error)) from error
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ApiRefusal(BAD_REQUEST, f"the body is no JSON: {error}") from error
-    except ValueError as error:
-        raise ApiRefusal(INVALID, str(error)) from error
+    if isinstance(value, CheckedBody):
+        try:
+            value.check()
+        except ValueError as error:
+            raise ApiRefusal(INVALID, str(error)) from error
     return value
 
 

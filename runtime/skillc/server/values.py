@@ -14,8 +14,8 @@ Name: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=64, extra
 """The name of a token; `check_name` says what is wrong with one."""
 
 
-class Checked(msgspec.Struct, frozen=True):
-    """A value of a request with more limits than types can state."""
+class CheckedBody(msgspec.Struct, frozen=True):
+    """A body of a request with more limits than types can state."""
 
     def check(self) -> None:
         """Raise ValueError, whose message says what is to be written, if this is outside them."""

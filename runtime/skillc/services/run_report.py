@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from skillc.services.errors import ServiceError
+from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
@@ -54,6 +54,16 @@ class RunSamples:
         if self.film is not None:
             self.film.sample()
         self.trace.sample()
+
+
+def check_film(looks: str, film: bool, gif: bool) -> None:
+    """RequestError if something is wanted of a film that is not to be made."""
+    if film:
+        return
+    if looks != PRIMITIVE_LOOKS:
+        raise RequestError(f"--looks {looks} applies to films and stills, which --no-film leaves out")
+    if gif:
+        raise RequestError("--gif writes a film, which --no-film leaves out")
 
 
 def make_samples(simulation: Simulation, looks: str, filmed: bool, loop: bool = False) -> RunSamples:

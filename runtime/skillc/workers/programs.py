@@ -1,4 +1,4 @@
-"""What processes of workers do; they alone import what that needs, and not the server, which starts earlier so."""
+"""What processes of workers do. They alone import what that needs, so that the server starts sooner."""
 
 from __future__ import annotations
 

@@ -21,6 +21,8 @@ from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
 LINK_MASS_KG, LINK_INERTIA = 0.01, 1e-6
 TOOL_MASS_KG, TOOL_INERTIA = 1.0, 1.0
+ROUNDING_M = 1e-9
+"""How much longer than its links an arm that is stretched out may seem, in m."""
 
 
 def load_virtual_model(path: Path) -> mujoco.MjModel:
@@ -88,13 +90,14 @@ class VirtualArm:
         return Pose(self._position.copy(), self._rotation.copy())
 
     def may_reach(self, target: Pose) -> bool:
-        """Return whether the hand would be as near to the base as all links in a line, with the tool at `target` in it.
+        """Return False if the tool cannot be at `target` in base, since the links are too short for the hand there.
 
-        If not, no posture puts it there; otherwise there need not be one either.
+        Otherwise there may be a posture or not.
         """
         mount = Pose.of(self._model.body_pos[self._body], self._model.body_quat[self._body])
         hand = target @ mount.inverse()
-        return float(np.linalg.norm(hand.position)) <= self._measure_links(int(self._model.body_parentid[self._body]))
+        longest = self._measure_links(int(self._model.body_parentid[self._body]))
+        return float(np.linalg.norm(hand.position)) <= longest + ROUNDING_M
 
     def _measure_links(self, body: int) -> float:
         """Return the distance in m between the base and the origin of a body that no posture exceeds."""

@@ -10,7 +10,7 @@ from skillc.services.files import writing_to
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
-from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, make_samples, report_run
+from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, check_film, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.execution.execute import describe_execution
@@ -30,8 +30,9 @@ def report_recorded(
 
     The film shows the meshes of `looks`; with `gif` there is one that repeats, too.
 
-    ServiceError if it cannot be repeated, or has no end; what `read_inputs` raises.
+    ServiceError if it cannot be repeated, or has no end; what `read_inputs` and `check_film` raise.
     """
+    check_film(looks, film, gif)
     inputs = read_inputs(run, library, reporter)
     if inputs.obstacle:
         raise ServiceError(f"no report can be made of {run}: {inputs.obstacle}, so it cannot be repeated")
