@@ -109,7 +109,7 @@ def serving(
     process = start_server(folder, port, options, libraries, environment=environment)
     try:
         wait_until(lambda: is_listening(port) or process.poll() is not None, bool)
-        assert process.poll() is None, "the server has ended"
+        assert process.poll() is None, process.communicate()[1].decode()
         server = RunningServer(folder, process, port, authority)
         server.wait_ready(state)
         yield server
