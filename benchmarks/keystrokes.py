@@ -9,7 +9,6 @@ unit, a cut line, an unknown name.
 from __future__ import annotations
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -21,6 +20,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from _one_file import one_file
+from _processes import cpu_s, rss_mb
 from compile import generated
 
 WARM_UP = 5
@@ -46,17 +46,6 @@ class Server:
             message = self._read()
             if message.get("method") == "textDocument/publishDiagnostics" and message["params"]["uri"] == uri:
                 return list(message["params"]["diagnostics"])
-
-    def memory_mb(self) -> float:
-        """Return the resident memory in MB."""
-        status = Path(f"/proc/{self.process.pid}/status").read_text("ascii")
-        found = re.search(r"VmRSS:\s+(\d+)", status)
-        return int(found[1]) / 1024 if found else 0.0
-
-    def processor_s(self) -> float:
-        """Return the processor time so far in s."""
-        fields = Path(f"/proc/{self.process.pid}/stat").read_text("ascii").rpartition(")")[2].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def end(self) -> None:
         """End the server."""
@@ -116,14 +105,14 @@ def measure(folder: Path, files: Mapping[str, str], path: str, edits: int) -> tu
     taken, before, used = [], 0.0, 0.0
     for number in range(WARM_UP + edits):
         if number == WARM_UP:
-            before, used = server.memory_mb(), server.processor_s()
+            before, used = rss_mb(server.process.pid), cpu_s(server.process.pid)
         new = {"text": _mistaken(text, number)}
         begin = time.perf_counter()
         document = {"uri": uri, "version": number + 2}
         server.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [new]})
         server.diagnostics_of(uri)
         taken.append(time.perf_counter() - begin)
-    after, used = server.memory_mb(), server.processor_s() - used
+    after, used = rss_mb(server.process.pid), cpu_s(server.process.pid) - used
     server.end()
     return taken[WARM_UP:], used, before, after
 

@@ -21,15 +21,12 @@ from pathlib import Path
 from statistics import median, quantiles
 
 import httpx
+from _processes import cpu_s
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
-
-from server.running import serving as serving_yard
-
 CELL, TASK = "iiwa_table", "clean_table"
-REQUESTS, STOPS, OPERATIONS, KILLS = 400, 20, 2_000, 3
+REQUESTS, STOPS, KILLS = 400, 20, 3
 CLIENTS, BUSY_S = 16, 3.0
 """How many clients, each with a token of its own, make requests as fast as they are answered, and for how long in s."""
 WATCHERS = (0, 1, 8, 64)
@@ -204,24 +201,6 @@ async def count_answers(client: httpx.Client, path: str, tokens: Sequence[str]) 
     return sum(await asyncio.gather(*map(ask, tokens)))
 
 
-def measure_memory() -> None:
-    """Print how the memory of both processes grows over many operations that run, after a tenth of them and after all.
-
-    Crates are carried to and fro, in the cell of the tests.
-    """
-    with tempfile.TemporaryDirectory() as folder, serving_yard(Path(folder), takes_ms=10) as yard:
-        yard.client.put("/cells/yard/pace", json={"factor": None})
-        cell = find_cell(yard.process.pid)
-        for number in range(OPERATIONS):
-            where = {"crate": "lab:crate-1", "to": ("lab:Goal", "lab:Start")[number % 2]}
-            yard.wait_for(yard.submit(task="carry", arguments=where)["id"], "succeeded")
-            if number == OPERATIONS // 10:
-                before = rss_mb(yard.process.pid), rss_mb(cell)
-        grown = rss_mb(yard.process.pid) / before[0], rss_mb(cell) / before[1]
-    print(f"memory after {OPERATIONS} operations, of that after {OPERATIONS // 10}: ", end="")
-    print(f"server {grown[0]:.3f} x, cell {grown[1]:.3f} x")
-
-
 def measure_restarts(ready_s: float) -> None:
     """Print the time from a kill of the cell, and of the server, in the middle of an operation until it is ready again.
 
@@ -277,24 +256,12 @@ def find_cell(server: int, former: int | None = None) -> int:
     raise AssertionError("there is no process of the cell")
 
 
-def cpu_s(process: int) -> float:
-    """Return the CPU time of a process in s."""
-    user, system = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[11:13]
-    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
-
-
-def rss_mb(process: int) -> float:
-    """Return the memory of a process in MB."""
-    return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
 def main() -> None:
     with tempfile.TemporaryDirectory() as folder, serving(Path(folder)) as (client, _, ready_s):
         print(f"from start to ready: {ready_s:.1f} s")
         measure_requests(client)
         measure_stops(client)
         measure_rates(client)
-    measure_memory()
     measure_restarts(ready_s)
     measure_watchers()
     measure_samplers()

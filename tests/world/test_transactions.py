@@ -8,6 +8,7 @@ from threading import Event, Thread
 
 import pytest
 
+from skillc_runtime.world.state import evidence
 from skillc_runtime.world.state.difference import changes_between
 from skillc_runtime.world.state.model import MAX_UNDO, WorldError, WorldModel
 from skillc_runtime.world.state.names import NoSuchName
@@ -108,6 +109,18 @@ def test_changes_between_two_versions_lead_from_one_to_the_other(seed: int) -> N
     found = changes_between(one.after, other.after)
     assert everything(one.after.with_changes(found)) == everything(other.after)
     assert changes_between(one.after, one.after) == () and found == changes_between(one.after, other.after)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_writes_of_the_ledger_lead_back_also_those_that_are_merged(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(evidence, "MAX_WRITES", 4)
+    model = WorldModel(SCENE)
+    list(commits(model, Random(seed), 12))
+    writes = model.ledger.writes
+    assert len(writes) == 4
+    for each in writes:
+        assert everything(each.after.with_changes(each.undo)) == everything(each.before)
+    assert all(one.undo is other.undo for one, other in zip(writes, model.ledger.writes, strict=True)), "found once"
 
 
 def test_what_others_wrote_since_is_not_taken_back() -> None:

@@ -10,7 +10,6 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalledWrite, JournalReader
 from skillc_runtime.store.change_json import decode_changes, encode_changes
-from skillc_runtime.world.state.difference import changes_between
 from skillc_runtime.world.state.evidence import Evidence, EvidenceLedger, UndoableWrite
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -45,9 +44,8 @@ class EvidenceKeeper:
         if world.sequence - self._sequence < PERIOD or (merged := ledger.merged) is None:
             return
         self._sequence = world.sequence - ledger.separate
-        undo = changes_between(merged.after, merged.before)
-        changes = encode_changes(merged.changes)
-        saved = MergedWrites(self._sequence, merged.evidence, merged.origin, changes, encode_changes(undo))
+        decides, changes, undo = merged.decides, encode_changes(merged.changes), encode_changes(merged.undo)
+        saved = MergedWrites(self._sequence, decides.evidence, decides.origin, changes, undo)
         self._journal.set_state(MERGED, msgspec.msgpack.encode(saved))
 
 

@@ -11,7 +11,6 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.triples import all_triples, declarations
 from skillc_runtime.store.world_from_triples import build_world
-from skillc_runtime.world.state.difference import changes_between
 from skillc_runtime.world.state.evidence import Evidence, LedgerWrite, UndoableWrite
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -74,8 +73,8 @@ def build_world_again(start: RunStart, library: Vocabulary) -> WorldModel:
 
 
 def _record(write: LedgerWrite) -> RecordedWrite:
-    undo = changes_between(write.after, write.before)
-    return RecordedWrite(write.evidence, write.origin, encode_changes(write.changes), encode_changes(undo))
+    decides = write.decides
+    return RecordedWrite(decides.evidence, decides.origin, encode_changes(write.changes), encode_changes(write.undo))
 
 
 def _read(write: RecordedWrite) -> UndoableWrite:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, TypeAlias, assert_never
 
 from skillc_runtime.world.state.changes import (
@@ -19,6 +20,7 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
+from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.properties import value_at
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -59,15 +61,19 @@ def describe_evidence(known: DecidingWrite | None) -> str:
     return f"{known.evidence} by {known.origin}" if known.origin else known.evidence
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LedgerWrite:
     """A write, or several that are kept as one with the weakest evidence; they lead from one version to another."""
 
-    evidence: Evidence | None
-    origin: str
+    decides: DecidingWrite
     changes: tuple[Change, ...]
     before: WorldState
     after: WorldState
+
+    @cached_property
+    def undo(self) -> tuple[Change, ...]:
+        """The changes that lead back."""
+        return changes_back(self.changes, self.before, self.after)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,19 +86,11 @@ class UndoableWrite:
     undo: tuple[Change, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Entry:
-    write: DecidingWrite
-    changes: tuple[Change, ...]
-    before: WorldState
-    after: WorldState
-
-
 class EvidenceLedger:
     """The writes since a world model was created; facts that none of them concerns were given with the scene."""
 
     def __init__(self) -> None:
-        self._entries: list[_Entry] = []
+        self._entries: list[LedgerWrite] = []
         self.count = 0
 
     def add(
@@ -105,19 +103,19 @@ class EvidenceLedger:
     ) -> None:
         """Add a write."""
         self.count += 1
-        self._entries.append(_Entry(DecidingWrite(self.count, evidence, origin), changes, before, after))
+        self._entries.append(LedgerWrite(DecidingWrite(self.count, evidence, origin), changes, before, after))
         if len(self._entries) > MAX_WRITES:
             self._entries[:2] = [_merge(*self._entries[:2])]
 
     @property
     def writes(self) -> tuple[LedgerWrite, ...]:
         """All writes, the oldest first: that one may stand for several."""
-        return tuple(LedgerWrite(e.write.evidence, e.write.origin, e.changes, e.before, e.after) for e in self._entries)
+        return tuple(self._entries)
 
     @property
     def merged(self) -> LedgerWrite | None:
         """The oldest writes, as one; None if there are none."""
-        return self.writes[0] if self._entries else None
+        return self._entries[0] if self._entries else None
 
     def restore(self, state: WorldState, writes: Sequence[UndoableWrite]) -> None:
         """Add writes, the last of which led to `state`, each with the versions before and after it."""
@@ -164,14 +162,19 @@ class EvidenceLedger:
     def _last(self, fact: Fact) -> DecidingWrite | None:
         for entry in reversed(self._entries):
             if any(_is_stated_by(change, fact, entry.after) for change in entry.changes) or _is_changed_by(fact, entry):
-                return entry.write
+                return entry.decides
         return None
 
 
 def weakest(found: Iterable[DecidingWrite | None]) -> DecidingWrite | None:
     """Return the write with the weakest evidence, for facts that are all needed; None if all were given."""
     writes = [each for each in found if each is not None]
-    return min(writes, key=lambda each: (_STRENGTH[each.evidence], -each.number), default=None)
+    return min(writes, key=_weakness, default=None)
+
+
+def _weakness(write: DecidingWrite) -> tuple[int, int]:
+    """Order writes: the weakest first, of equally strong ones the last."""
+    return _STRENGTH[write.evidence], -write.number
 
 
 def strongest(found: Iterable[DecidingWrite | None]) -> DecidingWrite | None:
@@ -220,7 +223,7 @@ def _implies(state: WorldState, one: tuple[str, str, str], other: tuple[str, str
     return any(other == ((object_, x, subject) if flipped else (subject, x, object_)) for x, flipped in reached)
 
 
-def _is_changed_by(fact: Fact, entry: _Entry) -> bool:
+def _is_changed_by(fact: Fact, entry: LedgerWrite) -> bool:
     """Whether a write changed the truth of a fact, or a value, even if it did not state it."""
     before, after = entry.before, entry.after
     try:
@@ -266,12 +269,7 @@ def _excluding_facts(fact: RelationFact, state: WorldState) -> Iterator[Relation
             yield from (RelationFact(each, relation, end) for each in sorted(state.subjects(relation, end)))
 
 
-def _merge(one: _Entry, other: _Entry) -> _Entry:
-    weaker = one.write if _is_weaker(one, other) else other.write
-    merged = replace(weaker, number=other.write.number)
+def _merge(one: LedgerWrite, other: LedgerWrite) -> LedgerWrite:
+    merged = replace(min(one.decides, other.decides, key=_weakness), number=other.decides.number)
     changes = {stated_fact(each) or each: each for each in (*one.changes, *other.changes)}
-    return _Entry(merged, tuple(changes.values()), one.before, other.after)
-
-
-def _is_weaker(one: _Entry, other: _Entry) -> bool:
-    return _STRENGTH[one.write.evidence] < _STRENGTH[other.write.evidence]
+    return LedgerWrite(merged, tuple(changes.values()), one.before, other.after)
