@@ -67,6 +67,10 @@ def test_the_same_task_gives_the_same_run_bit_for_bit() -> None:
 def test_a_grasp_and_a_release_are_not_verified_by_ideal_fingers() -> None:
     execution, _ = run_shipped("insert_peg")
     world = execution.backend.world
-    evidence = {entry.write.evidence for entry in world.ledger._entries if entry.write.origin in ("Grasp", "Release")}
+    evidence = {
+        each.evidence
+        for each in (write.decides for write in world.ledger.writes)
+        if each.origin in ("Grasp", "Release")
+    }
     assert GRIPPER["panda_desk"] == LAB + "Hand-1"
     assert evidence == {"idealised", "assumed"}

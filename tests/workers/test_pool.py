@@ -18,7 +18,6 @@ from skillc.workers import pool
 from skillc.workers.jobs import QueryRows, QueryWorld
 from skillc.workers.pool import JobTimedOut, TooManyJobs, Workers
 from skillc_runtime.execution.worker_process import WorkerProcess
-from skillc_runtime.world.state.evidence import EvidenceLedger
 
 ENDLESS = QueryWorld(f"SELECT * {{ {' . '.join(f'?a{n} ?b{n} ?c{n}' for n in range(9))} . FILTER(?c0 = ?c1 + 1) }}")
 QUICK = QueryWorld("ASK { ?s ?p ?o }")
@@ -43,7 +42,7 @@ def snapshot(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     folder = tmp_path_factory.mktemp("yard")
     write_yard(folder)
     with open_scene(folder / "yard.ttl", folder, StoreChoice(), False, SilentReporter()) as opened:
-        return encode_snapshot(CellSnapshot(opened.library, opened.state, EvidenceLedger(), 0))
+        return encode_snapshot(CellSnapshot(opened.library, opened.state, (), 0))
 
 
 def busy(workers: Workers, snapshot: bytes) -> asyncio.Task[QueryRows]:

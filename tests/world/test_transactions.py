@@ -119,8 +119,10 @@ def test_writes_of_the_ledger_lead_back_also_those_that_are_merged(seed: int, mo
     writes = model.ledger.writes
     assert len(writes) == 4
     for each in writes:
-        assert everything(each.after.with_changes(each.undo)) == everything(each.before)
-    assert all(one.undo is other.undo for one, other in zip(writes, model.ledger.writes, strict=True)), "found once"
+        assert everything(each.after.with_changes(each.undoable.undo)) == everything(each.before)
+    assert all(one.undoable is other.undoable for one, other in zip(writes, model.ledger.writes, strict=True)), (
+        "found once"
+    )
 
 
 def test_what_others_wrote_since_is_not_taken_back() -> None:

@@ -44,8 +44,9 @@ class EvidenceKeeper:
         if world.sequence - self._sequence < PERIOD or (merged := ledger.merged) is None:
             return
         self._sequence = world.sequence - ledger.separate
-        decides, changes, undo = merged.decides, encode_changes(merged.changes), encode_changes(merged.undo)
-        saved = MergedWrites(self._sequence, decides.evidence, decides.origin, changes, undo)
+        write = merged.undoable
+        changes, undo = encode_changes(write.changes), encode_changes(write.undo)
+        saved = MergedWrites(self._sequence, write.evidence, write.origin, changes, undo)
         self._journal.set_state(MERGED, msgspec.msgpack.encode(saved))
 
 

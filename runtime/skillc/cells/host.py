@@ -221,7 +221,8 @@ class CellHost:
 
     def _describe_known(self, devices: bytes) -> CellSnapshot:
         world, backend = self.world, self.settings.backend
-        return CellSnapshot(self.library, world.snapshot(), world.ledger, world.sequence, backend, devices)
+        writes = tuple(each.undoable for each in world.ledger.writes)
+        return CellSnapshot(self.library, world.snapshot(), writes, world.sequence, backend, devices)
 
     def _commit(self) -> None:
         """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""

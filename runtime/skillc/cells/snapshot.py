@@ -4,27 +4,35 @@ from __future__ import annotations
 
 import pickle
 from dataclasses import dataclass
+from functools import cached_property
 from typing import cast
 
 from skillc.services.backends import BackendName
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.world.state.evidence import EvidenceLedger
+from skillc_runtime.world.state.evidence import EvidenceLedger, UndoableWrite
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CellSnapshot:
-    """The library of a cell, a version of its world, the evidence for its facts, and the number of its last write.
+    """The library of a cell, a version of its world, the writes that led to it, and the number of the last one.
 
     `devices` is what the devices report of themselves, as a checkpoint of the backend; empty if it is not asked for.
     """
 
     library: SkillLibrary
     state: WorldState
-    ledger: EvidenceLedger
+    writes: tuple[UndoableWrite, ...]
     sequence: int
     backend: BackendName = "mujoco"
     devices: bytes = b""
+
+    @cached_property
+    def ledger(self) -> EvidenceLedger:
+        """The evidence for the facts, made of the writes where it is needed: their versions take long to send."""
+        ledger = EvidenceLedger()
+        ledger.restore(self.state, self.writes)
+        return ledger
 
 
 def encode_snapshot(snapshot: CellSnapshot) -> bytes:

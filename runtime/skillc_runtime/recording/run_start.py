@@ -50,7 +50,9 @@ def encode_start(
     """
     triples = {*declarations(library, state.vocabulary), *all_triples(state)}
     facts = "".join(f"{each} .\n" for each in sorted(map(str, triples)))
-    start = RunStart(facts=facts, writes=tuple(map(_record, writes)), ticks=ticks, simulation=simulation)
+    start = RunStart(
+        facts=facts, writes=tuple(_record(each.undoable) for each in writes), ticks=ticks, simulation=simulation
+    )
     return msgspec.msgpack.encode(start)
 
 
@@ -72,9 +74,8 @@ def build_world_again(start: RunStart, library: Vocabulary) -> WorldModel:
     return world
 
 
-def _record(write: LedgerWrite) -> RecordedWrite:
-    decides = write.decides
-    return RecordedWrite(decides.evidence, decides.origin, encode_changes(write.changes), encode_changes(write.undo))
+def _record(write: UndoableWrite) -> RecordedWrite:
+    return RecordedWrite(write.evidence, write.origin, encode_changes(write.changes), encode_changes(write.undo))
 
 
 def _read(write: RecordedWrite) -> UndoableWrite:

@@ -61,21 +61,6 @@ def describe_evidence(known: DecidingWrite | None) -> str:
     return f"{known.evidence} by {known.origin}" if known.origin else known.evidence
 
 
-@dataclass(frozen=True)
-class LedgerWrite:
-    """A write, or several that are kept as one with the weakest evidence; they lead from one version to another."""
-
-    decides: DecidingWrite
-    changes: tuple[Change, ...]
-    before: WorldState
-    after: WorldState
-
-    @cached_property
-    def undo(self) -> tuple[Change, ...]:
-        """The changes that lead back."""
-        return changes_back(self.changes, self.before, self.after)
-
-
 @dataclass(frozen=True, slots=True)
 class UndoableWrite:
     """A write as it is stored: its evidence, its origin, its changes, and those that lead back."""
@@ -84,6 +69,28 @@ class UndoableWrite:
     origin: str
     changes: tuple[Change, ...]
     undo: tuple[Change, ...]
+
+
+@dataclass(frozen=True)
+class LedgerWrite:
+    """A write, or several that are kept as one with the weakest evidence; they lead from one version to another.
+
+    `stored` is as what it was stored, if it was.
+    """
+
+    decides: DecidingWrite
+    changes: tuple[Change, ...]
+    before: WorldState
+    after: WorldState
+    stored: UndoableWrite | None = None
+
+    @cached_property
+    def undoable(self) -> UndoableWrite:
+        """The write as it is stored."""
+        if self.stored is not None:
+            return self.stored
+        undo = changes_back(self.changes, self.before, self.after)
+        return UndoableWrite(self.decides.evidence, self.decides.origin, self.changes, undo)
 
 
 class EvidenceLedger:
@@ -102,8 +109,11 @@ class EvidenceLedger:
         origin: str,
     ) -> None:
         """Add a write."""
+        self._append(LedgerWrite(DecidingWrite(self.count + 1, evidence, origin), changes, before, after))
+
+    def _append(self, write: LedgerWrite) -> None:
         self.count += 1
-        self._entries.append(LedgerWrite(DecidingWrite(self.count, evidence, origin), changes, before, after))
+        self._entries.append(write)
         if len(self._entries) > MAX_WRITES:
             self._entries[:2] = [_merge(*self._entries[:2])]
 
@@ -123,7 +133,8 @@ class EvidenceLedger:
         for write in reversed(writes):
             versions.append(versions[-1].with_changes(write.undo))
         for write, before, after in zip(writes, versions[:0:-1], versions[-2::-1], strict=True):
-            self.add(write.changes, before, after, write.evidence, write.origin)
+            decides = DecidingWrite(self.count + 1, write.evidence, write.origin)
+            self._append(LedgerWrite(decides, write.changes, before, after, write))
 
     @property
     def separate(self) -> int:
