@@ -26,3 +26,8 @@ class Span:
     def to(self, end: Span) -> Span:
         """Return the span from the start of this one to the end of `end`, in the same file."""
         return Span(self.path, self.line, self.column, end.end_line, end.end_column)
+
+    @property
+    def after(self) -> Span:
+        """The empty span where this one ends."""
+        return Span(self.path, self.end_line, self.end_column, self.end_line, self.end_column)

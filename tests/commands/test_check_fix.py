@@ -79,6 +79,59 @@ def test_guesses_are_applied_only_when_asked_for(library: Path) -> None:
     assert file.read_text("utf-8") == FIXED
 
 
+CARRYING = """use skiros
+
+skill Take {
+    in    part: Product
+    in    to:   Location
+    infer from: Location
+    pre   from != to
+    pre   from contain part
+    post  there: to contain part
+    post  gone: not from contain part
+}
+
+impl by_hand of Take {
+    do seq {
+        wait 1 s
+        apply gone, there
+    }
+}
+
+skill Bring {
+    in    part: Product
+    in    to:   Location
+    infer from: Location
+    pre   from != to
+    pre   from contain part
+    post not from contain part
+    post to contain part
+}
+
+impl at_once of Bring { do Take(part: part, to: to) }
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("1 s\n", "1\n"),
+        ("Take(part: part, to: to)", "Take(part: part)"),
+        ("Take(part: part, to: to)", "Take()"),
+        ("    post to contain part\n", ""),
+        ("    post not from contain part\n    post to contain part\n", ""),
+        ("use skiros\n\n", ""),
+    ],
+)
+def test_what_is_missing_is_written_where_it_belongs(library: Path, right: str, wrong: str) -> None:
+    file = library / "rest.skill"
+    assert right in CARRYING
+    file.write_text(CARRYING.replace(right, wrong), encoding="utf-8")
+    assert "error" in check().stdout
+    check("--fix", "--unsafe-fixes")
+    assert file.read_text("utf-8") == CARRYING
+
+
 def test_a_fixed_standard_input_goes_to_the_standard_output(library: Path) -> None:
     result = check("-", "--fix", text=GUESSED + "# allow unused-let: no\nskill")
     assert result.exit_code == 1

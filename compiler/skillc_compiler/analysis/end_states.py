@@ -32,6 +32,7 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
+from skillc_model.format_condition import format_condition
 from skillc_model.traversal import free_variables, walk
 
 
@@ -179,7 +180,14 @@ def _check_declared(
         and not any(evaluate(run.types, _with_identities(each, state), condition) for each in before)
     ]
     if found:
-        yield UndeclaredEffect(implementation, one.call, one.post, min(found, key=path_length))
+        missing = _write_post(run, implementation, condition)
+        yield UndeclaredEffect(implementation, one.call, one.post, missing, min(found, key=path_length))
+
+
+def _write_post(run: Exploration, implementation: Implementation, condition: Condition) -> str:
+    """Return the condition as a postcondition of the skill; nothing if it is not about its parameters alone."""
+    names = {each.name for each in implementation.skill.parameters}
+    return format_condition(condition, run.types.vocabulary) if names >= set(free_variables(condition)) else ""
 
 
 def _affects_unnamed(effect: Effect) -> bool:

@@ -46,11 +46,15 @@ class BrokenHold:
 
 @dataclass(frozen=True, slots=True)
 class UndeclaredEffect:
-    """An effect of a called skill that lasts to the end and that the calling skill does not declare."""
+    """An effect of a called skill that lasts to the end and that the calling skill does not declare.
+
+    `missing` is the postcondition that would declare it; empty if the parameters of the calling skill cannot say it.
+    """
 
     implementation: Implementation
     call: Call
     post: Requirement
+    missing: str
     path: Path
 
 

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Call, Program, Skill, TypedExpression
+from skillc_compiler.program.typed import Call, Parameter, Program, Skill, TypedExpression
 from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_dsl.source import Span
 from skillc_model.conditions import Invoke
 
 NAMES = ("missing-argument", "duplicate-argument", "wrong-argument-count")
@@ -56,7 +57,19 @@ def _check_missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
             f"`{skill.name}` needs {names}",
             help=f"pass {', '.join(f'`{p.name}: ..`' for p in missing)}",
             labels=tuple(Label(p.span, "declared here") for p in missing),
+            fix=_pass_own(call.written, missing),
         )
+
+
+def _pass_own(call: s.CallSkill, missing: Sequence[Parameter]) -> Fix:
+    """Return the edit that passes what has the names of the missing parameters where the call is."""
+    added = ", ".join(f"{each.name}: {each.name}" for each in missing)
+    if call.arguments:
+        return Fix(call.arguments[-1].value.span.after, f", {added}", f"pass `{added}`", safe=False)
+    name = call.implementation or call.skill
+    start = name.span.end_column + (2 if call.implementation else 1)
+    place = Span(name.span.path, name.span.end_line, start, name.span.end_line, start)
+    return Fix(place, added, f"pass `{added}`", safe=False)
 
 
 def _check_count(program: Program, value: TypedExpression, meaning: Invoke) -> Iterator[Diagnostic]:

@@ -42,4 +42,5 @@ def _task(task: Task) -> Iterator[Diagnostic]:
             task.name_span,
             f"the task `{task.name}` has {'both a goal and a body' if both else 'neither a goal nor a body'}",
             help="write either `goal CONDITION` or `do NODE`",
+            labels=() if both else (Label(_last_line(task.span), "add it before this `}`"),),
         )

@@ -10,7 +10,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
-from skillc_dsl.source import Span
 from skillc_model.conditions import Holds
 from skillc_model.format_condition import format_condition
 from skillc_rdf.vocabulary.types import local_name
@@ -70,9 +69,5 @@ def _check_axioms(
             f"`{name}` is asymmetric, and it still holds in the other direction",
             f"state that it no longer does: `{text}`",
             labels=(Label(back.condition.span, "the other direction"),),
-            fix=Fix(_after(post.span), f"\n{' ' * (post.span.column - 1)}{text}", f"add `{text}`"),
+            fix=Fix(post.span.after, f"\n{' ' * (post.span.column - 1)}{text}", f"add `{text}`"),
         )
-
-
-def _after(span: Span) -> Span:
-    return Span(span.path, span.end_line, span.end_column, span.end_line, span.end_column)

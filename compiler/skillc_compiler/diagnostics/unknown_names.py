@@ -125,11 +125,11 @@ def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:
     uses = [each for each in header if isinstance(each, s.Use)]
     if line.keyword == "use" and uses:
         span = uses[-1].span
-        return Span(path, span.end_line, span.end_column, span.end_line, span.end_column), f", {line.name}"
+        return span.after, f", {line.name}"
     text = _write_line(line)
     if header and line.keyword == "import":
         span = header[-1].span
-        return Span(path, span.end_line, span.end_column, span.end_line, span.end_column), f"\n{text}"
+        return span.after, f"\n{text}"
     number = header[0].span.line if header else next((d.span.line for d in unit.file.declarations), 1)
     return Span(path, number, 1, number, 1), f"{text}\n" if header else f"{text}\n\n"
 

@@ -222,9 +222,8 @@ def _resolve_bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedC
     """Resolve a value that stands as a condition: report it, with the comparison to write if it is a truth value."""
     of = resolve_value(context, scope, written.value)
     span = written.span
-    end = Span(span.path, span.end_line, span.end_column, span.end_line, span.end_column)
     if of.type == BOOL:
-        fix = Fix(end, " == true", "compare it with `true`")
+        fix = Fix(span.after, " == true", "compare it with `true`")
         context.names.problems.append(
             Diagnostic("not-a-condition", span, "a value is not a condition", "write `.. == true`", fix=fix)
         )

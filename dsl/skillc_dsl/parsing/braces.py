@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 
 from lark import Token
 
@@ -75,34 +76,40 @@ def _without_surplus(region: Sequence[Token], surplus: int, path: str) -> tuple[
     result: list[Token] = []
     problems: list[Diagnostic] = []
     opened: list[int] = []
-    indent = 1
+    lines: list[Token] = []
     for index, token in enumerate(region):
-        if begins_line(region, index):
-            indent = token.column or 1
+        if begins_line(region, index) or not lines:
+            lines.append(token)
+        indent = lines[-1].column or 1
         if token.type == "LBRACE":
             opened.append(indent)
         elif token.type == "RBRACE" and opened:
             if opened[-1] < indent and len(problems) < surplus:
-                problems.append(_unopened(token_span(token, path)))
+                problems.append(_unopened(token_span(token, path), _find_block(lines, path)))
                 continue
             opened.pop()
         result.append(token)
     return tuple(result), problems
 
 
-def _unopened(span: Span) -> Diagnostic:
+def _find_block(lines: Sequence[Token], path: str) -> tuple[Label, ...]:
+    """Return a label where the block begins that the last of the lines ends, as the indentation has it."""
+    *before, last = lines
+    block = list(takewhile(lambda line: (line.column or 1) > (last.column or 1), reversed(before)))
+    return tuple(Label(token_span(each, path), "no `{` opens a block before this line") for each in block[-1:])
+
+
+def _unopened(span: Span, labels: tuple[Label, ...]) -> Diagnostic:
     fix = Fix(span, "", "delete it", safe=False)
-    return Diagnostic(
-        "unopened-brace", span, "this `}` is one too many", "delete it, or add the `{` before it", fix=fix
-    )
+    message, help_ = "this `}` is one too many", "delete it, or add the `{` before it"
+    return Diagnostic("unopened-brace", span, message, help_, labels=labels, fix=fix)
 
 
 def _unclosed(opener: Token, indent: int, last: Token, found: Token, path: str) -> Diagnostic:
     """Report after `last`, where the brace belongs, that `opener` is open; `found` is the token that shows it."""
     where = "at the end of the file" if found.type == END else f"before the `{found}` of line {found.line}"
     place = token_span(last, path)
-    end = Span(path, place.end_line, place.end_column, place.end_line, place.end_column)
-    fix = Fix(end, "\n" + " " * (indent - 1) + "}", "close the brace")
+    fix = Fix(place.after, "\n" + " " * (indent - 1) + "}", "close the brace")
     message = f"the `{{` of line {opener.line} is not closed {where}"
     label = Label(token_span(opener, path), "opened here")
     return Diagnostic("unclosed-brace", place, message, "add a `}` on the next line", labels=(label,), fix=fix)

@@ -57,7 +57,7 @@ class Fault:
         if self.index == 0:
             return Span(self.path, 1, 1, 1, 1)
         before = token_span(self.tokens[self.index - 1], self.path)
-        return Span(self.path, before.end_line, before.end_column, before.end_line, before.end_column)
+        return before.after
 
     def mended_by(self, *terminals: str, skip: int = 1) -> bool:
         """Whether `terminals` fit in place of the next `skip` tokens, followed by the two tokens after those.
