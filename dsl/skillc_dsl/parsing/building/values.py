@@ -6,6 +6,7 @@ import dataclasses
 import re
 
 from lark import Token
+from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
@@ -110,7 +111,7 @@ class ValueBuilder(TreeBuilder):
     def parentheses(self, children: list[Child]) -> Child:
         """Return the content of parentheses with its span extended to include them."""
         inner = children[1]
-        return dataclasses.replace(inner, span=self.over(children))  # type: ignore[type-var]
+        return structs.replace(inner, span=self.over(children))  # type: ignore[type-var]
 
     def as_name(self, child: Child) -> s.Name:
         """Return a child that the grammar guarantees to be a name."""
