@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 
 from lark import Token
@@ -29,7 +28,7 @@ class ValueBuilder(TreeBuilder):
         """Return the name of a label, without its `:`."""
         span = self.place(token)
         text = token.value.removesuffix(":") if isinstance(token, Token) else ""
-        return s.Name(text, dataclasses.replace(span, end_column=span.column + len(text), end_line=span.line))
+        return s.Name(text, Span(span.path, span.line, span.column, span.line, span.column + len(text)))
 
     def list_of(self, children: list[Child]) -> s.ListOf:
         """`[T]`"""
