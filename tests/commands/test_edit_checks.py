@@ -20,6 +20,21 @@ from skillc.services.library_files import LibraryFiles, find_library
 from skillc_dsl.cache import store
 from skillc_dsl.diagnostics import Diagnostic
 
+WRONG = """
+use skiros
+
+skill Wait {
+    in thing: Thing
+    post thing is Thing
+}
+
+impl idle of Wait {
+    do seq {
+        wait 1 s
+    }
+}
+"""
+"""A file with an error that is found in it alone."""
 SEQUENCES = int(os.environ.get("SEQUENCES", "2"))
 STEPS = 6
 
@@ -54,10 +69,11 @@ class Author:
             (self.folder / name).write_text(text, "utf-8")
 
     def edit(self) -> None:
-        """Edit one file, mostly in a body; sometimes undo nothing of it for several steps."""
+        """Edit one file, mostly in a body or a signature; sometimes undo nothing of it for several steps."""
         path = self.chance.choice(sorted(self.folder.glob("*.skill")))
         text = path.read_text("utf-8")
-        new = self.chance.choices([_edit_body, _make_mistake, _move], [8, 1, 1])[0](text, self.chance)
+        edits = [_edit_body, _edit_signature, _make_mistake, _move, _suppress]
+        new = self.chance.choices(edits, [6, 8, 1, 1, 1])[0](text, self.chance)
         path.write_text(new, "utf-8")
 
 
@@ -92,6 +108,45 @@ def _body_lines(lines: list[str]) -> list[int]:
         found += [number] if inside else []
         inside = inside or line.strip().startswith("do ")
     return found
+
+
+def _edit_signature(text: str, chance: random.Random) -> str:
+    """Change a number outside of bodies, or add, remove, repeat, move or document a line there."""
+    lines = text.split("\n")
+    within = {*_body_lines(lines)}
+    inside = [n for n, line in enumerate(lines) if n not in within and line.startswith("    ") and line.strip()]
+    numbered = [n for n in inside if any(each in lines[n] for each in ("range", "=", "duration", "prefer", "keep"))]
+    if not inside:
+        return text
+    here = chance.choice(inside)
+    match chance.randrange(9):
+        case 0:
+            del lines[here]
+        case 1:
+            lines.insert(here, lines[here])
+        case 2:
+            lines.insert(here, "    ## It is documented.")
+        case 3:
+            lines[here], lines[here - 1] = lines[here - 1], lines[here]
+        case 4:
+            lines.insert(here, f"    opt   more: Length = {chance.randrange(1, 9)} mm")
+        case _ if numbered:
+            here = chance.choice(numbered)
+            lines[here] = "".join(chance.choice("123") if c.isdigit() and c != "0" else c for c in lines[here])
+        case _:
+            lines[here] = f"{lines[here]}  # it is a comment"
+    return "\n".join(lines)
+
+
+def _suppress(text: str, chance: random.Random) -> str:
+    """Suppress a warning that is found in libraries with tasks, or no longer."""
+    if "# allow" in text:
+        return "\n".join("" if line.startswith("# allow") else line for line in text.split("\n"))
+    lines = text.split("\n")
+    named = [number for number, line in enumerate(lines) if line.startswith("skill ")]
+    if named:
+        lines.insert(chance.choice(named), "# allow unreachable-skill: it is for others")
+    return "\n".join(lines)
 
 
 def _make_mistake(text: str, chance: random.Random) -> str:
@@ -140,6 +195,7 @@ def _goes_on(library: LibraryFiles) -> bool:
 @pytest.mark.parametrize("damage", [b"", b"x" * 200, pickle.dumps(1), pickle.dumps({"a": 1}), pickle.dumps(Path())])
 @pytest.mark.parametrize("whole", [True, False])
 def test_what_is_damaged_is_found_anew(tmp_path: Path, cache_folder: Path, damage: bytes, whole: bool) -> None:
+    parse_cache.parse_cached.cache_clear()
     author = Author(tmp_path / "mine", random.Random(0))
     author.folder.mkdir()
     (author.folder / "m.skill").write_text(text_of(LIBRARIES[0].stem), "utf-8")
@@ -154,6 +210,16 @@ def test_what_is_damaged_is_found_anew(tmp_path: Path, cache_folder: Path, damag
     parse_cache.parse_cached.cache_clear()
     author.edit()
     assert check(author.folder) == check_library(find_library(author.folder), None)
+
+
+def test_files_that_need_each_other_keep_their_own_findings(tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "m.skill").write_text(WRONG, "utf-8")
+    (folder / "terms.skill").write_text('use skiros\nimport "m.skill"\n\nclass Odd < Thing\n', "utf-8")
+    first = check(folder)
+    assert "m.skill" in {Path(each.span.path).name for each in first if each.severity == "error"}
+    assert check(folder) == first == check_library(find_library(folder), None)
 
 
 def test_another_version_goes_on_from_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,7 +1,6 @@
 """The language's examples mean what its definition says."""
 
-import dataclasses
-
+import msgspec
 import pytest
 from examples import ALL, EVERYTHING, PICK, TASKS, VOCABULARY, WHOLE, WIPE
 
@@ -32,11 +31,11 @@ def shape(node: object) -> object:
     """The tree without its places."""
     if isinstance(node, tuple):
         return tuple(shape(child) for child in node)
-    if not dataclasses.is_dataclass(node):
+    if not isinstance(node, msgspec.Struct):
         return node
     if isinstance(node, s.Name):
         return node.text
-    fields = (getattr(node, f.name) for f in dataclasses.fields(node) if f.name != "span")
+    fields = (getattr(node, name) for name in node.__struct_fields__ if name != "span")
     return (type(node).__name__, *(shape(field) for field in fields))
 
 
@@ -252,8 +251,8 @@ def test_every_place_holds_what_it_names() -> None:
             text = lines[node.span.line - 1][node.span.column - 1 : node.span.end_column - 1]
             assert text == node.text
             names += 1
-        if dataclasses.is_dataclass(node):
-            pending += [getattr(node, field.name) for field in dataclasses.fields(node)]
+        if isinstance(node, msgspec.Struct):
+            pending += [getattr(node, name) for name in node.__struct_fields__]
         elif isinstance(node, tuple):
             pending += node
     assert names > 200

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_compiler.analysis.paths import Path
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class UnprovedPost:
+class UnprovedPost(msgspec.Struct, frozen=True):
     """A postcondition that is not known to hold in a successful end; `false` if it is known not to hold.
 
     `beyond` if the condition cannot be decided by this analysis.
@@ -24,8 +24,7 @@ class UnprovedPost:
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class UnprovedPrecondition:
+class UnprovedPrecondition(msgspec.Struct, frozen=True):
     """A precondition or hold of a called skill that is not known to hold at its start; `false` if known not to hold."""
 
     call: Call
@@ -34,8 +33,7 @@ class UnprovedPrecondition:
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class BrokenHold:
+class BrokenHold(msgspec.Struct, frozen=True):
     """A hold of the implementation that a node breaks, certainly or possibly, before another node begins."""
 
     hold: Requirement
@@ -44,8 +42,7 @@ class BrokenHold:
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class UndeclaredEffect:
+class UndeclaredEffect(msgspec.Struct, frozen=True):
     """An effect of a called skill that lasts to the end and that the calling skill does not declare.
 
     `missing` is the postcondition that would declare it; empty if the parameters of the calling skill cannot say it.
@@ -58,15 +55,13 @@ class UndeclaredEffect:
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class UnreachableNode:
+class UnreachableNode(msgspec.Struct, frozen=True):
     """A node that never starts."""
 
     node: TypedNode
 
 
-@dataclass(frozen=True, slots=True)
-class UnassignedRead:
+class UnassignedRead(msgspec.Struct, frozen=True):
     """An output that is read where it may have no value."""
 
     name: str
@@ -74,8 +69,7 @@ class UnassignedRead:
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class UnassignedOutput:
+class UnassignedOutput(msgspec.Struct, frozen=True):
     """An output of the skill that has no value in a successful end."""
 
     implementation: Implementation
@@ -83,8 +77,7 @@ class UnassignedOutput:
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class ParallelConflict:
+class ParallelConflict(msgspec.Struct, frozen=True):
     """Two calls in parallel that write a fact differently, or use the same device exclusively."""
 
     first: Call
@@ -92,8 +85,7 @@ class ParallelConflict:
     what: str
 
 
-@dataclass(frozen=True, slots=True)
-class LeakedChange:
+class LeakedChange(msgspec.Struct, frozen=True):
     """A change or set-up that every success undoes, and that a failure in between leaves behind."""
 
     call: Call
@@ -101,23 +93,20 @@ class LeakedChange:
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class ViolatedProperty:
+class ViolatedProperty(msgspec.Struct, frozen=True):
     """A `verify` property that some execution violates."""
 
     property: Property
     path: Path
 
 
-@dataclass(frozen=True, slots=True)
-class UndecidedProperty:
+class UndecidedProperty(msgspec.Struct, frozen=True):
     """A `verify` property that is neither proved nor refuted."""
 
     property: Property
 
 
-@dataclass(frozen=True, slots=True)
-class TooManyStates:
+class TooManyStates(msgspec.Struct, frozen=True):
     """A node with more states than are kept apart, so that knowledge was lost."""
 
     span: Span

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.state import State
@@ -24,8 +25,7 @@ from skillc_model.conditions import (
 from skillc_model.rewriting import substitute
 
 
-@dataclass(frozen=True, slots=True)
-class RelationWrite:
+class RelationWrite(msgspec.Struct, frozen=True):
     """A relation that may be written: made true, made false, or either (None)."""
 
     subject: Term
@@ -34,8 +34,7 @@ class RelationWrite:
     value: bool | None
 
 
-@dataclass(frozen=True, slots=True)
-class PropertyWrite:
+class PropertyWrite(msgspec.Struct, frozen=True):
     """A property that may be written; `value` is the constant or name that it gets, None if not known.
 
     `cleared` if it may have no value afterwards.
@@ -47,15 +46,13 @@ class PropertyWrite:
     cleared: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class OutputWrite:
+class OutputWrite(msgspec.Struct, frozen=True):
     """An output that may be assigned."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class OnceWrite:
+class OnceWrite(msgspec.Struct, frozen=True):
     """A `once` node that may have run."""
 
     key: int
@@ -82,9 +79,9 @@ def with_unknown_value(write: Write) -> Write:
     """Return the write with an unknown result."""
     match write:
         case RelationWrite():
-            return replace(write, value=None)
+            return msgspec.structs.replace(write, value=None)
         case PropertyWrite():
-            return replace(write, value=None, cleared=True)
+            return msgspec.structs.replace(write, value=None, cleared=True)
         case _:
             return write
 

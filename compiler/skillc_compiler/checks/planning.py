@@ -11,7 +11,7 @@ from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assign
-from skillc_model.pddl.names import to_kebab
+from skillc_model.pddl.kebab import to_kebab
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from msgspec import structs
+
 from skillc_compiler.program.typed import Implementation, Program, Requirement, Skill, TypedCondition
 from skillc_compiler.program.walk import all_nodes, conditions_in
 from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
@@ -71,7 +73,9 @@ def equal_names_in(facts: Iterable[TypedFact]) -> dict[str, Expression]:
 
 def rename_fact(fact: TypedFact, names: Mapping[str, Expression]) -> TypedFact:
     """Return the fact with equal names replaced by their representative."""
-    return replace(fact, condition=replace(fact.condition, meaning=substitute(fact.meaning, names))) if names else fact
+    if not names:
+        return fact
+    return replace(fact, condition=structs.replace(fact.condition, meaning=substitute(fact.meaning, names)))
 
 
 def conjunction_groups(program: Program) -> Iterator[ConjunctionGroup]:

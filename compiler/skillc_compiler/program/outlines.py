@@ -3,59 +3,84 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import msgspec
 
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.program.written import calls_of, skill_of
 from skillc_dsl import syntax as s
+from skillc_dsl.source import Span
 
 TASK = ""
 """What stands for a task in the place of a skill."""
+_SUPPRESSION = re.compile(r"#\s*allow\b")
 
 
-class BodyOutline(msgspec.Struct, frozen=True):
-    """What an implementation of `skill`, or a TASK, runs.
+class DeclarationOutline(msgspec.Struct, frozen=True):
+    """The outline of a description of `skill`, of its implementation called `name`, or of a TASK.
 
-    `selected` are the calls of one implementation, `Skill[name]`; `body` is the digest of the text with its place.
+    `first` and `last` are the numbers of its lines, `named_at` is the line and column of its name. `signature` is the
+    digest of its text outside of bodies, `body` that of the bodies, both with their places; the file has the signatures
+    of tasks. `selected` are the calls of one implementation, `Skill[name]`.
     """
 
     skill: str
+    name: str
+    first: int
+    last: int
+    named_at: tuple[int, int]
+    signature: str
     calls: frozenset[str]
     selected: frozenset[tuple[str, str]]
     body: str
 
+    @property
+    def described(self) -> tuple[object, ...]:
+        """All that is known of it but its bodies."""
+        return self.first, self.last, self.named_at, self.signature
+
 
 class FileOutline(msgspec.Struct, frozen=True):
-    """The outline of a file; `digest` is that of its lines outside of bodies, with their numbers.
+    """The outline of a file; `digest` is that of its lines outside of skills, implementations and bodies.
 
-    `described` and `implemented` are skills, `imports` paths; `adds_terms` if it changes what names mean in all files.
+    `imports` are paths; `adds_terms` if it changes what names mean in all files.
     """
 
     digest: str
-    described: frozenset[str]
-    implemented: frozenset[str]
-    runs: tuple[BodyOutline, ...]
+    declared: tuple[DeclarationOutline, ...]
     imports: tuple[str, ...]
     adds_terms: bool
     has_tasks: bool
 
     @property
     def shown(self) -> tuple[object, ...]:
-        """All that other files can read without running a body."""
-        return self.digest, tuple((run.skill, run.calls, run.selected) for run in self.runs)
+        """All that other files can read without reading a skill or an implementation that it names or may run."""
+        return self.digest, tuple((each.skill, each.name, each.calls, each.selected) for each in self.declared)
+
+    @property
+    def named(self) -> Iterator[str]:
+        """The skills that the file describes, implements or calls."""
+        for each in self.declared:
+            yield from each.calls if each.skill == TASK else (each.skill, *each.calls)
 
 
 def outline_of(unit: ParsedFile) -> FileOutline:
     """Return the outline of a file."""
     file, lines = unit.file, unit.text.split("\n")
     terms = s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration
+    spans = {each.name.span: _with_doc(each.span, lines) for each in file.declarations if skill_of(each)}
+    apart = (span for each in file.declarations for span in _apart(each, spans))
+    suppressions = (f"{number} {line}" for number, line in enumerate(lines, 1) if _SUPPRESSION.search(line))
     return FileOutline(
-        digest=_digest(_outside(lines, [body for each in file.declarations for body in _bodies(each)])),
-        described=_skills(file, s.SkillDeclaration),
-        implemented=_skills(file, s.ImplementationDeclaration),
-        runs=tuple(_run(each, lines) for each in file.declarations if _bodies(each)),
+        digest=_digest((*_outside(lines, Span("", 1, 1, len(lines), len(lines[-1]) + 1), apart), *suppressions)),
+        declared=tuple(
+            _declared(each, spans.get(each.name.span), lines)
+            for each in file.declarations
+            if skill_of(each) or isinstance(each, s.TaskDeclaration)
+        ),
         imports=tuple(path for _, path in unit.imports),
         adds_terms=any(isinstance(line, s.Prefix) for line in file.header)
         or any(isinstance(each, terms) for each in file.declarations),
@@ -63,18 +88,33 @@ def outline_of(unit: ParsedFile) -> FileOutline:
     )
 
 
-def _skills(file: s.File, kind: type[s.Declaration]) -> frozenset[str]:
-    return frozenset(skill_of(each) for each in file.declarations if isinstance(each, kind))
+def _with_doc(span: Span, lines: Sequence[str]) -> Span:
+    """Return the span of a declaration with the lines above that document it."""
+    first = span.line
+    while first > 1 and lines[first - 2].startswith("##"):
+        first -= 1
+    return span if first == span.line else replace(span, line=first, column=1)
 
 
-def _run(declaration: s.Declaration, lines: list[str]) -> BodyOutline:
-    calls = list(calls_of(declaration))
-    implementing = isinstance(declaration, s.ImplementationDeclaration)
-    return BodyOutline(
-        skill=skill_of(declaration) if implementing else TASK,
+def _apart(declaration: s.Declaration, spans: dict[Span, Span]) -> list[Span]:
+    """Return the parts of a declaration that the digest of its file leaves out."""
+    span = spans.get(declaration.name.span)
+    return [body.span for body in _bodies(declaration)] if span is None else [span]
+
+
+def _declared(declaration: s.Declaration, span: Span | None, lines: list[str]) -> DeclarationOutline:
+    calls, bodies, whole = list(calls_of(declaration)), _bodies(declaration), span or declaration.span
+    named = declaration.name.span
+    return DeclarationOutline(
+        skill=skill_of(declaration),
+        name=declaration.name.text if isinstance(declaration, s.ImplementationDeclaration) else "",
+        first=whole.line,
+        last=whole.end_line,
+        named_at=(named.line, named.column),
+        signature=_digest(_outside(lines, span, [body.span for body in bodies])) if span else "",
         calls=frozenset(call.skill.text for call in calls),
         selected=frozenset((call.skill.text, call.implementation.text) for call in calls if call.implementation),
-        body=_digest(part for body in _bodies(declaration) for part in _inside(lines, body)),
+        body=_digest(part for body in bodies for part in _inside(lines, body)),
     )
 
 
@@ -94,14 +134,16 @@ def _inside(lines: list[str], body: s.Body) -> Iterator[str]:
         yield f"{number} {lines[number - 1]}"
 
 
-def _outside(lines: list[str], bodies: Iterable[s.Body]) -> Iterator[str]:
-    """Yield everything outside of bodies with its line, but neither empty lines nor comments that document nothing."""
-    next_line, next_column = 1, 1
-    for body in bodies:
-        span = body.span
-        yield from _numbered(lines, next_line, next_column, span.line, span.column)
-        next_line, next_column = span.end_line, span.end_column
-    yield from _numbered(lines, next_line, next_column, len(lines), len(lines[-1]) + 1)
+def _outside(lines: list[str], whole: Span, parts: Iterable[Span]) -> Iterator[str]:
+    """Yield what is in a span but not in parts of it, with its lines.
+
+    Empty lines and comments that document nothing are left out.
+    """
+    next_line, next_column = whole.line, whole.column
+    for part in parts:
+        yield from _numbered(lines, next_line, next_column, part.line, part.column)
+        next_line, next_column = part.end_line, part.end_column
+    yield from _numbered(lines, next_line, next_column, whole.end_line, whole.end_column)
 
 
 def _numbered(lines: list[str], line: int, column: int, end_line: int, end_column: int) -> Iterator[str]:

@@ -6,6 +6,8 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum, auto
 
+from msgspec import structs
+
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
 from skillc_dsl import syntax as s
 
@@ -72,5 +74,5 @@ def _alone(program: Program, each: Skill | Implementation | Task) -> Program:
 
 
 def _written_alone(program: Program, unit: ParsedFile, declaration: s.Declaration) -> Program:
-    file = replace(unit.file, declarations=(declaration,))
+    file = structs.replace(unit.file, declarations=(declaration,))
     return Program(program.name, program.vocabulary, (replace(unit, file=file),), {}, (), (), {})

@@ -1,24 +1,51 @@
-"""Which files an edit of bodies concerns, and which files have to be read to check them again."""
+"""Which files an edit of skills and implementations concerns, and which have to be read to check these again."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
+from typing import TypeAlias
 
-from skillc_compiler.program.outlines import FileOutline
+from skillc_compiler.program.outlines import DeclarationOutline, FileOutline
+
+Outlines: TypeAlias = Mapping[str, FileOutline]
+"""The outlines of files, by path."""
 
 
-def changed_skills(before: Mapping[str, FileOutline], now: Mapping[str, FileOutline]) -> frozenset[str]:
-    """Return the skills of the bodies that differ, TASK for those of tasks; the outlines show the same otherwise."""
-    pairs = (pair for path, new in now.items() for pair in zip(before[path].runs, new.runs, strict=True))
-    return frozenset(new.skill for old, new in pairs if old.body != new.body)
+def changed_skills(before: Outlines, now: Outlines) -> frozenset[str]:
+    """Return the skills of the declarations that differ, TASK for tasks; the outlines show the same otherwise."""
+    return frozenset(new.skill for _, old, new in _pairs(before, now) if old != new)
+
+
+def changed_signatures(before: Outlines, now: Outlines) -> frozenset[str]:
+    """Return the skills of the declarations that differ outside of bodies; the outlines show the same otherwise."""
+    return frozenset(new.skill for _, old, new in _pairs(before, now) if old.described != new.described)
+
+
+def changed_places(before: Outlines, now: Outlines) -> frozenset[tuple[str, int]]:
+    """Return the lines, with their paths, of what differs outside of bodies.
+
+    Not included are lines with the name of a declaration if it is where it was.
+    """
+    found: set[tuple[str, int]] = set()
+    for path, old, new in _pairs(before, now):
+        if old.described != new.described:
+            found |= {(path, line) for line in range(old.first, old.last + 1)}
+            found -= {(path, old.named_at[0])} if old.named_at == new.named_at else set()
+    return frozenset(found)
+
+
+def _pairs(before: Outlines, now: Outlines) -> Iterator[tuple[str, DeclarationOutline, DeclarationOutline]]:
+    """Yield what was declared and what is declared, with its path, for the paths of `now`."""
+    for path, new in now.items():
+        yield from ((path, *pair) for pair in zip(before[path].declared, new.declared, strict=True))
 
 
 class Dependencies:
     """Which skills and files of a library depend on which, by the outlines of its files."""
 
-    def __init__(self, outlines: Mapping[str, FileOutline]) -> None:
+    def __init__(self, outlines: Outlines) -> None:
         self._outlines = outlines
 
     def callers(self, changed: Iterable[str]) -> frozenset[str]:
@@ -27,7 +54,7 @@ class Dependencies:
 
     def concerned(self, skills: frozenset[str]) -> frozenset[str]:
         """Return the files that describe, implement or call one of the skills."""
-        return frozenset(path for path, each in self._outlines.items() if not skills.isdisjoint(_named(each)))
+        return frozenset(path for path, each in self._outlines.items() if not skills.isdisjoint(each.named))
 
     def needed(self, checked: Iterable[str]) -> frozenset[str]:
         """Return the files with all that the checks of some files read.
@@ -35,7 +62,7 @@ class Dependencies:
         They have the skills that these name or may run, all implementations of these, the declared terms, and what all
         of them import.
         """
-        skills = _reached({skill for path in checked for skill in _named(self._outlines[path])}, self._called)
+        skills = _reached({skill for path in checked for skill in self._outlines[path].named}, self._called)
         files = {path for skill in skills for path in self._providers.get(skill, ())}
         return frozenset(_reached({*files, *self._with_terms, *checked}, self._imports))
 
@@ -50,8 +77,8 @@ class Dependencies:
     @cached_property
     def _called(self) -> Mapping[str, Collection[str]]:
         found: dict[str, set[str]] = defaultdict(set)
-        for run in (run for each in self._outlines.values() for run in each.runs):
-            found[run.skill] |= run.calls
+        for each in (each for outline in self._outlines.values() for each in outline.declared):
+            found[each.skill] |= each.calls
         return found
 
     @cached_property
@@ -67,8 +94,8 @@ class Dependencies:
         """The files that describe or implement a skill."""
         found: dict[str, set[str]] = defaultdict(set)
         for path, each in self._outlines.items():
-            for skill in each.described | each.implemented:
-                found[skill].add(path)
+            for declared in each.declared:
+                found[declared.skill].add(path)
         return found
 
 
@@ -81,11 +108,3 @@ def _reached(start: Iterable[str], edges: Mapping[str, Collection[str]]) -> set[
         found.update(more)
         todo += more
     return found
-
-
-def _named(outline: FileOutline) -> Iterator[str]:
-    """Yield the skills that a file describes, implements or calls."""
-    yield from outline.described
-    yield from outline.implemented
-    for run in outline.runs:
-        yield from run.calls

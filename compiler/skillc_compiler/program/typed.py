@@ -8,6 +8,8 @@ from functools import cached_property
 from typing import Literal as OneOf
 from typing import TypeAlias
 
+import msgspec
+
 from skillc_compiler.program.types import Type
 from skillc_compiler.program.unknown import LostNames, UnknownName
 from skillc_dsl import syntax as s
@@ -16,8 +18,7 @@ from skillc_model.conditions import Condition, Expression, Operator
 from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
 
 
-@dataclass(frozen=True, slots=True)
-class TypedExpression:
+class TypedExpression(msgspec.Struct, frozen=True):
     """An expression: its meaning, its type, its place and its operands. `_` is a variable of that name.
 
     `declared` is the place of the name that it refers to, if it is one.
@@ -30,8 +31,7 @@ class TypedExpression:
     declared: Span | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class TypedCondition:
+class TypedCondition(msgspec.Struct, frozen=True):
     """A condition: its meaning, its place, the expressions in it and its parts."""
 
     meaning: Condition
@@ -40,8 +40,7 @@ class TypedCondition:
     parts: tuple[TypedCondition, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(msgspec.Struct, frozen=True):
     """A parameter of a skill, or of an implementation once its refinements are merged in."""
 
     name: str
@@ -61,8 +60,7 @@ class Parameter:
         return self.direction == "opt" and self.default is None
 
 
-@dataclass(frozen=True, slots=True)
-class Requirement:
+class Requirement(msgspec.Struct, frozen=True):
     """A pre-, hold or postcondition."""
 
     kind: OneOf["pre", "hold", "post"]
@@ -73,8 +71,7 @@ class Requirement:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Pause:
+class Pause(msgspec.Struct, frozen=True):
     """A `pause` line; `keep` is None if it states no time."""
 
     where: s.PausePlace
@@ -82,8 +79,7 @@ class Pause:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Skill:
+class Skill(msgspec.Struct, frozen=True):
     """The description of a skill."""
 
     name: str
@@ -102,16 +98,14 @@ class Skill:
         return next((p for p in self.parameters if p.name == name), None)
 
 
-@dataclass(frozen=True, slots=True)
-class Argument:
+class Argument(msgspec.Struct, frozen=True):
     """The value of a parameter in a call."""
 
     name: s.Name
     value: TypedExpression
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(msgspec.Struct, frozen=True):
     """A call of a skill. `skill` is None if the skill is unknown."""
 
     skill: Skill | None
@@ -121,8 +115,7 @@ class Call:
     written: s.CallSkill
 
 
-@dataclass(frozen=True, slots=True)
-class TypedNode:
+class TypedNode(msgspec.Struct, frozen=True):
     """A node of a body: its syntax, with its expressions, conditions and call resolved."""
 
     written: s.Node
@@ -133,8 +126,7 @@ class TypedNode:
     orelse: tuple[TypedNode, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Refinement:
+class Refinement(msgspec.Struct, frozen=True):
     """The changes of an implementation to a parameter; `of` is None if the skill has no such parameter."""
 
     of: Parameter | None
@@ -146,24 +138,21 @@ class Refinement:
     written: s.Refinement
 
 
-@dataclass(frozen=True, slots=True)
-class Let:
+class Let(msgspec.Struct, frozen=True):
     """A named value."""
 
     name: s.Name
     value: TypedExpression
 
 
-@dataclass(frozen=True, slots=True)
-class ForceLimit:
+class ForceLimit(msgspec.Struct, frozen=True):
     """A comparison of the measured contact force with a limit."""
 
     operator: Operator
     limit: TypedExpression
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(msgspec.Struct, frozen=True):
     """An event of a `verify` line: one of a skill, a condition and the measured force."""
 
     span: Span
@@ -172,8 +161,7 @@ class Event:
     measured: ForceLimit | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Property:
+class Property(msgspec.Struct, frozen=True):
     """A `verify` line; `text` is the line as written."""
 
     pattern: OneOf["never", "outside", "before", "eventually"]
@@ -186,8 +174,7 @@ class Property:
 Body: TypeAlias = TypedNode | s.RunPython | None
 
 
-@dataclass(frozen=True, slots=True)
-class Implementation:
+class Implementation(msgspec.Struct, frozen=True):
     """A way to execute a skill.
 
     `parameters` are those of the skill with the refinements merged in; `requirements` are only its own.
@@ -213,8 +200,7 @@ class Implementation:
         return f"{self.skill.name}.{self.name}"
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
+class Task(msgspec.Struct, frozen=True):
     """A task: a scene with a goal or a body; whoever runs it gives values to its parameters."""
 
     name: str

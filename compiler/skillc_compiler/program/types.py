@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_dsl.units import DIMENSIONS, NUMBER, Dimension
 from skillc_rdf.vocabulary.types import (
@@ -19,46 +20,39 @@ from skillc_rdf.vocabulary.types import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class UnknownType:
+class UnknownType(msgspec.Struct, frozen=True):
     """The type of an unresolved expression; it fits everywhere, so that one mistake gives one error."""
 
 
-@dataclass(frozen=True, slots=True)
-class Thing:
+class Thing(msgspec.Struct, frozen=True):
     """An individual; `cls` is the IRI of its class, None if only the scene determines it."""
 
     cls: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class Measure:
+class Measure(msgspec.Struct, frozen=True):
     """A number of a dimension, in SI units."""
 
     dimension: Dimension
 
 
-@dataclass(frozen=True, slots=True)
-class Vector:
+class Vector(msgspec.Struct, frozen=True):
     """Three numbers of a dimension, in the world frame."""
 
     dimension: Dimension
 
 
-@dataclass(frozen=True, slots=True)
-class Direction:
+class Direction(msgspec.Struct, frozen=True):
     """A dimensionless vector of length 1."""
 
 
-@dataclass(frozen=True, slots=True)
-class Plain:
+class Plain(msgspec.Struct, frozen=True):
     """`Bool`, `Int`, `Text` or `Pose`."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class ListOf:
+class ListOf(msgspec.Struct, frozen=True):
     """A list, `[T]`."""
 
     element: Type

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+import msgspec
+
 from skillc_compiler.program.spans import is_within_lines
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
@@ -20,16 +22,14 @@ LIBRARY = ""
 """The owner of names that a library declares outside of skills."""
 
 
-@dataclass(frozen=True, slots=True)
-class HeaderLine:
+class HeaderLine(msgspec.Struct, frozen=True):
     """A line that is missing at the top of a file: `use NAME` or `import "NAME"`."""
 
     keyword: str
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class UnknownName:
+class UnknownName(msgspec.Struct, frozen=True):
     """A name without a declaration, and the kind of what it should be the name of.
 
     `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill or `task NAME`

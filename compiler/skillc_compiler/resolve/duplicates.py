@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import assert_never
 
+from msgspec import structs
+
 from skillc_compiler.program.spans import is_within_lines
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations
@@ -31,7 +33,7 @@ def remove_duplicates(
     kept = []
     for unit in files:
         declarations = tuple(_first_declarations(unit.file, declared[unit.file.path], first, problems))
-        kept.append(replace(unit, file=replace(unit.file, declarations=declarations)))
+        kept.append(replace(unit, file=structs.replace(unit.file, declarations=declarations)))
     whole = (each for each in problems if broken.isdisjoint({each.span, *(label.span for label in each.labels)}))
     return Outcome(tuple(kept), tuple(whole))
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec import structs
 
 from skillc_compiler.program.typed import Body, Implementation, Let, Parameter, Property, Refinement, Skill
 from skillc_compiler.program.types import type_of
@@ -94,7 +95,7 @@ def _find_parameter(context: FileContext, member: s.Refinement, skill: Skill) ->
 def _merge_refinement(parameter: Parameter, refinements: Sequence[Refinement]) -> Parameter:
     for new in refinements:
         if new.of is parameter:
-            return replace(
+            return structs.replace(
                 parameter,
                 declared=new.declared,
                 type=new.type,

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
+from msgspec import structs
+
 from skillc_compiler.program.memo import Latest, LookUps, Memo
 from skillc_compiler.program.typed import Implementation, ParsedFile, Skill, Task
 from skillc_compiler.program.unknown import UnknownName
@@ -77,7 +79,7 @@ class ResolveMemo:
             self.declarations.same((d.span, number), (d, lines[d.span.line - 1 : d.span.end_line]))[0]
             for number, d in enumerate(unit.file.declarations)
         )
-        return replace(unit.file, declarations=tuple(kept))
+        return structs.replace(unit.file, declarations=tuple(kept))
 
 
 @dataclass

@@ -13,7 +13,8 @@ from skillc_model.pddl.domain import Action, CostFunction, Predicate
 from skillc_model.pddl.effects import Effects
 from skillc_model.pddl.formulas import FALSE, Change, Formula, conjunction, conjuncts, disjunction
 from skillc_model.pddl.guards import Guards
-from skillc_model.pddl.names import make_unique, to_kebab
+from skillc_model.pddl.kebab import to_kebab
+from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.parameters import DefaultValues, bind_parameters, default_values
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.pddl.translate import (

@@ -9,7 +9,8 @@ from numbers import Real
 
 from skillc_model.conditions import Expression, Invoke, PropertyOf
 from skillc_model.pddl.domain import ComputedCost, Cost, CostFunction, FixedCost
-from skillc_model.pddl.names import make_unique, to_kebab
+from skillc_model.pddl.kebab import to_kebab
+from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.pddl.translate import Scope, Untranslatable
 from skillc_model.rewriting import constant_number

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import GuardMeaning, Predicate
 from skillc_model.pddl.formulas import Atom, Formula
-from skillc_model.pddl.names import make_unique, to_kebab
+from skillc_model.pddl.kebab import to_kebab
+from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.pddl.translate import Scope, StaticEvaluator, Untranslatable
 from skillc_model.read_write import terms_read

@@ -6,11 +6,11 @@ planners fold case. If two terms would get the same name, both are prefixed.
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from skillc_model.pddl.constants import find_mentions
+from skillc_model.pddl.kebab import to_kebab
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import PlainType, PropertyTerm, Vocabulary, local_name
 
@@ -23,10 +23,6 @@ _WORDS_OF_PDDL = """
 """
 _WORDS_OF_OURS = "goal-reached idle reach-goal thing"
 KEYWORDS = frozenset((_WORDS_OF_PDDL + _WORDS_OF_OURS).split())
-_KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
-_WORD_ENDS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
-_FOREIGN = re.compile(r"[^a-z0-9_./:#\s-]")
-_GAPS = re.compile(r"[^a-z0-9]+")
 
 
 def assign_names(library: SkillLibrary) -> dict[str, str]:
@@ -60,16 +56,6 @@ def finite_values(term: PropertyTerm) -> tuple[bool | str, ...]:
 def value_key(iri: str, value: bool | str) -> str:
     """Return the key of a value's predicate in the table of names: the property for True, else `property=value`."""
     return iri if value is True else f"{iri}={'false' if value is False else value}"
-
-
-def to_kebab(text: str) -> str:
-    """Return the text in kebab case: `ArmDevice` becomes arm-device, `Ur5e-1` ur5e-1, a non-ASCII letter its code."""
-    if _KEBAB.fullmatch(text):
-        return text
-    spaced = _WORD_ENDS.sub("-", text).lower()
-    plain = _FOREIGN.sub(lambda match: f"-u{ord(match.group()):x}-", spaced)
-    name = _GAPS.sub("-", plain).strip("-")
-    return name if name[:1].isalpha() else f"x-{name}".strip("-")
 
 
 def allocate_names(wanted: Mapping[str, Sequence[str]], taken: Collection[str] = ()) -> dict[str, str]:

@@ -15,7 +15,8 @@ from skillc_model.pddl.devices import locked_parameters
 from skillc_model.pddl.domain import Excluded, FixedCost, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import Typed
 from skillc_model.pddl.hierarchy import Hierarchy
-from skillc_model.pddl.names import assign_names, to_kebab
+from skillc_model.pddl.kebab import to_kebab
+from skillc_model.pddl.names import assign_names
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.pddl.translate import Impossible, NamedIndividual, NeedsNumbers, Untranslatable
 from skillc_model.pddl.typed import action_terms, typed_atoms

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
+
+import msgspec
 
 from skillc_dsl.comments import find_comments
 from skillc_dsl.parsing.parser import parse
@@ -34,8 +35,8 @@ def _flat(tree: object) -> list[object]:
                 continue
             case tuple():
                 pending += [_END, *reversed(node), "("]
-            case _ if dataclasses.is_dataclass(node):
-                pending += [_END, *reversed([_field(node, field.name) for field in dataclasses.fields(node)])]
+            case msgspec.Struct():
+                pending += [_END, *reversed([_field(node, name) for name in node.__struct_fields__])]
                 result.append(type(node))
             case _:
                 result.append(node)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+
+from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -47,7 +48,7 @@ def parse(source: Source) -> Outcome[s.File]:
     found = (*before, *(problem for problem in builder.problems if problem.span.line not in wrong_lines))
     problems = sorted(found, key=lambda problem: problem.span)
     places = (s.ErrorNode(problem.span) for problem in problems)
-    return Outcome(replace(file, errors=(*places, *recovery.errors)), _first(problems))
+    return Outcome(structs.replace(file, errors=(*places, *recovery.errors)), _first(problems))
 
 
 def _one_kind_each(

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
+
+from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
@@ -61,7 +63,8 @@ def reparse(before: Source, file: s.File, source: Source) -> Outcome[s.File] | N
     edited = (each for each in found.value.declarations if not rest or each.span.line < end)
     kept = (each for each in file.declarations if each.span.line < first)
     header = file.header if above else found.value.header
-    return Outcome(replace(found.value, header=header, declarations=(*kept, *edited, *following)), found.diagnostics)
+    file = structs.replace(found.value, header=header, declarations=(*kept, *edited, *following))
+    return Outcome(file, found.diagnostics)
 
 
 def _ends_before(found: Outcome[s.File], following: Sequence[s.Declaration], end: int | None) -> bool:

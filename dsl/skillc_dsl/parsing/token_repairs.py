@@ -64,6 +64,8 @@ def _unit_length(tokens: tuple[Token, ...], index: int) -> int:
 
     Examples are `5 furlong`, `5 km/h`, and `5 N/mm`, which is tokenized as the quantity `5 N` divided by `mm`.
     """
+    if tokens[index].type not in ("QUANTITY", "NUMBER"):
+        return 0
     first, second, third, fourth = (*tokens[index : index + 4], *(4 * [tokens[-1]]))[:4]
     if first.type == "QUANTITY" and second.type == "SLASH" and _touch(first, second) and _touch(second, third):
         return 3 if third.type == "NAME" and third in UNITS else 0
@@ -94,8 +96,10 @@ def _unit(tokens: tuple[Token, ...], path: str) -> tuple[Token, Diagnostic]:
 
 def _is_doubled_brace(tokens: tuple[Token, ...], index: int) -> bool:
     """Whether two adjacent `{` are on one line; the grammar never allows that."""
-    first, second = tokens[index], tokens[min(index + 1, len(tokens) - 1)]
-    return first.type == second.type == "LBRACE" and first.line == second.line
+    first = tokens[index]
+    if first.type != "LBRACE" or index + 1 == len(tokens):
+        return False
+    return tokens[index + 1].type == "LBRACE" and first.line == tokens[index + 1].line
 
 
 def _doubled(brace: Token, path: str) -> Diagnostic:

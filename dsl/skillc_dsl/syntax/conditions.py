@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.values import Name, Value
@@ -11,15 +12,13 @@ from skillc_dsl.syntax.values import Name, Value
 CompareOperator: TypeAlias = Literal["==", "!=", "<", "<=", ">", ">="]
 
 
-@dataclass(frozen=True, slots=True)
-class Anything:
+class Anything(msgspec.Struct, frozen=True):
     """`_`: some individual, whichever."""
 
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Relation:
+class Relation(msgspec.Struct, frozen=True):
     """`subject relation object`"""
 
     subject: Value | Anything
@@ -28,8 +27,7 @@ class Relation:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Compare:
+class Compare(msgspec.Struct, frozen=True):
     """`left == right` and its like, on property values or on individuals."""
 
     left: Value
@@ -38,8 +36,7 @@ class Compare:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Has:
+class Has(msgspec.Struct, frozen=True):
     """`subject has property`"""
 
     subject: Value
@@ -47,8 +44,7 @@ class Has:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Is:
+class Is(msgspec.Struct, frozen=True):
     """`subject is Class`"""
 
     subject: Value
@@ -56,40 +52,35 @@ class Is:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(msgspec.Struct, frozen=True):
     """`given parameter`"""
 
     parameter: Name
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Not:
+class Not(msgspec.Struct, frozen=True):
     """`not body`"""
 
     body: Condition
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class And:
+class And(msgspec.Struct, frozen=True):
     """`left and right`, flattened."""
 
     parts: tuple[Condition, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Or:
+class Or(msgspec.Struct, frozen=True):
     """`left or right`, flattened."""
 
     parts: tuple[Condition, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Implies:
+class Implies(msgspec.Struct, frozen=True):
     """`if_ implies then`"""
 
     if_: Condition
@@ -97,8 +88,7 @@ class Implies:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Quantified:
+class Quantified(msgspec.Struct, frozen=True):
     """`exists x: Class (body)` or `forall x: Class (body)`."""
 
     quantifier: Literal["exists", "forall"]
@@ -108,8 +98,7 @@ class Quantified:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Bare:
+class Bare(msgspec.Struct, frozen=True):
     """A value standing where a condition belongs, such as `surface.isClean`; kept so that a check can explain it."""
 
     value: Value

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition
@@ -27,16 +28,14 @@ SkillMember: TypeAlias = Parameter | Requirement | Duration | DeviceUse | Pause 
 ImplementationMember: TypeAlias = Refinement | Requirement | Duration | Let | Prefer | Body | RunPython | Verify
 
 
-@dataclass(frozen=True, slots=True)
-class Use:
+class Use(msgspec.Struct, frozen=True):
     """`use skiros, rparts`"""
 
     vocabularies: tuple[Name, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Prefix:
+class Prefix(msgspec.Struct, frozen=True):
     """`prefix lab: <iri>`"""
 
     name: Name
@@ -44,16 +43,14 @@ class Prefix:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Import:
+class Import(msgspec.Struct, frozen=True):
     """`import "file.skill"`"""
 
     path: Text
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class ClassDeclaration:
+class ClassDeclaration(msgspec.Struct, frozen=True):
     """`class Name < Parent, .. disjoint Other, ..`"""
 
     name: Name
@@ -63,8 +60,7 @@ class ClassDeclaration:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Trait:
+class Trait(msgspec.Struct, frozen=True):
     """`functional`, `symmetric`, `transitive`, `inverse NAME` or `sub RELATION`."""
 
     kind: Literal["functional", "symmetric", "transitive", "inverse", "sub"]
@@ -72,8 +68,7 @@ class Trait:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class RelationDeclaration:
+class RelationDeclaration(msgspec.Struct, frozen=True):
     """`relation name(Domain, Range) traits`; repeated, a further signature."""
 
     name: Name
@@ -84,8 +79,7 @@ class RelationDeclaration:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class PropertyDeclaration:
+class PropertyDeclaration(msgspec.Struct, frozen=True):
     """`property name(Domain): Type`"""
 
     name: Name
@@ -95,8 +89,7 @@ class PropertyDeclaration:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class HeadParameter:
+class HeadParameter(msgspec.Struct, frozen=True):
     """`name: Type` in the head of a function or a task."""
 
     name: Name
@@ -104,8 +97,7 @@ class HeadParameter:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class FunctionDeclaration:
+class FunctionDeclaration(msgspec.Struct, frozen=True):
     """`function name(parameter, ..) -> Type = python "module:function"`"""
 
     name: Name
@@ -116,8 +108,7 @@ class FunctionDeclaration:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class SkillDeclaration:
+class SkillDeclaration(msgspec.Struct, frozen=True):
     """`skill Name { members }`"""
 
     name: Name
@@ -126,8 +117,7 @@ class SkillDeclaration:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class ImplementationDeclaration:
+class ImplementationDeclaration(msgspec.Struct, frozen=True):
     """`impl name of Skill { members }`"""
 
     name: Name
@@ -137,8 +127,7 @@ class ImplementationDeclaration:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class TaskDeclaration:
+class TaskDeclaration(msgspec.Struct, frozen=True):
     """`task name(parameter, ..) { scene, goal or do }`"""
 
     name: Name
@@ -162,16 +151,14 @@ Declaration: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class ErrorNode:
+class ErrorNode(msgspec.Struct, frozen=True):
     """A place with a syntax error, and the names in what was dropped there: whatever declares them may be missing."""
 
     span: Span
     names: frozenset[str] = frozenset()
 
 
-@dataclass(frozen=True, slots=True)
-class File:
+class File(msgspec.Struct, frozen=True):
     """One parsed file. Comments that allow a diagnostic stay in the text; `errors` are where something was dropped."""
 
     path: str

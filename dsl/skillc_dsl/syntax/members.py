@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition
@@ -14,8 +15,7 @@ Direction: TypeAlias = Literal["in", "opt", "infer", "out"]
 PausePlace: TypeAlias = Literal["anywhere", "between steps", "never"]
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(msgspec.Struct, frozen=True):
     """`range low .. high`"""
 
     low: Value
@@ -23,8 +23,7 @@ class Range:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(msgspec.Struct, frozen=True):
     """`in name: Type = default range a .. b`; `any` for `infer any`."""
 
     direction: Direction
@@ -37,8 +36,7 @@ class Parameter:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Refinement:
+class Refinement(msgspec.Struct, frozen=True):
     """`refine name: Type = default range a .. b`"""
 
     name: Name
@@ -48,8 +46,7 @@ class Refinement:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Requirement:
+class Requirement(msgspec.Struct, frozen=True):
     """`pre|hold|post [sensed] [label:] condition`; `text` is the condition as written, in one line."""
 
     kind: Literal["pre", "hold", "post"]
@@ -60,16 +57,14 @@ class Requirement:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Duration:
+class Duration(msgspec.Struct, frozen=True):
     """`duration value`"""
 
     value: Value
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class DeviceUse:
+class DeviceUse(msgspec.Struct, frozen=True):
     """`uses parameter` or `shares parameter`."""
 
     kind: Literal["uses", "shares"]
@@ -77,8 +72,7 @@ class DeviceUse:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Pause:
+class Pause(msgspec.Struct, frozen=True):
     """`pause anywhere|between steps|never [keep value]`"""
 
     where: PausePlace
@@ -86,16 +80,14 @@ class Pause:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Flag:
+class Flag(msgspec.Struct, frozen=True):
     """`scoped`, `noplan`, `fallback` or `endless`, alone on its line."""
 
     flag: Literal["scoped", "noplan", "fallback", "endless"]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Let:
+class Let(msgspec.Struct, frozen=True):
     """`let name = value`"""
 
     name: Name
@@ -103,40 +95,35 @@ class Let:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Prefer:
+class Prefer(msgspec.Struct, frozen=True):
     """`prefer N`"""
 
     value: Number
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class RunPython:
+class RunPython(msgspec.Struct, frozen=True):
     """`run python "module:Class"`"""
 
     target: Text
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
+class Body(msgspec.Struct, frozen=True):
     """`do node`"""
 
     node: Node
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(msgspec.Struct, frozen=True):
     """What a `verify` property refers to: a called skill (a name) or a condition."""
 
     what: Name | Condition
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Verify:
+class Verify(msgspec.Struct, frozen=True):
     """`never A [outside B]`, `A before B` or `after A eventually B`."""
 
     pattern: Literal["never", "outside", "before", "eventually"]

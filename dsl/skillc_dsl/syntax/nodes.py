@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition
 from skillc_dsl.syntax.values import Name, Number, Value
 
 
-@dataclass(frozen=True, slots=True)
-class Block:
+class Block(msgspec.Struct, frozen=True):
     """A node with children and no value of its own."""
 
     kind: Literal[
@@ -31,8 +31,7 @@ class Block:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Counted:
+class Counted(msgspec.Struct, frozen=True):
     """`retry N { }` or `repeat N { }`."""
 
     kind: Literal["retry", "repeat"]
@@ -41,8 +40,7 @@ class Counted:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Timeout:
+class Timeout(msgspec.Struct, frozen=True):
     """`timeout Q { }`"""
 
     limit: Value
@@ -50,16 +48,14 @@ class Timeout:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Wait:
+class Wait(msgspec.Struct, frozen=True):
     """`wait Q`"""
 
     time: Value
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class WaitUntil:
+class WaitUntil(msgspec.Struct, frozen=True):
     """`wait until condition`"""
 
     condition: Condition
@@ -67,8 +63,7 @@ class WaitUntil:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class If:
+class If(msgspec.Struct, frozen=True):
     """`if condition { } else { }`; `orelse` is None if there is no `else`."""
 
     condition: Condition
@@ -78,8 +73,7 @@ class If:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class While:
+class While(msgspec.Struct, frozen=True):
     """`while condition max N { }`"""
 
     condition: Condition
@@ -89,8 +83,7 @@ class While:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class For:
+class For(msgspec.Struct, frozen=True):
     """`for variable in items { }`"""
 
     variable: Name
@@ -99,8 +92,7 @@ class For:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class CheckNode:
+class CheckNode(msgspec.Struct, frozen=True):
     """`check(condition)`"""
 
     condition: Condition
@@ -108,16 +100,14 @@ class CheckNode:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class ApplyPosts:
+class ApplyPosts(msgspec.Struct, frozen=True):
     """`apply label, ..`"""
 
     labels: tuple[Name, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Argument:
+class Argument(msgspec.Struct, frozen=True):
     """`name: value` in a call; `name` alone is kept as a reference to the same name."""
 
     name: Name
@@ -125,8 +115,7 @@ class Argument:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class CallSkill:
+class CallSkill(msgspec.Struct, frozen=True):
     """`Skill[implementation](argument, ..) -> out`"""
 
     skill: Name
@@ -136,8 +125,7 @@ class CallSkill:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class With:
+class With(msgspec.Struct, frozen=True):
     """`with call { }`"""
 
     call: CallSkill

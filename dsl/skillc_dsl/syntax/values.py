@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(msgspec.Struct, frozen=True):
     """A bare (`contain`) or qualified (`skiros:contain`) name."""
 
     text: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class ListOf:
+class ListOf(msgspec.Struct, frozen=True):
     """The type `[T]`."""
 
     element: TypeName
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class OfDimension:
+class OfDimension(msgspec.Struct, frozen=True):
     """The type `Vector of Length`; anything else before `of` is not a type."""
 
     of: Name
@@ -36,8 +34,7 @@ class OfDimension:
 TypeName: TypeAlias = Name | OfDimension | ListOf
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(msgspec.Struct, frozen=True):
     """A number with its unit as written: `400 N/m`."""
 
     value: float
@@ -45,8 +42,7 @@ class Quantity:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(msgspec.Struct, frozen=True):
     """A bare number; `text` distinguishes `2` from `2.0`."""
 
     value: float
@@ -54,32 +50,28 @@ class Number:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(msgspec.Struct, frozen=True):
     """A string literal, without its quotes."""
 
     value: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Boolean:
+class Boolean(msgspec.Struct, frozen=True):
     """`true` or `false`."""
 
     value: bool
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class NameReference:
+class NameReference(msgspec.Struct, frozen=True):
     """A name where a value is expected: a parameter, a let, an individual or an enumeration value."""
 
     name: Name
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Member:
+class Member(msgspec.Struct, frozen=True):
     """`of.property`"""
 
     of: Value
@@ -87,8 +79,7 @@ class Member:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Invoke:
+class Invoke(msgspec.Struct, frozen=True):
     """`function(argument, ..)`"""
 
     function: Name
@@ -96,8 +87,7 @@ class Invoke:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Arithmetic:
+class Arithmetic(msgspec.Struct, frozen=True):
     """`left + right` and its like."""
 
     operator: Literal["+", "-", "*", "/"]

@@ -48,9 +48,9 @@ class FindingsCache:
         self._found = found
 
     def store(self) -> None:
-        """Store what was kept."""
+        """Store what was kept, if anything was looked up."""
         path = self._path()
-        if path is not None:
+        if path is not None and self._keys:
             body = {key: self._found[file] for file, key in self._keys.items() if file in self._found}
             cache.store(path, pickle.dumps(body, protocol=5))
             cache.delete_oldest(path.parent, _MOST, _MOST // 2)
@@ -66,7 +66,8 @@ class FindingsCache:
         for path in self.outlines:
             needed = dependencies.needed((path,))
             if needed.isdisjoint(unclear):
-                yield path, _digest("\n".join((self.around, *(f"{each} {texts[each]}" for each in sorted(needed)))))
+                read = (f"{each} {texts[each]}" for each in sorted(needed))
+                yield path, _digest("\n".join((self.around, path, *read)))
 
     def _path(self) -> Path | None:
         folder = cache.cache_folder()

@@ -25,8 +25,9 @@ def check_uncached(library: LibraryFiles, scene: Path | None, memo: AnalysisMemo
 def check_and_store(entry: CheckCacheEntry, memo: AnalysisMemo | None) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a library without an entry in the cache, and store them unless an input changes."""
     library = entry.library
-    before, files = load_snapshot(entry.around), FindingsCache(entry.around)
+    before = load_snapshot(entry.around)
     now = check_edits(library, before, parse_cache.parse_cached) if before else None
+    files = FindingsCache(entry.around)
     if now is not None:
         found = now.diagnostics
     else:
@@ -44,13 +45,13 @@ def _check_whole(
     entry: CheckCacheEntry, memo: AnalysisMemo, files: FindingsCache
 ) -> tuple[tuple[Diagnostic, ...], Snapshot | None]:
     """Check everything; the result has a snapshot if the library compiles."""
-    # After an edit of a body, this is not imported.
+    # After an edit of skills, this is mostly not imported.
     from skillc.services.cell_checks.verdicts import judge_cell_once
     from skillc.services.library_checks import Known, check_whole
 
     memo.checks.files = files
     known = Known(parse_cache.parse_cached, judge_cell_once, memo)
-    found, program = check_whole(entry.library, entry.scene, known)
-    if program is None:
+    found, program, library = check_whole(entry.library, entry.scene, known)
+    if program is None or library is None:
         return found, None
-    return found, take_snapshot(program, files.outlines, files_with_texts(program), found)
+    return found, take_snapshot(program, library, files.outlines, files_with_texts(program), found)

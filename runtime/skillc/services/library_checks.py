@@ -40,10 +40,11 @@ NOTHING = Known()
 
 
 class Checked(NamedTuple):
-    """The diagnostics of a library, and its program, None if it does not compile."""
+    """The diagnostics of a library, its program, and what it is compiled to; both are None if it has errors."""
 
     diagnostics: tuple[Diagnostic, ...]
-    program: Program | None
+    program: Program | None = None
+    library: SkillLibrary | None = None
 
 
 def check_library(library: LibraryFiles, scene: Path | None, known: Known = NOTHING) -> tuple[Diagnostic, ...]:
@@ -59,7 +60,7 @@ def check_whole(library: LibraryFiles, scene: Path | None, known: Known = NOTHIN
     sources = [Source(library.display_path(each.path), each.text) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known.judge)
     problems = sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome)))
-    return Checked(problems, found.program if outcome.ok else None)
+    return Checked(problems, found.program, outcome.value) if outcome.ok else Checked(problems)
 
 
 def _named_goals(library: LibraryFiles, compiled: Outcome[SkillLibrary]) -> tuple[Diagnostic, ...]:

@@ -1,4 +1,4 @@
-"""Caches the last check of a library as outlines of its files, from which a check after an edit of a body can go on."""
+"""Caches the last check of a library as outlines of its files, from which a check after an edit of skills can go on."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from skillc_dsl import cache
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.rendering import json
 from skillc_dsl.source import Source
+from skillc_model.planning_view import encode_view
+from skillc_model.skills import SkillLibrary
 
 _MOST = 500
 """The most entries in the cache; beyond it the older half is deleted."""
@@ -22,11 +24,13 @@ _MOST = 500
 class Snapshot(msgspec.Struct, frozen=True):
     """A library that compiled without errors: the digest and the outline of each file, and everything that was found.
 
-    `texts` are the files with text values that may name something in a scene; `found` is as `skillc check` writes it.
+    `views` are the digests of what the whole library reads of each skill. `texts` are the files with text values that
+    may name something in a scene; `found` is as `skillc check` writes it.
     """
 
     digests: dict[str, str]
     outlines: dict[str, FileOutline]
+    views: dict[str, str]
     texts: frozenset[str]
     found: str
 
@@ -41,11 +45,16 @@ class Snapshot(msgspec.Struct, frozen=True):
 
 
 def take_snapshot(
-    program: Program, outlines: Mapping[str, FileOutline], texts: Iterable[str], found: Iterable[Diagnostic]
+    program: Program,
+    library: SkillLibrary,
+    outlines: Mapping[str, FileOutline],
+    texts: Iterable[str],
+    found: Iterable[Diagnostic],
 ) -> Snapshot:
-    """Return the snapshot of a program without errors, given the outlines of its files."""
+    """Return the snapshot of a program without errors, given what it is compiled to and the outlines of its files."""
     digests = {unit.file.path: digest_of(Source(unit.file.path, unit.text)) for unit in program.files}
-    return Snapshot(digests, dict(outlines), frozenset(texts), json.render(found, {}))
+    views = digest_views(library, library.skills)
+    return Snapshot(digests, dict(outlines), views, frozenset(texts), json.render(found, {}))
 
 
 def update_snapshot(
@@ -56,9 +65,18 @@ def update_snapshot(
 ) -> Snapshot:
     """Return a snapshot with new outlines of edited files."""
     digests = {path: digest_of(source) for path, source in edited.items()}
-    return Snapshot(
-        {**before.digests, **digests}, {**before.outlines, **outlines}, before.texts, json.render(found, {})
+    return msgspec.structs.replace(
+        before,
+        digests={**before.digests, **digests},
+        outlines={**before.outlines, **outlines},
+        found=json.render(found, {}),
     )
+
+
+def digest_views(library: SkillLibrary, skills: Iterable[str]) -> dict[str, str]:
+    """Return the digests of what the whole library reads of skills."""
+    views = {name: encode_view(library.skills[name], library.implementations_of(name)) for name in skills}
+    return {name: hashlib.sha256(view).hexdigest() for name, view in views.items()}
 
 
 def digest_of(source: Source) -> str:

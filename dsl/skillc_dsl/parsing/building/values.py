@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 
 from lark import Token
+from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
@@ -28,7 +28,7 @@ class ValueBuilder(TreeBuilder):
         """Return the name of a label, without its `:`."""
         span = self.place(token)
         text = token.value.removesuffix(":") if isinstance(token, Token) else ""
-        return s.Name(text, dataclasses.replace(span, end_column=span.column + len(text), end_line=span.line))
+        return s.Name(text, Span(span.path, span.line, span.column, span.line, span.column + len(text)))
 
     def list_of(self, children: list[Child]) -> s.ListOf:
         """`[T]`"""
@@ -110,7 +110,7 @@ class ValueBuilder(TreeBuilder):
     def parentheses(self, children: list[Child]) -> Child:
         """Return the content of parentheses with its span extended to include them."""
         inner = children[1]
-        return dataclasses.replace(inner, span=self.over(children))  # type: ignore[type-var]
+        return structs.replace(inner, span=self.over(children))  # type: ignore[type-var]
 
     def as_name(self, child: Child) -> s.Name:
         """Return a child that the grammar guarantees to be a name."""
