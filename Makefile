@@ -26,6 +26,8 @@ RUNS := 2000
 WIPINGS := 50
 # How often a server is attacked in each way in `make soak`, while an operation goes on and is stopped.
 ROUNDS := 20
+# After how many operations the memory of a page of the studio is read in `make soak`, beside that after a sixth of them.
+OPERATIONS := 600
 
 # How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
 EDITS := 10000
@@ -76,6 +78,7 @@ soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/so
 	SEQUENCES=$(SEQUENCES) $(BIN)/pytest --timeout 0 tests/compiler/test_incremental.py -n 2
 	SKILLC_RUNS=$(RUNS) $(BIN)/pytest --timeout 0 -m sim tests/execution/test_random_commands.py tests/execution/test_repeat.py -n 2
 	SKILLC_WIPINGS=$(WIPINGS) $(BIN)/pytest --timeout 0 -m sim tests/sim/test_random_commands.py -n 2
+	$(BIN)/python benchmarks/studio_page.py --operations $(OPERATIONS)
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)
 	cmake -S tests/peers -B build/peers -D BTCPP=$(abspath $(BTCPP))

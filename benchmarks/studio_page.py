@@ -15,11 +15,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from statistics import median, quantiles
 
+from _processes import cpu_s
 from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
+from serving import find_cell
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
-
-from serving import cpu_s, find_cell
 
 from server.running import RunningServer
 from server.running import serving as serving_yard
