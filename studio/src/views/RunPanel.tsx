@@ -1,8 +1,18 @@
 // Run: choose what to do, see the plan first, start; then how far it is, and how it ended.
 import { command, select, start } from "../state/actions";
-import { allows, cell, isOngoing, mayCommand, operation, refusalOf, status } from "../state/studio";
+import {
+  allows,
+  cell,
+  isOngoing,
+  mayCommand,
+  operation,
+  refusalOf,
+  replay,
+  shownRun,
+  status,
+} from "../state/studio";
 import { bounds } from "../state/bounds";
-import { describeFailure, describeRequest, formatTime, formatValue } from "../state/text";
+import { describeFailure, formatTime, formatValue } from "../state/text";
 import { BoundsChart } from "./BoundsChart";
 import { Choose } from "./Choose";
 import { Icon } from "./icons";
@@ -18,47 +28,40 @@ export function RunPanel() {
         Waiting for a cell
       </div>
     );
-  if (status.value === null || choosing.value) return <Choose onDone={() => (choosing.value = false)} />;
+  if (shownRun.value === null || choosing.value) return <Choose onDone={() => (choosing.value = false)} />;
   return <Progress />;
 }
 
 function Progress() {
-  const current = status.value;
+  const current = shownRun.value;
   if (current === null) return null;
   return (
     <div class="run stack">
       <div class="stack">
         <div class="row spread">
-          <h3 class="truncate" title={describeRequest(current.request)}>
-            {describeRequest(current.request)}
+          <h3 class="truncate" title={current.title}>
+            {current.title}
           </h3>
-          <RunBadge state={current.state} verified={current.verified} />
+          {current.state !== null && <RunBadge state={current.state} verified={current.verified} />}
         </div>
         {current.reason !== "" && <p class="small wrap-anywhere">{current.reason}</p>}
-        {current.failure != null && <p class="notice bad">{describeFailure(current.failure)}</p>}
+        {current.failure !== null && <p class="notice bad">{describeFailure(current.failure)}</p>}
       </div>
       <Prompts />
       <Decisions />
       <Continue />
       <Plan />
-      {current.state === "planning" && <Planning />}
-      {!isOngoing.value && (
-        <button class="primary" onClick={() => (choosing.value = true)}>
-          Run something else
-        </button>
-      )}
-      {isOngoing.value && (
-        <button class="plain" onClick={() => (choosing.value = true)}>
-          Submit another one
-        </button>
-      )}
+      {current.state === "planning" && replay.value === null && <Planning />}
+      <button class={isOngoing.value ? "plain" : "primary"} onClick={() => (choosing.value = true)}>
+        {isOngoing.value ? "Submit another one" : "Run something else"}
+      </button>
     </div>
   );
 }
 
 /** What skills ask, as buttons. */
 function Prompts() {
-  const open = isOngoing.value ? operation.value.prompts : [];
+  const open = shownRun.value?.goesOn ? operation.value.prompts : [];
   return (
     <>
       {open.map((each) => (
@@ -68,7 +71,7 @@ function Prompts() {
             {each.choices.map((choice) => (
               <button
                 key={choice}
-                disabled={!mayCommand()}
+                disabled={!allows("answer") || !mayCommand()}
                 onClick={() => void command({ type: "answer", choice, prompt: each.id ?? 0 })}
               >
                 {choice}
@@ -91,7 +94,7 @@ const DECISIONS = [
 /** How an operation that was interrupted can be continued; nothing goes on by itself. */
 function Continue() {
   const current = status.value;
-  if (current?.state !== "interrupted" || current.continued_by !== "") return null;
+  if (replay.value !== null || current?.state !== "interrupted" || current.continued_by !== "") return null;
   const go = (decision: "replan" | "retry" | "skip"): void => {
     const why = decision === "skip" ? "counted as done in the studio" : "";
     void start({ continues: current.id, decision, why }, crypto.randomUUID());
@@ -186,7 +189,9 @@ function Plan() {
               );
             })}
           </ol>
-          {index === attempts.length - 1 && !isOngoing.value && <BoundsChart points={bounds.value.points} />}
+          {index === attempts.length - 1 && replay.value === null && !isOngoing.value && (
+            <BoundsChart points={bounds.value.points} />
+          )}
           {attempt.plan?.steps.length === 0 && <p class="muted">Nothing to do: the goal holds already.</p>}
           {attempt.reason !== "" && (
             <p class="notice waiting small">
