@@ -44,7 +44,9 @@ function Progress() {
           </h3>
           {current.state !== null && <RunBadge state={current.state} verified={current.verified} />}
         </div>
-        {current.reason !== "" && <p class="small wrap-anywhere">{current.reason}</p>}
+        {current.reason !== "" && current.failure === null && (
+          <p class="small wrap-anywhere">{current.reason}</p>
+        )}
         {current.failure !== null && <p class="notice bad">{describeFailure(current.failure)}</p>}
       </div>
       <Prompts />
@@ -67,7 +69,7 @@ function Prompts() {
       {open.map((each) => (
         <div key={each.id} class="notice waiting stack" role="alert">
           <p>{each.text}</p>
-          <div class="row">
+          <div class="row choices">
             {each.choices.map((choice) => (
               <button
                 key={choice}
@@ -152,7 +154,7 @@ function Plan() {
   return (
     <div class="stack">
       {attempts.map((attempt, index) => (
-        <section key={index} class="plan">
+        <section key={index} class="plan" hidden={attempt.plan === null}>
           <h3 class="row spread">
             <span>{attempts.length > 1 ? `Plan ${index + 1}` : "Plan"}</span>
             {attempt.plan !== null && (
