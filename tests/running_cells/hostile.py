@@ -1,4 +1,4 @@
-"""A yard whose texts and names try to be more than text: markup, scripts, links, marks that turn text round, long words."""
+"""A yard whose texts and names try to be more than text: markup, scripts, links, marks that turn text, long words."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ task {LONG} {{
 
 
 def write_hostile_yard(folder: Path, takes_ms: int = 10) -> CellSettings:
-    """Write a yard with such texts in its library, its scene and the name of a file; return the settings of its cell."""
+    """Write a yard with such texts in library, scene and the name of a file; return the settings of its cell."""
     settings = write_yard(folder, takes_ms)
     (folder / FILE).write_text(SKILLS, encoding="utf-8")
     scene = folder / "yard.ttl"

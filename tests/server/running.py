@@ -102,7 +102,7 @@ def serving(
 ) -> Iterator[RunningServer]:
     """Serve a yard in a folder, in which it may have been served before; with a certificate of `authority`, if any.
 
-    Its cell is in a `state` then. `libraries` has folders beside it, if they are served as well. `write` writes the yard.
+    Its cell is in a `state` then. `libraries` has folders beside it, if they are served as well; `write` writes it.
     """
     write(folder, takes_ms)
     with socket.create_server(("127.0.0.1", 0)) as free:

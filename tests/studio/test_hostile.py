@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from running_cells.hostile import FILE, LINK, LONG, MARKUP, TEXT, THING, write_hostile_yard
+from running_cells.hostile import LINK, LONG, MARKUP, TEXT, THING, write_hostile_yard
 from server.running import RunningServer, serving
 from server.test_trials import ENDS, wait_for
 from studio.conftest import OUT

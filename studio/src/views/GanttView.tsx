@@ -86,6 +86,9 @@ function whyEmpty(state: OperationState): string {
   return "The plan of what runs appears here: each step and device over time.";
 }
 
+/** From where in percent of the chart the label of a tick is on its left. */
+const LAST_TICK = 90;
+
 function Chart({ gantt }: { gantt: Gantt }) {
   const busy = busyDevices(gantt);
   const at = (time: number): number => ((time - gantt.from) / (gantt.to - gantt.from)) * 100;
@@ -95,7 +98,11 @@ function Chart({ gantt }: { gantt: Gantt }) {
         <span />
         <span class="gantt-track">
           {ticksOf(gantt, 6).map((each) => (
-            <span key={each} class="gantt-tick" style={{ left: `${at(each)}%` }}>
+            <span
+              key={each}
+              class={`gantt-tick ${at(each) > LAST_TICK ? "is-last" : ""}`}
+              style={{ left: `${at(each)}%` }}
+            >
               {Number(each.toPrecision(6))} s
             </span>
           ))}
