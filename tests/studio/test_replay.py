@@ -32,6 +32,7 @@ COLLECT = """() => {
     window.frames_ = {};
     window.stopCollecting?.();
     window.stopCollecting = skillcStudio.told.subscribe((state) => {
+        if (state.lastEvent === 0) window.frames_ = {};  // Another operation is shown.
         const { time, ...rest } = { ...state, nodes: [...state.nodes] };
         window.frames_[state.lastEvent] = JSON.stringify(rest);
     });

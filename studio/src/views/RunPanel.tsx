@@ -148,9 +148,10 @@ function Decisions() {
 
 /** The plans of the operation: each step with its state, its values and its span in time. */
 function Plan() {
-  const { attempts, nodes, time } = operation.value;
+  const { attempts, nodes, time, task } = operation.value;
   if (attempts.length === 0) return null;
-  const end = Math.max(time, 0.1);
+  const begin = task?.time ?? 0;
+  const whole = { from: begin, to: Math.max(time, begin + 0.1) };
   return (
     <div class="stack">
       {attempts.map((attempt, index) => (
@@ -185,7 +186,12 @@ function Plan() {
                     <span class="mono small muted">
                       {node === undefined ? "" : formatTime((node.endedAt ?? time) - node.startedAt)}
                     </span>
-                    <Span from={node?.startedAt} to={node?.endedAt ?? time} end={end} status={node?.status} />
+                    <Span
+                      from={node?.startedAt}
+                      to={node?.endedAt ?? time}
+                      whole={whole}
+                      status={node?.status}
+                    />
                   </button>
                 </li>
               );
@@ -209,14 +215,15 @@ function Plan() {
 interface SpanProps {
   from: number | undefined;
   to: number;
-  end: number;
+  whole: { from: number; to: number };
   status: string | undefined;
 }
 
 /** When a step ran, as a bar in the time of the whole operation. */
-function Span({ from, to, end, status }: SpanProps) {
+function Span({ from, to, whole, status }: SpanProps) {
   if (from === undefined) return <span class="span" />;
-  const [left, width] = [(from / end) * 100, Math.max(0.8, ((to - from) / end) * 100)];
+  const percent = (time: number): number => (time / (whole.to - whole.from)) * 100;
+  const [left, width] = [percent(from - whole.from), Math.max(0.8, percent(to - from))];
   return (
     <span class="span" aria-hidden="true">
       <span class={`span-bar is-${status ?? "pending"}`} style={{ left: `${left}%`, width: `${width}%` }} />
