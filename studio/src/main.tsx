@@ -12,7 +12,7 @@ import { followBounds } from "./state/bounds";
 import { followLease } from "./state/lease";
 import { followServer } from "./state/live";
 import { measureSamples } from "./state/signals";
-import { session } from "./state/studio";
+import { operation, session, told } from "./state/studio";
 import { handleKey } from "./views/keys";
 import { findSession, Login } from "./views/Login";
 import { Workspace } from "./views/Workspace";
@@ -40,6 +40,9 @@ function LoggedIn() {
   }, []);
   return <Workspace />;
 }
+
+// What is shown, for tests and the console of the browser.
+Object.assign(window, { skillcStudio: { told, operation } });
 
 const root = document.getElementById("app");
 if (root !== null) render(<App />, root);

@@ -1,7 +1,15 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
-import type { Envelope } from "../src/api/types";
-import { addBound, busyDevices, expectDurations, expectSteps, ganttOf, ticksOf } from "../src/state/gantt";
+import type { Envelope, PlanPreview } from "../src/api/types";
+import {
+  addBound,
+  busyDevices,
+  expectDurations,
+  expectSteps,
+  ganttOf,
+  ganttOfPreview,
+  ticksOf,
+} from "../src/state/gantt";
 import { applyEvents, EMPTY } from "../src/state/operation";
 
 const events = JSON.parse(
@@ -29,6 +37,41 @@ describe("the expected times of steps", () => {
 
   test("are those that skills declare, and the others share the rest", () => {
     expect(expectDurations(["Pick", "Look", "Wait"], 10, new Map([["Pick", 4]]))).toEqual([4, 3, 3]);
+  });
+});
+
+describe("a plan that has not been started", () => {
+  const step = { arguments: { arm: "lab:UR5e", part: "lab:Part-1" }, source: "a.skill:3" };
+  const plan = (...steps: object[]): PlanPreview =>
+    ({
+      plan: steps.map((each) => ({ skill: "Pick", ...step, ...each })),
+      duration_s: 6,
+    }) as unknown as PlanPreview;
+  const knowledge = {
+    devices: new Map([["http://lab#UR5e", "lab:UR5e"]]),
+    durations: new Map([["Pick", 2]]),
+  };
+
+  test("has its steps one after the other, with their devices, and none has run", () => {
+    const { steps, from, to, now } = ganttOfPreview(plan({}, { skill: "Place" }), knowledge);
+    expect(steps.map((each) => each.planned)).toEqual([
+      { from: 0, to: 2 },
+      { from: 2, to: 6 },
+    ]);
+    expect(steps.map((each) => each.devices)).toEqual([["lab:UR5e"], ["lab:UR5e"]]);
+    expect(steps.every((each) => each.ran === null && each.status === "pending")).toBe(true);
+    expect([from, to, now]).toEqual([0, 6, null]);
+  });
+
+  test("has the times of its schedule", () => {
+    const { steps } = ganttOfPreview(
+      plan({ start_s: 0, duration_s: 3 }, { start_s: 1, duration_s: 4 }),
+      knowledge,
+    );
+    expect(steps.map((each) => each.planned)).toEqual([
+      { from: 0, to: 3 },
+      { from: 1, to: 5 },
+    ]);
   });
 });
 

@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import type { Envelope, RunEvent } from "../src/api/types";
 import { activeCalls, applyEvents, EMPTY, type OperationState } from "../src/state/operation";
-import { stateAt } from "../src/state/replay";
+import { stateAt, timeEvents } from "../src/state/replay";
 import { selectedPlace, selectedSpan, selectedThings } from "../src/state/selection";
 
 // The events of a real run of `clean_whiteboard`.
@@ -56,6 +56,7 @@ function plain(state: OperationState): unknown {
 
 describe("a real run", () => {
   const state = applyEvents(EMPTY, events);
+  const timed = timeEvents(events);
 
   test("ends as it did, with all nodes ended", () => {
     expect(state.state).toBe("succeeded");
@@ -77,13 +78,22 @@ describe("a real run", () => {
     const singly = events.reduce((before, each) => applyEvents(before, [each]), EMPTY);
     expect(plain(singly)).toEqual(plain(state));
     expect(applyEvents(state, events)).toBe(state);
-    const half = stateAt(events, 30);
-    expect(plain({ ...stateAt(events, 1e9, half), time: 0 })).toEqual(plain({ ...state, time: 0 }));
-    expect(plain(stateAt(events, 30, state))).toEqual(plain(half));
+    const half = stateAt(timed, 30);
+    expect(plain({ ...stateAt(timed, 1e9, half), time: 0 })).toEqual(plain({ ...state, time: 0 }));
+    expect(plain(stateAt(timed, 30, state))).toEqual(plain(half));
+  });
+
+  test("is at each time what it was live after the last event until then", () => {
+    let live = EMPTY;
+    for (const [index, each] of events.entries()) {
+      live = applyEvents(live, [each]);
+      const time = timed.times[index] ?? NaN;
+      if (timed.times[index + 1] !== time) expect(plain(stateAt(timed, time))).toEqual(plain(live));
+    }
   });
 
   test("a prefix shows what ran then", () => {
-    const early = stateAt(events, 9);
+    const early = stateAt(timed, 9);
     expect(activeCalls(early).map((each) => each.name)).toEqual(["MoveTo"]);
     expect(early.attempts[0]?.nodes.filter((each) => each !== null).length).toBe(2);
   });
@@ -95,6 +105,15 @@ describe("a real run", () => {
     expect(selectedPlace(selection, state)?.path).toBe("std/handling.skill");
     expect(selectedThings(selection, state)).toContain("http://example.org/lab#Eraser-1");
   });
+});
+
+test("an event whose time is before that of the one before it is played after that", () => {
+  const timed = timeEvents(
+    envelopes(started(1, 0, "A", 5), started(2, 1, "B", 4), ended(2, "B", "success", 6)),
+  );
+  expect(timed.times).toEqual([5, 5, 6]);
+  expect(stateAt(timed, 4.5).lastEvent).toBe(0);
+  expect(stateAt(timed, 5).lastEvent).toBe(2);
 });
 
 test("a state before stays as it was", () => {

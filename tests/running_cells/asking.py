@@ -31,9 +31,14 @@ task confirm {
 """
 
 
+def write_question(folder: Path, default: str = "") -> None:
+    """Write the file of the task that asks into the folder of a library."""
+    given = f', default: "{default}"' if default else ""
+    (folder / "confirm.skill").write_text(SKILLS.replace("DEFAULT", given), encoding="utf-8")
+
+
 def write_asking_yard(folder: Path, default: str = "", takes_ms: int = 10) -> CellSettings:
     """Write a yard with a task that asks `Is the cart free?`; return the settings of its cell."""
     settings = write_yard(folder, takes_ms)
-    given = f', default: "{default}"' if default else ""
-    (folder / "confirm.skill").write_text(SKILLS.replace("DEFAULT", given), encoding="utf-8")
+    write_question(folder, default)
     return settings

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import MappingProxyType
@@ -98,12 +98,13 @@ def serving(
     environment: Mapping[str, str] = NOTHING,
     state: str = "operational",
     libraries: Sequence[str] = (".",),
+    write: Callable[[Path, int], object] = write_yard,
 ) -> Iterator[RunningServer]:
     """Serve a yard in a folder, in which it may have been served before; with a certificate of `authority`, if any.
 
-    Its cell is in a `state` then. `libraries` has folders beside it, if they are served as well.
+    Its cell is in a `state` then. `libraries` has folders beside it, if they are served as well; `write` writes it.
     """
-    write_yard(folder, takes_ms)
+    write(folder, takes_ms)
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     process = start_server(folder, port, options, libraries, environment=environment)

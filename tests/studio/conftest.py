@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from running_cells.asking import write_question
 from server.running import RunningServer, serving
 from skillc.server.studio_page import STUDIO_FILES
 
@@ -51,7 +52,10 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture(scope="package")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    with serving(tmp_path_factory.mktemp("studio")) as running:
+    """A server of a yard whose library also asks a question."""
+    folder = tmp_path_factory.mktemp("studio")
+    write_question(folder)
+    with serving(folder) as running:
         warm_up(running)
         yield running
 

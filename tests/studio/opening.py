@@ -102,3 +102,17 @@ def wait_for_state(page: Page, state: str, task: str = "carry_all") -> None:
     """Wait until the bar on top says the state of an operation of a task."""
     shown = page.locator(".topbar .operation", has=page.locator("strong", has_text=task))
     shown.locator(".badge", has_text=state).wait_for()
+
+
+LAST_EVENT = """() => new Promise((resolve) => {
+    const end = skillcStudio.told.subscribe((state) => {
+        if (state.ended === null) return;
+        resolve(state.lastEvent);
+        queueMicrotask(() => end());
+    });
+})"""
+
+
+def wait_for_last_event(page: Page) -> int:
+    """Wait until the page has the event that an operation has ended; return its number."""
+    return int(page.evaluate(LAST_EVENT))

@@ -7,7 +7,7 @@ from playwright.sync_api import Page, expect
 
 from server.running import RunningServer
 from studio.accessibility import check_axe
-from studio.opening import FINISHED, start, wait_for_state
+from studio.opening import FINISHED, choose, press_start, wait_for_state
 
 
 @pytest.mark.parametrize(
@@ -18,8 +18,14 @@ def test_a_plan_is_shown_over_time_as_it_happens(page: Page, server: RunningServ
     panel = page.get_by_role("region", name="Signals and plan")
     expect(panel.get_by_text("Nothing to do").or_(panel.locator(".empty, .gantt")).first).to_be_visible()
     server.client.put("/cells/yard/pace", json={"factor": 0.25})
-    start(page, "carry_all")
+    choose(page, "carry_all")
+    expect(panel.get_by_text("it has not been started")).to_be_visible()
+    expect(panel.locator(".gantt-planned")).to_have_count(12)
+    assert panel.locator(".gantt-ran, .gantt-now").count() == 0
+    check_axe(page, f"gantt-before-{scheme}")
+    press_start(page)
     wait_for_state(page, "running")
+    expect(panel.get_by_text("it has not been started")).to_be_hidden()
     expect(panel.locator(".gantt-step")).to_have_count(12)
     expect(panel.locator(".gantt-planned")).to_have_count(12)
     expect(panel.locator(".gantt-now").first).to_be_visible()
@@ -39,6 +45,7 @@ def test_a_plan_is_shown_over_time_as_it_happens(page: Page, server: RunningServ
 
 def test_a_task_with_a_body_says_that_it_has_no_plan(page: Page) -> None:
     page.get_by_role("tab", name="Plan over time").click()
-    start(page, "carry_two")
+    choose(page, "carry_two")
+    press_start(page)
     wait_for_state(page, FINISHED, "carry_two")
     expect(page.get_by_text("This task has a body, and no plan")).to_be_visible()

@@ -33,6 +33,18 @@ def colleague(browser: Browser, server: RunningServer, page: Page) -> Iterator[P
     server.client.delete("/tokens/anna")
 
 
+ALONE = "anna has the lease of this cell; you may watch and stop."
+
+
+def _check_moving(page: Page, refusal: str, may_disturb: bool, may_correct: bool) -> None:
+    """Check which tools of the 3-D view move a thing, and what those say that do not."""
+    for name, may in (("Move in reality", may_disturb), ("Correct belief", may_correct)):
+        tool = page.get_by_role("button", name=name)
+        expect(tool).to_be_enabled(enabled=may)
+        if not may:
+            expect(tool).to_have_attribute("title", refusal)
+
+
 def lease_of(page: Page, word: str) -> None:
     """Wait until the bar on top says who has the lease, and open what it says about it."""
     page.get_by_role("button", name=f"Lease: {word}").click()
@@ -40,15 +52,20 @@ def lease_of(page: Page, word: str) -> None:
 
 def test_only_the_page_with_the_lease_commands(page: Page, colleague: Page, server: RunningServer) -> None:
     server.client.put("/cells/yard/pace", json={"factor": 0.2})
+    page.get_by_role("button", name="Correct belief").click()
     lease_of(colleague, "free")
     colleague.get_by_role("button", name="Take the lease").click()
     lease_of(page, "anna")
     expect(page.get_by_role("region", name="Lease of the cell")).to_contain_text("anna has the lease")
     check_axe(page, "lease")
     page.keyboard.press("Escape")
+    expect(page.get_by_role("form", name="World model")).to_contain_text(ALONE)
+    page.get_by_role("form", name="World model").get_by_role("button", name="Cancel").click()
+    _check_moving(page, ALONE, may_disturb=False, may_correct=False)
+    _check_moving(colleague, "This needs the role edit; you have operate.", may_disturb=True, may_correct=False)
     choose(page, "carry_all")
     expect(page.get_by_role("button", name="Start", exact=True)).to_be_disabled()
-    expect(page.locator(".refusal")).to_have_text("anna has the lease of this cell; you may watch and stop.")
+    expect(page.locator(".refusal")).to_have_text(ALONE)
     assert server.client.post("/cells/yard/operations", json={"task": "carry_all"}).status_code == 409
     start(colleague, "carry_all")
     wait_for_state(colleague, "running")

@@ -49,6 +49,25 @@ def test_nothing_overflows_a_4k_screen(page: Page) -> None:
     start(page, "carry_all")
     wait_for_state(page, FINISHED)
     assert _overflow(page) == (0, 0)
+    assert page.locator(".scene-view canvas").evaluate("each => each.clientWidth") > 1500
+    page.keyboard.press("w")
+    lines = page.locator(".details > *").evaluate_all("all => all.map((each) => each.clientWidth)")
+    assert 0 < max(lines) < 800, "lines are not too long to be read"
+    _check_graph(page)
+
+
+def _check_graph(page: Page) -> None:
+    """Show the graph of the world, and check that its text is as large as that beside it, and all of it in sight."""
+    page.keyboard.press("f")
+    page.get_by_label("What to show").select_option("graph")
+    nodes = page.locator(".graph-node rect")
+    nodes.nth(1).wait_for()
+    heights = nodes.evaluate_all("all => all.map((each) => Math.round(each.getBoundingClientRect().height))")
+    assert set(heights) <= {22, 23, 24}
+    seen = page.locator("[data-panel=details]").bounding_box()
+    drawn = page.locator(".world-graph svg").bounding_box()
+    assert seen is not None and drawn is not None
+    assert drawn["x"] >= seen["x"] and drawn["x"] + drawn["width"] <= seen["x"] + seen["width"]
 
 
 def test_nothing_overflows_1280_by_800(page: Page) -> None:
@@ -60,6 +79,7 @@ def test_nothing_overflows_1280_by_800(page: Page) -> None:
         page.keyboard.press("m")
         assert _overflow(page) == (0, 0)
         page.keyboard.press("m")
+    _check_graph(page)
 
 
 def _overflow(page: Page) -> tuple[int, int]:

@@ -16,6 +16,8 @@ def test_three_clicks_run_a_task(page: Page) -> None:
     press_start(page)
     wait_for_state(page, FINISHED)
     expect(page.locator(".plan-step .is-good")).to_have_count(12)
+    lefts = page.locator(".plan-step .span-bar").evaluate_all("all => all.map((each) => parseFloat(each.style.left))")
+    assert lefts == sorted(lefts) and lefts[0] < 30, "bars begin where the operation began, however old the cell is"
     page.get_by_role("button", name="Enlarge Tree").click()
     page.keyboard.press("2")
     page.keyboard.press("Home")
@@ -40,23 +42,44 @@ def test_a_step_is_one_selection_in_all_views(page: Page) -> None:
     expect(details.locator("tr.is-selected").first).to_contain_text("lab:Cart-1")
 
 
-def test_the_keyboard_alone_does_a_whole_run(page: Page) -> None:
-    page.locator("body").click(position={"x": 2, "y": 400})
+def _tab_to(page: Page, text: str) -> None:
+    """Go to what begins with a text, or belongs to a label with it, with the tabulator alone."""
+    for _ in range(100):
+        page.keyboard.press("Tab")
+        found = page.evaluate("document.activeElement.textContent || document.activeElement.labels?.[0]?.textContent")
+        if (found or "").strip().startswith(text):
+            return
+    raise AssertionError(f"the tabulator does not reach {text}")
+
+
+def _press(page: Page, *texts: str) -> None:
+    """Press or check with the keyboard what has each text."""
+    for text in texts:
+        _tab_to(page, text)
+        is_box = page.evaluate("document.activeElement.type === 'checkbox'")
+        page.keyboard.press("Space" if is_box else "Enter")
+
+
+def test_the_keyboard_alone_does_a_whole_run(page: Page, server: RunningServer) -> None:
+    server.client.put("/cells/yard/pace", json={"factor": 0.2})
     page.keyboard.press("r")
-    tasks = page.get_by_role("list", name="Tasks")
-    tasks.wait_for()
-    for _ in range(20):
-        if page.evaluate("document.activeElement.textContent.startsWith('carry_all')"):
-            break
-        page.keyboard.press("Tab")
-    page.keyboard.press("Enter")
+    page.get_by_role("list", name="Tasks").wait_for()
+    _press(page, "carry_all")
     page.locator(".preview-step").first.wait_for()
-    for _ in range(30):
-        if page.evaluate("document.activeElement.textContent === 'Start'"):
-            break
-        page.keyboard.press("Tab")
-    page.keyboard.press("Enter")
-    page.get_by_role("button", name="Start", exact=True).wait_for(state="detached")
+    _press(page, "pause before the first step", "ask before each plan runs", "Start")
+    wait_for_state(page, "waits for approval")
+    page.get_by_role("button", name="Approve the plan").wait_for()
+    _press(page, "Approve the plan")
+    wait_for_state(page, "paused")
+    page.keyboard.press("n")
+    expect(page.locator(".tree-row[aria-level='1'].is-success")).to_have_count(1)
+    wait_for_state(page, "paused")
+    page.keyboard.press("p")
+    wait_for_state(page, "running")
+    page.keyboard.press("p")
+    wait_for_state(page, "paused")
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    page.keyboard.press("p")
     wait_for_state(page, FINISHED)
     page.keyboard.press("2")
     page.keyboard.press("Home")
@@ -66,6 +89,23 @@ def test_the_keyboard_alone_does_a_whole_run(page: Page) -> None:
     expect(page.get_by_role("dialog")).to_be_visible()
     page.keyboard.press("Escape")
     expect(page.get_by_role("dialog")).to_be_hidden()
+
+
+def test_the_keyboard_alone_answers_a_question_and_reads_the_report(page: Page) -> None:
+    page.keyboard.press("r")
+    page.get_by_role("list", name="Tasks").wait_for()
+    _press(page, "confirm", "Start")
+    expect(page.get_by_role("alert").filter(has_text="Is the cart free?")).to_be_visible()
+    _press(page, "yes")
+    wait_for_state(page, "succeeded", "confirm")
+    page.keyboard.press("h")
+    page.locator(".run-item").first.wait_for()
+    _press(page, "Report")
+    made = page.get_by_role("link", name="Open report")
+    expect(made).to_be_focused()
+    with page.expect_popup() as opened:
+        page.keyboard.press("Enter")
+    expect(opened.value.get_by_role("heading").first).to_contain_text("confirm")
 
 
 def test_pause_step_resume_and_stop(page: Page, server: RunningServer) -> None:

@@ -6,6 +6,7 @@ import type {
   Lease,
   LibraryDescription,
   LibraryStatus,
+  OperationReport,
   OperationRequest,
   OperationStatus,
   OperationTree,
@@ -189,6 +190,10 @@ export const api = {
   setPace: (cell: string, factor: number | null) =>
     write<CellStatus>("PUT", `/cells/${part(cell)}/pace`, { factor }),
   acknowledge: (cell: string) => write<CellStatus>("POST", `/cells/${part(cell)}/acknowledge`),
+  report: (id: string) => read<OperationReport>(`/operations/${part(id)}/report`),
+  makeReport: (id: string) =>
+    write<OperationReport>("POST", `/operations/${part(id)}/report`, { film: false }),
+  reportPage: (id: string) => address(`/operations/${part(id)}/report/report.html`),
   tree: (id: string) => read<OperationTree>(`/operations/${part(id)}/tree`),
   why: (id: string, question: string) => read<RunExplanation>(`/operations/${part(id)}/why`, { question }),
   signals: (id: string, match: string, afterS: number | null) =>

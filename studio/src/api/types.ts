@@ -45,6 +45,7 @@ export type TrialsRequest = Schemas["TrialsRequest"];
 export type Series = Required<Schemas["Series"]>;
 export type Spread = Required<Schemas["Spread"]>;
 export type TrialReplay = Required<Schemas["TrialReplay"]>;
+export type OperationReport = Schemas["OperationReport"];
 export type OperationTree = Schemas["OperationTree"];
 export type PlannedNode = Schemas["TreeNode"];
 export type RunExplanation = Schemas["RunExplanation"];

@@ -16,6 +16,7 @@ import {
   gutter,
   GutterMarker,
   highlightActiveLine,
+  highlightSpecialChars,
   keymap,
   lineNumbers,
   type DecorationSet,
@@ -130,6 +131,7 @@ export function editorBasics(path: string): Extension[] {
   return [
     EditorView.cspNonce.of(nonce),
     lineNumbers(),
+    highlightSpecialChars(),
     history(),
     syntaxHighlighting(COLOURS),
     LOOK,
@@ -153,6 +155,7 @@ function extensionsOf(options: EditorOptions): Extension[] {
     marks,
     breakpointGutter(options.onBreakpoint),
     lineNumbers(),
+    highlightSpecialChars(),
     lintGutter(),
     history(),
     bracketMatching(),

@@ -70,7 +70,7 @@ export class Film {
 const parse = (message: Uint8Array): unknown => JSON.parse(new TextDecoder().decode(message));
 
 /** Return the index of the last of ascending numbers that is at most `limit`; -1 if there is none. */
-function lastUpTo(numbers: readonly number[], limit: number): number {
+export function lastUpTo(numbers: readonly number[], limit: number): number {
   let [low, high] = [0, numbers.length];
   while (low < high) {
     const middle = (low + high) >> 1;

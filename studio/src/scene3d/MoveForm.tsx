@@ -1,11 +1,11 @@
 // What is about to be moved, and where: in the simulated reality, or in the world model, which asks for a reason.
 import type { ReadonlySignal } from "@preact/signals";
 import { useState } from "preact/hooks";
-import type { Vector } from "./types";
+import type { MovingTool, SceneActions, Vector } from "./types";
 
 /** A thing that is being moved with one of the two tools; null while none is chosen. */
 export interface Move {
-  tool: "disturb" | "correct";
+  tool: MovingTool;
   individual: string | null;
   label: string;
   by_m: Vector;
@@ -13,6 +13,7 @@ export interface Move {
 
 export interface MoveFormProps {
   move: ReadonlySignal<Move | null>;
+  refusals: SceneActions["refusals"];
   onChange: (by_m: Vector) => void;
   onApply: (why: string) => Promise<void>;
   onCancel: () => void;
@@ -33,13 +34,14 @@ const TEXTS = {
   },
 };
 
-export function MoveForm({ move, onChange, onApply, onCancel }: MoveFormProps) {
+export function MoveForm({ move, refusals, onChange, onApply, onCancel }: MoveFormProps) {
   const [why, setWhy] = useState("");
   const [isBusy, setBusy] = useState(false);
   const now = move.value;
   if (now === null) return null;
   const texts = TEXTS[now.tool];
-  const isReady = now.individual !== null && now.by_m.some((each) => each !== 0) && !isBusy;
+  const refusal = refusals.value[now.tool];
+  const isReady = refusal === "" && now.individual !== null && now.by_m.some((each) => each !== 0) && !isBusy;
   const apply = (event: Event): void => {
     event.preventDefault();
     if (!isReady) return;
@@ -90,6 +92,7 @@ export function MoveForm({ move, onChange, onApply, onCancel }: MoveFormProps) {
           )}
         </>
       )}
+      {refusal !== "" && <p class="is-waiting">{refusal}</p>}
       <p class="scene-buttons">
         {now.individual !== null && (
           <button type="submit" disabled={!isReady}>

@@ -1,6 +1,6 @@
 // The controls of the view: where from, what is shown, and what the mouse does.
 import type { ReadonlySignal } from "@preact/signals";
-import type { CameraPreset, Reality, SceneOptions, Tool } from "./types";
+import type { CameraPreset, Reality, SceneActions, SceneOptions, Tool } from "./types";
 
 const PRESETS: readonly [CameraPreset, string, string][] = [
   ["fit", "Fit", "Show everything, or what is selected"],
@@ -23,6 +23,13 @@ const SWITCHES: readonly [Exclude<keyof SceneOptions, "reality">, string, string
   ["coverage", "Coverage", "Where tools have really worked"],
 ];
 
+const TOOLS: readonly [Tool, string, string][] = [
+  ["select", "Select", "Click a thing to select it"],
+  ["measure", "Measure", "Click two points"],
+  ["disturb", "Move in reality", "Move a thing in the simulated reality: a disturbance"],
+  ["correct", "Correct belief", "Say where a thing is: an edit of the world model"],
+];
+
 /** What is shown at first. */
 export const START: SceneOptions = {
   reality: "both",
@@ -37,24 +44,15 @@ export interface ToolbarProps {
   options: ReadonlySignal<SceneOptions>;
   tool: ReadonlySignal<Tool>;
   follows: ReadonlySignal<boolean>;
-  can: { disturb: boolean; correct: boolean };
+  refusals: SceneActions["refusals"];
   onCamera: (preset: CameraPreset) => void;
   onOptions: (options: Partial<SceneOptions>) => void;
   onTool: (tool: Tool) => void;
 }
 
 export function Toolbar(props: ToolbarProps) {
-  const { options, tool, follows, can } = props;
-  const tools: readonly [Tool, string, string][] = [
-    ["select", "Select", "Click a thing to select it"],
-    ["measure", "Measure", "Click two points"],
-    ...(can.disturb
-      ? [["disturb", "Move in reality", "Move a thing in the simulated reality: a disturbance"] as const]
-      : []),
-    ...(can.correct
-      ? [["correct", "Correct belief", "Say where a thing is: an edit of the world model"] as const]
-      : []),
-  ].map(([name, text, title]) => [name as Tool, text, title]);
+  const { options, tool, follows } = props;
+  const refusals: Partial<Record<Tool, string>> = props.refusals.value;
   return (
     <div class="scene-toolbar" role="toolbar" aria-label="3-D view">
       <div class="scene-group" role="group" aria-label="View">
@@ -71,11 +69,12 @@ export function Toolbar(props: ToolbarProps) {
         ))}
       </div>
       <div class="scene-group" role="group" aria-label="Mouse">
-        {tools.map(([name, text, title]) => (
+        {TOOLS.map(([name, text, title]) => (
           <button
             key={name}
             type="button"
-            title={title}
+            title={refusals[name] || title}
+            disabled={Boolean(refusals[name])}
             class={`tool-${name}`}
             aria-pressed={tool.value === name}
             onClick={() => props.onTool(name)}

@@ -4,7 +4,16 @@ import { ApiError, part, read, request } from "../api/client";
 import { attempt, select } from "../state/actions";
 import { readWorld } from "../state/live";
 import { rehearsed } from "../state/replay";
-import { cells, live, may, operationId, replay, shownSample, things, worldSequence } from "../state/studio";
+import {
+  cells,
+  live,
+  operationId,
+  refusalOf,
+  replay,
+  shownSample,
+  things,
+  worldSequence,
+} from "../state/studio";
 import { findPaths } from "./paths";
 import type {
   BelievedPoses,
@@ -105,12 +114,13 @@ function followCoverage(cell: string): () => void {
   return () => window.clearInterval(timer);
 }
 
-/** What a person may do in the view of a cell, by the role. */
+/** What a person may do in the view of a cell, by the role and the lease. */
 export function sceneActions(cell: string): SceneActions {
   return {
     select: (iri) => select(iri === null ? { kind: "nothing" } : { kind: "thing", iri }),
-    disturb: may("operate") ? (displacement) => disturb(cell, displacement) : undefined,
-    correct: may("edit") ? (displacement, why) => correct(cell, displacement, why) : undefined,
+    refusals: computed(() => ({ disturb: refusalOf("operate"), correct: refusalOf("edit") })),
+    disturb: (displacement) => disturb(cell, displacement),
+    correct: (displacement, why) => correct(cell, displacement, why),
   };
 }
 

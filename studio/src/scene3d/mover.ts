@@ -73,7 +73,7 @@ export class Mover {
   /** Do what the tool is for; return whether it was done. */
   async apply(displacement: Displacement, why: string, actions: SceneActions): Promise<boolean> {
     const isCorrection = this.move.value?.tool === "correct";
-    return (isCorrection ? actions.correct?.(displacement, why) : actions.disturb?.(displacement)) ?? false;
+    return isCorrection ? actions.correct(displacement, why) : actions.disturb(displacement);
   }
 
   /** Choose nothing; the tool stays. */

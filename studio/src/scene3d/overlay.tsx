@@ -75,13 +75,14 @@ export function showControls(
         options={options}
         tool={tool}
         follows={follows}
-        can={{ disturb: actions.disturb !== undefined, correct: actions.correct !== undefined }}
+        refusals={actions.refusals}
         onCamera={(preset) => handle.setCamera(preset === "follow" && follows.value ? "fit" : preset)}
         onOptions={(changed) => handle.setOptions(changed)}
         onTool={(chosen) => handle.setTool(chosen)}
       />
       <MoveForm
         move={mover.move}
+        refusals={actions.refusals}
         onChange={(by_m) => mover.shift(by_m)}
         onApply={onApply}
         onCancel={() => handle.setTool("select")}

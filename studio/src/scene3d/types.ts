@@ -119,19 +119,24 @@ export interface Displacement {
   pose: PoseNumbers;
 }
 
-/** What a person does in the view. Without `disturb` or `correct` nothing can be moved in reality or the world model. */
+/** The tools that move a thing. */
+export type MovingTool = "disturb" | "correct";
+
+/** What a person does in the view. */
 export interface SceneActions {
   select(individual: string | null): void;
+  /** Why each tool moves nothing now, as a sentence; empty where it may. */
+  refusals: Source<Readonly<Record<MovingTool, string>>>;
   /** Move a thing in the simulated reality; what the cell knows stays as it is. */
-  disturb?: ((displacement: Displacement) => Promise<boolean>) | undefined;
+  disturb(displacement: Displacement): Promise<boolean>;
   /** Move a thing in the world model, with a reason; reality stays as it is. */
-  correct?: ((displacement: Displacement, why: string) => Promise<boolean>) | undefined;
+  correct(displacement: Displacement, why: string): Promise<boolean>;
 }
 
 export type CameraPreset = "front" | "side" | "top" | "follow" | "fit";
 /** What is drawn: what is true, what is believed, one as a ghost over the other, or both side by side. */
 export type Reality = "both" | "true" | "believed" | "beside";
-export type Tool = "select" | "measure" | "disturb" | "correct";
+export type Tool = "select" | "measure" | MovingTool;
 
 /** What is shown. */
 export interface SceneOptions {

@@ -1,5 +1,5 @@
 // A plan over time: when each step is expected to run, when it ran, and which devices it has; pure functions.
-import type { PlanStep } from "../api/types";
+import type { PlanPreview, PlanStep } from "../api/types";
 import type { Attempt, NodeStatus, OperationState } from "./operation";
 import { formatValue } from "./text";
 
@@ -100,6 +100,32 @@ export function ganttOf(
   });
   const to = Math.max(from + 0.1, ...steps.flatMap((each) => [each.planned.to, each.ran?.to ?? 0]));
   return { steps, from, to, now: isOngoing && state.time >= from ? state.time : null };
+}
+
+/** Return a plan that has not been started over time, from 0 s: as its schedule says, or one step after the other. */
+export function ganttOfPreview(preview: PlanPreview, knowledge: GanttKnowledge): Gantt {
+  const labels = new Set(knowledge.devices.values());
+  const durations = expectDurations(
+    preview.plan.map((each) => each.skill),
+    preview.makespan_s ?? preview.duration_s ?? preview.plan.length,
+    knowledge.durations,
+  );
+  const inOrder = expectSteps(durations, { parts: [] }, 0);
+  const steps = preview.plan.map((step, index): GanttStep => {
+    const { start_s: from = null, duration_s: takes = null } = step;
+    const values = Object.values(step.arguments);
+    return {
+      key: null,
+      name: step.skill,
+      values: values.join(", "),
+      devices: values.filter((each) => labels.has(each)).sort(),
+      planned:
+        from === null || takes === null ? (inOrder[index] ?? { from: 0, to: 0 }) : { from, to: from + takes },
+      ran: null,
+      status: "pending",
+    };
+  });
+  return { steps, from: 0, to: Math.max(0.1, ...steps.map((each) => each.planned.to)), now: null };
 }
 
 function devicesOf(

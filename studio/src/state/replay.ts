@@ -2,14 +2,14 @@
 import { batch, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import type { Envelope, OperationTree } from "../api/types";
-import { Film } from "../recording/film";
+import { Film, lastUpTo } from "../recording/film";
 import { readRecording } from "../recording/recording";
 import { applyEvents, EMPTY, type OperationState } from "./operation";
 import { recorded } from "./signals";
 import * as studio from "./studio";
 import type { Replay } from "./studio";
 
-let envelopes: readonly Envelope[] = [];
+let events: TimedEvents = timeEvents([]);
 let film = new Film();
 let timer = 0;
 const TICK_MS = 50;
@@ -42,10 +42,9 @@ export async function replayTrial(series: string, seed: number, task: string): P
 /** Play a file; ApiError if it is no recording. */
 export function openRecording(name: string, content: ArrayBuffer, tree: OperationTree | null = null): void {
   const found = read(content);
-  envelopes = found.envelopes;
+  events = timeEvents(found.envelopes);
   film = found.film;
-  const times = envelopes.map((each) => each.event.time);
-  const [begin, end] = [times[0] ?? 0, Math.max(...times)];
+  const [begin, end] = [events.times[0] ?? 0, events.times.at(-1) ?? 0];
   batch(() => {
     recorded.value = { lines: found.lines, columns: found.columns };
     studio.selection.value = { kind: "nothing" };
@@ -75,13 +74,27 @@ function read(content: ArrayBuffer): ReturnType<typeof readRecording> {
   }
 }
 
+/** Events in their order, and when each has happened and all before it: times in s of the cell that never fall. */
+export interface TimedEvents {
+  envelopes: readonly Envelope[];
+  times: readonly number[];
+}
+
+export function timeEvents(envelopes: readonly Envelope[]): TimedEvents {
+  let latest = -Infinity;
+  return { envelopes, times: envelopes.map(({ event }) => (latest = Math.max(latest, event.time))) };
+}
+
+/** Times that differ by less are the same: a slider rounds them. */
+const SAME_S = 1e-6;
+
 /** Return the state at a time: that of before with more events, or from the beginning again. */
 export function stateAt(
-  all: readonly Envelope[],
+  { envelopes, times }: TimedEvents,
   time: number,
   before: OperationState = EMPTY,
 ): OperationState {
-  const until = all.filter((each) => each.event.time <= time);
+  const until = envelopes.slice(0, lastUpTo(times, time + SAME_S) + 1);
   const isLater = (until.at(-1)?.sequence ?? 0) >= before.lastEvent;
   return { ...applyEvents(isLater ? before : EMPTY, until), time };
 }
@@ -95,7 +108,7 @@ export function seek(time: number): void {
 
 /** Show a recording as it was at its time. */
 function show(replay: Replay): void {
-  const state = stateAt(envelopes, replay.time, replay.state);
+  const state = stateAt(events, replay.time, replay.state);
   studio.replay.value = { ...replay, state, sample: film.sampleAt(replay.time) };
 }
 
@@ -125,7 +138,7 @@ export function setSpeed(speed: number): void {
 /** Show again what happens now. */
 export function endReplay(): void {
   window.clearInterval(timer);
-  envelopes = [];
+  events = timeEvents([]);
   film = new Film();
   batch(() => {
     studio.replay.value = null;

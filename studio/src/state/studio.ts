@@ -3,16 +3,20 @@ import { computed, signal } from "@preact/signals";
 import type { StreamStatus } from "../api/stream";
 import type {
   CellStatus,
+  Failure,
   Lease,
   LibraryDescription,
   OperationStatus,
   OperationTree,
+  PlanPreview,
+  RunState,
   Sample,
   Session,
   WorldFact,
 } from "../api/types";
 import { EMPTY, type OperationState } from "./operation";
 import { withPlanned } from "./planned";
+import { describeRequest } from "./text";
 import { NOTHING, selectedPlace, selectedSpan, selectedThings, type Selection } from "./selection";
 
 /** Who is logged in: null for nobody, undefined while that is not known yet. */
@@ -34,6 +38,9 @@ export const operationId = signal<string | null>(null);
 export const status = computed(() => operations.value.get(operationId.value ?? "") ?? null);
 export const live = signal<OperationState>(EMPTY);
 
+/** The plan for what is chosen and has not been started; null if nothing is, or it has no plan. */
+export const preview = signal<PlanPreview | null>(null);
+
 /** A recording that is played: what it tells at `time`, instead of what happens now. */
 export interface Replay {
   name: string;
@@ -51,10 +58,11 @@ export const replay = signal<Replay | null>(null);
 
 /** The tree that the server has made of the plans of the operation; null while it is not known. */
 export const planned = signal<OperationTree | null>(null);
-export const operation = computed(() => {
-  const { state, tree } = replay.value ?? { state: live.value, tree: planned.value };
-  return withPlanned(state, tree);
-});
+/** What the events tell that are shown: those that come, or those of the recording that is played. */
+export const told = computed(() => replay.value?.state ?? live.value);
+export const operation = computed(() =>
+  withPlanned(told.value, replay.value === null ? planned.value : replay.value.tree),
+);
 
 export const sample = signal<Sample | null>(null);
 export const shownSample = computed(() => (replay.value === null ? sample.value : replay.value.sample));
@@ -98,3 +106,23 @@ export const ENDS: readonly string[] = ["succeeded", "failed", "stopped", "inter
 
 /** Whether the operation that is shown goes on. */
 export const isOngoing = computed(() => status.value !== null && !ENDS.includes(status.value.state));
+
+/** The run that is shown, and how it is: as the server says, or as a recording tells at its time. */
+export interface ShownRun {
+  title: string;
+  state: RunState | null;
+  verified: boolean | null;
+  reason: string;
+  failure: Failure | null;
+  goesOn: boolean;
+}
+export const shownRun = computed((): ShownRun | null => {
+  if (replay.value !== null) {
+    const { state, ended, reason } = told.value;
+    const { verified = null, failure = null } = ended ?? {};
+    return { title: replay.value.name, state, verified, failure, reason, goesOn: ended === null };
+  }
+  if (status.value === null) return null;
+  const { request, state, verified, reason, failure } = status.value;
+  return { title: describeRequest(request), state, verified, reason, failure, goesOn: isOngoing.value };
+});

@@ -1,14 +1,15 @@
 // Choosing what to do: a task of the library, or a goal; the plan is shown before anything moves.
 import { useSignal } from "@preact/signals";
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { api, ApiError, type PlanWish } from "../api/client";
-import type { ParameterDescription, PlanPreview, TaskDescription } from "../api/types";
+import { useMemo, useRef, useState } from "preact/hooks";
+import type { PlanWish } from "../api/client";
+import type { ParameterDescription, TaskDescription } from "../api/types";
 import { start } from "../state/actions";
 import { breakpoints } from "../state/source";
-import { cell, facts, library, mayCommand, refusalOf, status, worldSequence } from "../state/studio";
+import { cell, facts, library, mayCommand, refusalOf, status } from "../state/studio";
 import { individualsOf } from "../state/text";
 import { GoalInput } from "./GoalInput";
 import { Preview } from "./Preview";
+import { usePreview } from "./previewing";
 import { Rehearse } from "./Rehearse";
 
 type Wish =
@@ -256,39 +257,4 @@ function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
       {!mayCommand() && <p class="small is-waiting refusal">{refusalOf("operate")}</p>}
     </>
   );
-}
-
-/** How long nothing has to change before there is a plan, and when a server that was busy is asked again. */
-const [SETTLED_MS, AGAIN_MS] = [200, 1500];
-
-/** Plan again whenever what is wanted, or the world, has changed. */
-function usePreview(request: PlanWish, isPlanned: boolean): { preview: PlanPreview | null; problem: string } {
-  const [found, setFound] = useState<{ preview: PlanPreview | null; problem: string }>({
-    preview: null,
-    problem: "",
-  });
-  const wanted = JSON.stringify(request);
-  const name = cell.value?.name;
-  useEffect(() => {
-    if (name === undefined || !isPlanned) return;
-    let isCurrent = true;
-    setFound({ preview: null, problem: "" });
-    const ask = (): void => {
-      api.plan(name, request).then(
-        (preview) => isCurrent && setFound({ preview, problem: "" }),
-        (error: unknown) => {
-          if (!(error instanceof ApiError)) throw error;
-          if (!isCurrent) return;
-          if (error.isTemporary) timer = window.setTimeout(ask, AGAIN_MS);
-          else setFound({ preview: null, problem: error.message });
-        },
-      );
-    };
-    let timer = window.setTimeout(ask, SETTLED_MS);
-    return () => {
-      isCurrent = false;
-      window.clearTimeout(timer);
-    };
-  }, [wanted, name, isPlanned, worldSequence.value]);
-  return found;
 }

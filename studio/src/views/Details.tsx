@@ -4,7 +4,7 @@ import type { Failure, ImplementationChosen, Rejection, TaskEnded } from "../api
 import { select } from "../state/actions";
 import { activeCalls, ancestors, type TreeNode } from "../state/operation";
 import { selectedNode } from "../state/selection";
-import { operation, selection, status } from "../state/studio";
+import { operation, selection, shownRun } from "../state/studio";
 import { describeFailure, formatTime } from "../state/text";
 import { CallExplanation, Explanation } from "./Explanation";
 import { Fact, PlaceLink, ThingLink, Value } from "./links";
@@ -34,9 +34,9 @@ function Section({ title, children }: { title: string; children: ComponentChildr
 /** Why the operation is as it is: what it does now, or how and why it ended. */
 function OperationDetails() {
   const { ended, reason, state } = operation.value;
-  if (state === null && status.value === null)
+  if (state === null && shownRun.value === null)
     return <div class="empty">Select a node, a thing or a moment, and here is why it is so.</div>;
-  const waits = status.value?.reason ?? reason;
+  const waits = shownRun.value?.reason ?? reason;
   return (
     <>
       {state !== null && (

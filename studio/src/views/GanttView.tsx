@@ -1,11 +1,20 @@
 // The plan over time: a row for each step and each device, as planned and as it happens, with a line that is now.
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { api } from "../api/client";
+import type { PlanPreview } from "../api/types";
 import { attempt as tryTo, select } from "../state/actions";
-import { busyDevices, ganttOf, ticksOf, type Gantt, type GanttStep, type Span } from "../state/gantt";
+import {
+  busyDevices,
+  ganttOf,
+  ganttOfPreview,
+  ticksOf,
+  type Gantt,
+  type GanttStep,
+  type Span,
+} from "../state/gantt";
 import type { OperationState } from "../state/operation";
-import { cell, cellName, isOngoing, library, operation, replay, selection } from "../state/studio";
+import { cell, cellName, library, operation, preview, replay, selection, shownRun } from "../state/studio";
 import { formatTime } from "../state/text";
 import { LeftOutParts } from "./LeftOutParts";
 import { NodeMark } from "./status";
@@ -15,6 +24,15 @@ const devices = signal<{ cell: string; labels: ReadonlyMap<string, string> }>({
   cell: "",
   labels: new Map(),
 });
+
+const knowledge = computed(() => ({
+  devices: devices.value.labels,
+  durations: new Map(
+    (library.value?.skills ?? []).flatMap((each) =>
+      each.duration_s == null ? [] : [[each.name, each.duration_s] as const],
+    ),
+  ),
+}));
 
 export function GanttView() {
   const name = cellName.value;
@@ -26,19 +44,31 @@ export function GanttView() {
       devices.value = { cell: name, labels: new Map(found.map(({ device }) => [device.iri, device.label])) };
     });
   }, [name, isOn]);
+  const chosen = replay.value === null ? preview.value : null;
+  return chosen?.status === "solved" ? <PlanOfChosen chosen={chosen} /> : <PlanOfRun />;
+}
+
+/** The plan of what is chosen, before it is started. */
+function PlanOfChosen({ chosen }: { chosen: PlanPreview }) {
+  if (chosen.plan.length === 0) return <div class="empty">Nothing to do: the goal holds already.</div>;
+  return (
+    <div class="gantt" role="group" aria-label="Plan over time" tabIndex={0}>
+      <p class="row small gantt-note">
+        <NodeMark status="pending" /> The plan of what is chosen; it has not been started.
+      </p>
+      <Chart gantt={ganttOfPreview(chosen, knowledge.value)} />
+    </div>
+  );
+}
+
+function PlanOfRun() {
   const state = operation.value;
   const last = state.attempts.findLast((each) => each.plan !== null);
   if (last?.plan == null) return <div class="empty">{whyEmpty(state)}</div>;
-  const durations = new Map(
-    (library.value?.skills ?? []).flatMap((each) =>
-      each.duration_s == null ? [] : [[each.name, each.duration_s] as const],
-    ),
-  );
-  const goesOn = replay.value === null ? isOngoing.value : state.ended === null;
-  const gantt = ganttOf(state, last, goesOn, { devices: devices.value.labels, durations });
+  const gantt = ganttOf(state, last, shownRun.value?.goesOn ?? false, knowledge.value);
   if (gantt === null) return null;
   return (
-    <div class="gantt">
+    <div class="gantt" role="group" aria-label="Plan over time" tabIndex={0}>
       <Chart gantt={gantt} />
       <LeftOutParts plan={last.plan} arrived={last.arrived} />
       {state.attempts.length > 1 && (
@@ -56,6 +86,9 @@ function whyEmpty(state: OperationState): string {
   return "The plan of what runs appears here: each step and device over time.";
 }
 
+/** From where in percent of the chart the label of a tick is on its left. */
+const LAST_TICK = 90;
+
 function Chart({ gantt }: { gantt: Gantt }) {
   const busy = busyDevices(gantt);
   const at = (time: number): number => ((time - gantt.from) / (gantt.to - gantt.from)) * 100;
@@ -65,7 +98,11 @@ function Chart({ gantt }: { gantt: Gantt }) {
         <span />
         <span class="gantt-track">
           {ticksOf(gantt, 6).map((each) => (
-            <span key={each} class="gantt-tick" style={{ left: `${at(each)}%` }}>
+            <span
+              key={each}
+              class={`gantt-tick ${at(each) > LAST_TICK ? "is-last" : ""}`}
+              style={{ left: `${at(each)}%` }}
+            >
               {Number(each.toPrecision(6))} s
             </span>
           ))}

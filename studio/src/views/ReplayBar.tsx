@@ -23,7 +23,7 @@ export function ReplayBar() {
         aria-label="Time"
         min={current.begin}
         max={current.end}
-        step="0.01"
+        step="any"
         value={current.time}
         onInput={(event) => seek(Number(event.currentTarget.value))}
       />

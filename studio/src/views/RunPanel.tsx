@@ -1,8 +1,18 @@
 // Run: choose what to do, see the plan first, start; then how far it is, and how it ended.
 import { command, select, start } from "../state/actions";
-import { allows, cell, isOngoing, mayCommand, operation, refusalOf, status } from "../state/studio";
+import {
+  allows,
+  cell,
+  isOngoing,
+  mayCommand,
+  operation,
+  refusalOf,
+  replay,
+  shownRun,
+  status,
+} from "../state/studio";
 import { bounds } from "../state/bounds";
-import { describeFailure, describeRequest, formatTime, formatValue } from "../state/text";
+import { describeFailure, formatTime, formatValue } from "../state/text";
 import { BoundsChart } from "./BoundsChart";
 import { Choose } from "./Choose";
 import { Icon } from "./icons";
@@ -18,57 +28,52 @@ export function RunPanel() {
         Waiting for a cell
       </div>
     );
-  if (status.value === null || choosing.value) return <Choose onDone={() => (choosing.value = false)} />;
+  if (shownRun.value === null || choosing.value) return <Choose onDone={() => (choosing.value = false)} />;
   return <Progress />;
 }
 
 function Progress() {
-  const current = status.value;
+  const current = shownRun.value;
   if (current === null) return null;
   return (
     <div class="run stack">
       <div class="stack">
         <div class="row spread">
-          <h3 class="truncate" title={describeRequest(current.request)}>
-            {describeRequest(current.request)}
+          <h3 class="truncate" title={current.title}>
+            {current.title}
           </h3>
-          <RunBadge state={current.state} verified={current.verified} />
+          {current.state !== null && <RunBadge state={current.state} verified={current.verified} />}
         </div>
-        {current.reason !== "" && <p class="small wrap-anywhere">{current.reason}</p>}
-        {current.failure != null && <p class="notice bad">{describeFailure(current.failure)}</p>}
+        {current.reason !== "" && current.failure === null && (
+          <p class="small wrap-anywhere">{current.reason}</p>
+        )}
+        {current.failure !== null && <p class="notice bad">{describeFailure(current.failure)}</p>}
       </div>
       <Prompts />
       <Decisions />
       <Continue />
       <Plan />
-      {current.state === "planning" && <Planning />}
-      {!isOngoing.value && (
-        <button class="primary" onClick={() => (choosing.value = true)}>
-          Run something else
-        </button>
-      )}
-      {isOngoing.value && (
-        <button class="plain" onClick={() => (choosing.value = true)}>
-          Submit another one
-        </button>
-      )}
+      {current.state === "planning" && replay.value === null && <Planning />}
+      <button class={isOngoing.value ? "plain" : "primary"} onClick={() => (choosing.value = true)}>
+        {isOngoing.value ? "Submit another one" : "Run something else"}
+      </button>
     </div>
   );
 }
 
 /** What skills ask, as buttons. */
 function Prompts() {
-  const open = isOngoing.value ? operation.value.prompts : [];
+  const open = shownRun.value?.goesOn ? operation.value.prompts : [];
   return (
     <>
       {open.map((each) => (
         <div key={each.id} class="notice waiting stack" role="alert">
           <p>{each.text}</p>
-          <div class="row">
+          <div class="row choices">
             {each.choices.map((choice) => (
               <button
                 key={choice}
-                disabled={!mayCommand()}
+                disabled={!allows("answer") || !mayCommand()}
                 onClick={() => void command({ type: "answer", choice, prompt: each.id ?? 0 })}
               >
                 {choice}
@@ -91,7 +96,7 @@ const DECISIONS = [
 /** How an operation that was interrupted can be continued; nothing goes on by itself. */
 function Continue() {
   const current = status.value;
-  if (current?.state !== "interrupted" || current.continued_by !== "") return null;
+  if (replay.value !== null || current?.state !== "interrupted" || current.continued_by !== "") return null;
   const go = (decision: "replan" | "retry" | "skip"): void => {
     const why = decision === "skip" ? "counted as done in the studio" : "";
     void start({ continues: current.id, decision, why }, crypto.randomUUID());
@@ -143,13 +148,14 @@ function Decisions() {
 
 /** The plans of the operation: each step with its state, its values and its span in time. */
 function Plan() {
-  const { attempts, nodes, time } = operation.value;
+  const { attempts, nodes, time, task } = operation.value;
   if (attempts.length === 0) return null;
-  const end = Math.max(time, 0.1);
+  const begin = task?.time ?? 0;
+  const whole = { from: begin, to: Math.max(time, begin + 0.1) };
   return (
     <div class="stack">
       {attempts.map((attempt, index) => (
-        <section key={index} class="plan">
+        <section key={index} class="plan" hidden={attempt.plan === null}>
           <h3 class="row spread">
             <span>{attempts.length > 1 ? `Plan ${index + 1}` : "Plan"}</span>
             {attempt.plan !== null && (
@@ -180,13 +186,20 @@ function Plan() {
                     <span class="mono small muted">
                       {node === undefined ? "" : formatTime((node.endedAt ?? time) - node.startedAt)}
                     </span>
-                    <Span from={node?.startedAt} to={node?.endedAt ?? time} end={end} status={node?.status} />
+                    <Span
+                      from={node?.startedAt}
+                      to={node?.endedAt ?? time}
+                      whole={whole}
+                      status={node?.status}
+                    />
                   </button>
                 </li>
               );
             })}
           </ol>
-          {index === attempts.length - 1 && !isOngoing.value && <BoundsChart points={bounds.value.points} />}
+          {index === attempts.length - 1 && replay.value === null && !isOngoing.value && (
+            <BoundsChart points={bounds.value.points} />
+          )}
           {attempt.plan?.steps.length === 0 && <p class="muted">Nothing to do: the goal holds already.</p>}
           {attempt.reason !== "" && (
             <p class="notice waiting small">
@@ -202,14 +215,15 @@ function Plan() {
 interface SpanProps {
   from: number | undefined;
   to: number;
-  end: number;
+  whole: { from: number; to: number };
   status: string | undefined;
 }
 
 /** When a step ran, as a bar in the time of the whole operation. */
-function Span({ from, to, end, status }: SpanProps) {
+function Span({ from, to, whole, status }: SpanProps) {
   if (from === undefined) return <span class="span" />;
-  const [left, width] = [(from / end) * 100, Math.max(0.8, ((to - from) / end) * 100)];
+  const percent = (time: number): number => (time / (whole.to - whole.from)) * 100;
+  const [left, width] = [percent(from - whole.from), Math.max(0.8, percent(to - from))];
   return (
     <span class="span" aria-hidden="true">
       <span class={`span-bar is-${status ?? "pending"}`} style={{ left: `${left}%`, width: `${width}%` }} />

@@ -7,7 +7,8 @@ import { attempt, showOperation } from "../state/actions";
 import { compareRuns } from "../state/comparison";
 import { hasWords, readOlder, searchHistory } from "../state/history";
 import { replayOperation } from "../state/replay";
-import { cellName, operationId, operations, replay, status } from "../state/studio";
+import { makeReport, reports } from "../state/reports";
+import { cellName, ENDS, operationId, operations, replay, status } from "../state/studio";
 import { describeFailure, describeRequest } from "../state/text";
 import { openFile } from "./Dropping";
 import { choosing } from "./layout";
@@ -117,9 +118,38 @@ function Run({ run }: { run: OperationStatus }) {
         <button class="plain small" onClick={() => void attempt(() => download(run.id))}>
           Download
         </button>
+        {ENDS.includes(run.state) && <Report id={run.id} />}
       </div>
     </li>
   );
+}
+
+/** Has the report of a run made, and then leads to it. */
+function Report({ id }: { id: string }) {
+  const how = reports.value.get(id);
+  if (how === "made")
+    return (
+      <a class="small" href={api.reportPage(id)} target="_blank" rel="noopener" ref={takeFocus}>
+        Open report
+      </a>
+    );
+  const isBusy = how === "making";
+  return (
+    <button
+      class="plain small"
+      aria-disabled={isBusy}
+      title="What was done, why and how well, as a page: it is made from the recording"
+      onClick={() => !isBusy && void makeReport(id)}
+    >
+      {isBusy && <span class="spinner" />}
+      {isBusy ? "It is made" : "Report"}
+    </button>
+  );
+}
+
+/** Give an element the keyboard if what had it before is gone. */
+function takeFocus(element: HTMLElement | null): void {
+  if (document.activeElement === document.body) element?.focus();
 }
 
 async function download(id: string): Promise<void> {

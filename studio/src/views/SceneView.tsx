@@ -5,6 +5,7 @@ import { cellName } from "../state/studio";
 export function SceneView() {
   const box = useRef<HTMLDivElement>(null);
   const [problem, setProblem] = useState("");
+  const [isThere, setThere] = useState(false);
   const name = cellName.value;
   useEffect(() => {
     const element = box.current;
@@ -13,8 +14,9 @@ export function SceneView() {
     let isOver = false;
     void mountInto(element, name).then(
       (dispose) => {
-        if (isOver) dispose();
-        else end = dispose;
+        if (isOver) return dispose();
+        end = dispose;
+        setThere(true);
       },
       (error: unknown) => setProblem(error instanceof Error ? error.message : String(error)),
     );
@@ -26,6 +28,12 @@ export function SceneView() {
   return (
     <>
       <div class="scene" ref={box} />
+      {!isThere && problem === "" && (
+        <div class="empty" role="status">
+          <span class="spinner" />
+          The 3-D view is loaded
+        </div>
+      )}
       {problem !== "" && <div class="empty">The 3-D view cannot be shown: {problem}</div>}
     </>
   );

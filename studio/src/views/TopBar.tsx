@@ -12,9 +12,10 @@ import {
   refusalOf,
   replay,
   session,
+  shownRun,
   status,
 } from "../state/studio";
-import { describeRequest, formatTime } from "../state/text";
+import { formatTime } from "../state/text";
 import { Icon, type IconName } from "./icons";
 import { helpShown, nextTheme, theme } from "./layout";
 import { LeaseControl } from "./LeaseControl";
@@ -109,22 +110,18 @@ function Pace({ name, pace }: { name: string; pace: number | null }) {
 }
 
 function OperationTitle() {
-  const current = status.value;
-  if (replay.value !== null)
-    return (
-      <span class="operation">
-        <strong class="truncate">{replay.value.name}</strong>
+  const current = shownRun.value;
+  if (current === null) return <span class="operation muted">nothing has run yet</span>;
+  return (
+    <span class="operation" title={replay.value === null ? status.value?.id : current.title}>
+      <strong class="truncate">{current.title}</strong>
+      {replay.value !== null && (
         <span class="badge is-waiting">
           <Icon name="play" />
           recording
         </span>
-      </span>
-    );
-  if (current === null) return <span class="operation muted">nothing has run yet</span>;
-  return (
-    <span class="operation" title={current.id}>
-      <strong class="truncate">{describeRequest(current.request)}</strong>
-      <RunBadge state={current.state} verified={current.verified} />
+      )}
+      {current.state !== null && <RunBadge state={current.state} verified={current.verified} />}
       <span class="clock mono" title="Time of the cell">
         {formatTime(operation.value.time)}
       </span>

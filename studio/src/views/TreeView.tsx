@@ -4,7 +4,7 @@ import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import { activeCalls, ancestors } from "../state/operation";
 import { treeRows, visibleRange, type TreeRow } from "../state/rows";
 import { select } from "../state/actions";
-import { isOngoing, operation, operationId, selection } from "../state/studio";
+import { operation, operationId, selection, shownRun } from "../state/studio";
 import { describeFailure, formatTime, formatValue } from "../state/text";
 import { Icon } from "./icons";
 import { Panel } from "./Panel";
@@ -112,7 +112,7 @@ function TreeView() {
 
 function TreeEmpty() {
   if (filter.value !== "") return <div class="empty">No node has “{filter.value}” in its name.</div>;
-  if (isOngoing.value)
+  if (shownRun.value?.goesOn)
     return (
       <div class="empty">
         <span class="spinner" />

@@ -1,14 +1,43 @@
 // The relations of the selected individual as a picture; a click on another one puts that into the middle.
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { select } from "../state/actions";
 import { graphOf, mostRelated, type GraphEdge, type GraphNode } from "../state/neighbours";
 import { facts, things } from "../state/studio";
 
-const [WIDTH, HEIGHT, NODE] = [640, 400, 22];
-const LETTERS = 20;
+const [LETTERS, NODE] = [20, 22];
+/** The least and the greatest size of the picture in px: its text has always the same. */
+const [LEAST, MOST] = [
+  { width: 380, height: 230 },
+  { width: 1000, height: 640 },
+];
+/** What is around the picture in its element, in px. */
+const MARGIN = 40;
+
+interface Size {
+  width: number;
+  height: number;
+}
+
+/** Return how large a picture may be in an element. */
+function sizeIn({ clientWidth, clientHeight }: HTMLElement): Size {
+  return {
+    width: Math.max(LEAST.width, Math.min(MOST.width, clientWidth - MARGIN / 2)),
+    height: Math.max(LEAST.height, Math.min(MOST.height, clientHeight - MARGIN)),
+  };
+}
 
 export function WorldGraph() {
+  const box = useRef<HTMLElement>(null);
+  const [{ width, height }, setSize] = useState<Size>(LEAST);
   const centre = things.value[0] ?? mostRelated(facts.value);
-  const graph = centre === null ? null : graphOf(facts.value, centre, WIDTH, HEIGHT);
+  const graph = centre === null ? null : graphOf(facts.value, centre, width, height);
+  useLayoutEffect(() => {
+    const element = box.current;
+    if (element === null) return;
+    const observer = new ResizeObserver(() => setSize(sizeIn(element)));
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, [graph === null]);
   if (graph === null)
     return (
       <div class="empty">
@@ -16,9 +45,10 @@ export function WorldGraph() {
       </div>
     );
   return (
-    <figure class="world-graph">
+    <figure class="world-graph" ref={box}>
       <svg
-        viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+        width={width}
+        height={height}
         role="group"
         aria-label={`Relations of ${graph.nodes[0]?.label ?? ""}`}
       >

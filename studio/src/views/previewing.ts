@@ -1,0 +1,47 @@
+// Plans for what is chosen, before it is started; all panels see the plan.
+import { useEffect, useState } from "preact/hooks";
+import { api, ApiError, type PlanWish } from "../api/client";
+import type { PlanPreview } from "../api/types";
+import { cell, preview, worldSequence } from "../state/studio";
+
+/** How long nothing has to change before there is a plan, and when a server that was busy is asked again. */
+const [SETTLED_MS, AGAIN_MS] = [200, 1500];
+
+/** Plan again whenever what is wanted, or the world, has changed. */
+export function usePreview(
+  request: PlanWish,
+  isPlanned: boolean,
+): { preview: PlanPreview | null; problem: string } {
+  const [found, setFound] = useState<{ preview: PlanPreview | null; problem: string }>({
+    preview: null,
+    problem: "",
+  });
+  const wanted = JSON.stringify(request);
+  const name = cell.value?.name;
+  useEffect(() => {
+    preview.value = found.preview;
+    return () => (preview.value = null);
+  }, [found.preview]);
+  useEffect(() => {
+    if (name === undefined || !isPlanned) return;
+    let isCurrent = true;
+    setFound({ preview: null, problem: "" });
+    const ask = (): void => {
+      api.plan(name, request).then(
+        (preview) => isCurrent && setFound({ preview, problem: "" }),
+        (error: unknown) => {
+          if (!(error instanceof ApiError)) throw error;
+          if (!isCurrent) return;
+          if (error.isTemporary) timer = window.setTimeout(ask, AGAIN_MS);
+          else setFound({ preview: null, problem: error.message });
+        },
+      );
+    };
+    let timer = window.setTimeout(ask, SETTLED_MS);
+    return () => {
+      isCurrent = false;
+      window.clearTimeout(timer);
+    };
+  }, [wanted, name, isPlanned, worldSequence.value]);
+  return found;
+}
