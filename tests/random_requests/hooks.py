@@ -8,8 +8,11 @@ from typing import Any
 import schemathesis
 from schemathesis import HookContext
 
-OPERATION = os.environ.get("SKILLC_TEST_OPERATION", "")
-NAMES = {"cell": "yard", "operation": OPERATION}
+NAMES = {
+    "cell": "yard",
+    "operation": os.environ.get("SKILLC_TEST_OPERATION", ""),
+    "library": os.environ.get("SKILLC_TEST_LIBRARY", ""),
+}
 VALUES: dict[str, str | list[str] | dict[str, str]] = {
     "task": "carry",
     "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"},
@@ -29,6 +32,12 @@ KEPT = 4
 def map_path_parameters(_context: HookContext, drawn: dict[str, Any] | None) -> dict[str, Any] | None:
     """Replace most names in paths by those of what exists."""
     return drawn if drawn is None else {**drawn, **{each: NAMES[each] for each in _chosen(drawn) if each in NAMES}}
+
+
+@schemathesis.hook
+def map_query(_context: HookContext, drawn: dict[str, Any] | None) -> dict[str, Any] | None:
+    """Replace most paths of files by that of one which exists."""
+    return drawn if drawn is None or "path" not in _chosen(drawn) else {**drawn, "path": "yard.skill"}
 
 
 @schemathesis.hook

@@ -41,6 +41,7 @@ def send_requests(server: RunningServer, folder: Path, examples: int, seed: int)
     environment = {
         **os.environ,
         "SCHEMATHESIS_HOOKS": "random_requests.hooks",
+        "SKILLC_TEST_LIBRARY": server.folder.name,
         "SKILLC_TEST_OPERATION": server.submit(task="carry_all", step=True)["id"],
         "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
     }

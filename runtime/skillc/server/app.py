@@ -141,7 +141,7 @@ class Application:
             return answer
         if endpoint.answer is None:
             return Response(status_code=endpoint.status)
-        return make_response(endpoint.status, answer, endpoint.media_type)
+        return make_response(endpoint.status, answer, endpoint.media_types[0])
 
 
 def make_response(status: HTTPStatus, value: object, media_type: str) -> Response:

@@ -48,7 +48,7 @@ class ApiCall:
 class ApiEndpoint:
     """A method of a path below /api/v1, for clients with a role.
 
-    `handle` returns a value of the type `answer`, or raises ApiRefusal with one of `refusals`. With another media type
+    `handle` returns a value of the type `answer`, or raises ApiRefusal with one of `refusals`. With other media types
     than JSON it returns the Response itself. An empty body counts as one without values unless the endpoint
     `needs_body`. Only endpoints that are `unlimited` are answered whatever the rate of requests is.
     """
@@ -66,4 +66,4 @@ class ApiEndpoint:
     refusals: tuple[HTTPStatus, ...] = ()
     takes_key: bool = False
     unlimited: bool = False
-    media_type: str = JSON
+    media_types: tuple[str, ...] = (JSON,)

@@ -79,8 +79,8 @@ def _responses(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> d
     success: dict[str, Any] = {"description": endpoint.status.phrase}
     if endpoint.answer is not None:
         success["content"] = {JSON: {"schema": schema_of[id(endpoint.answer)]}}
-    elif endpoint.media_type != JSON:
-        success["content"] = {endpoint.media_type: {}}
+    elif endpoint.media_types != (JSON,):
+        success["content"] = {each: {} for each in endpoint.media_types}
     refused = {*ALWAYS, *endpoint.refusals, *(WITH_BODY if endpoint.body is not None else ())}
     if endpoint.takes_key:
         refused.add(HTTPStatus.BAD_REQUEST)

@@ -14,6 +14,11 @@ async def show_metrics(call: ApiCall) -> Response:
 
 ENDPOINTS = (
     ApiEndpoint(
-        "GET", "/metrics", "view", "Read the metrics of the server for Prometheus", show_metrics, media_type=MEDIA_TYPE
+        "GET",
+        "/metrics",
+        "view",
+        "Read the metrics of the server for Prometheus",
+        show_metrics,
+        media_types=(MEDIA_TYPE,),
     ),
 )

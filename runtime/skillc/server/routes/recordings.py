@@ -60,6 +60,6 @@ ENDPOINTS = (
         "Read the recording of an operation, an MCAP file, as far as it is written",
         read_recording,
         refusals=(HTTPStatus.NOT_FOUND,),
-        media_type=MEDIA_TYPE,
+        media_types=(MEDIA_TYPE,),
     ),
 )

@@ -83,10 +83,11 @@ ENDPOINTS = (
         refusals=NOT_FOUND,
     ),
     ApiEndpoint(
-        "GET", f"{PATH}/film", "view", "Read the film of a rehearsal", read_film, refusals=NOT_FOUND, media_type=VIDEO,
+        "GET", f"{PATH}/film", "view", "Read the film of a rehearsal", read_film, refusals=NOT_FOUND,
+        media_types=(VIDEO,),
     ),
     ApiEndpoint(
         "GET", f"{PATH}/recording", "view", "Read the recording of a rehearsal, an MCAP file", read_rehearsal_recording,
-        refusals=NOT_FOUND, media_type=MCAP,
+        refusals=NOT_FOUND, media_types=(MCAP,),
     ),
 )  # fmt: skip

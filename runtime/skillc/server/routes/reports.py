@@ -72,7 +72,7 @@ ENDPOINTS = (
     ),
     ApiEndpoint(
         "GET", f"{PATH}/{{file}}", "view", "Read a file of a report: the report itself, the film, a picture",
-        read_report_file, refusals=NOT_FOUND, media_type="application/octet-stream",
+        read_report_file, refusals=NOT_FOUND, media_types=tuple(TYPES.values()),
     ),
     ApiEndpoint(
         "DELETE", PATH, "operate", "End and forget a report", remove_report, status=HTTPStatus.NO_CONTENT,

@@ -122,6 +122,6 @@ ENDPOINTS = (
     ),
     ApiEndpoint(
         "GET", f"{REPLAY}/recording", "view", "Read the recording of a trial that was run again, an MCAP file",
-        read_replay, refusals=NOT_FOUND, media_type=MCAP,
+        read_replay, refusals=NOT_FOUND, media_types=(MCAP,),
     ),
 )  # fmt: skip
