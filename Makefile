@@ -55,8 +55,8 @@ check: .venv/.dev ## check style, types and import rules
 reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with tools of other projects (some need Java)
 	$(BIN)/pytest -m reasoner -n 2
 
-sim: .venv/.dev  ## run whole tasks in simulation
-	$(BIN)/pytest -m sim -n 2
+sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
+	$(BIN)/pytest -m "sim and not long" -n 2
 
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
 	$(BIN)/pytest -m browser tests/studio
@@ -78,6 +78,7 @@ soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/so
 	SEQUENCES=$(SEQUENCES) $(BIN)/pytest --timeout 0 tests/compiler/test_incremental.py -n 2
 	SKILLC_RUNS=$(RUNS) $(BIN)/pytest --timeout 0 -m sim tests/execution/test_random_commands.py tests/execution/test_repeat.py -n 2
 	SKILLC_WIPINGS=$(WIPINGS) $(BIN)/pytest --timeout 0 -m sim tests/sim/test_random_commands.py -n 2
+	$(BIN)/pytest --timeout 0 -m long -n 2
 	$(BIN)/python benchmarks/studio_page.py --operations $(OPERATIONS)
 
 peers: .venv/.dev ## run all exported trees in the BehaviorTree.CPP checkout BTCPP=DIR (needs CMake and a C++ compiler)

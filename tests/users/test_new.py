@@ -15,6 +15,8 @@ from skillc.cli.main import skillc
 from skillc.services.project_templates import TEMPLATES
 
 NAMES = [each.name for each in TEMPLATES]
+LONG = ("pick-place", "press", "insert")
+"""The templates whose whole lives are left to `make soak`."""
 
 
 def call(*arguments: str) -> Result:
@@ -89,7 +91,9 @@ def test_each_template_checks_formats_and_plans_from_any_folder(
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("template", NAMES)
+@pytest.mark.parametrize(
+    "template", [pytest.param(each, marks=pytest.mark.long if each in LONG else ()) for each in NAMES]
+)
 def test_each_template_is_tested_and_tried_as_its_ci_file_does(template: str, tmp_path: Path) -> None:
     python, command = sys.executable, str(Path(sys.executable).with_name("skillc"))
     life = f"skillc new my_cell --template {template} && cd my_cell && skillc check && skillc compile -o build"

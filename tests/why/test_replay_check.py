@@ -121,11 +121,11 @@ def test_another_seed_is_found_as_a_difference_of_the_events(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("task", "backend"),
     [
-        ("clean_whiteboard", "mujoco"),
-        ("clean_table", "mujoco"),
+        pytest.param("clean_whiteboard", "mujoco", marks=pytest.mark.long),
+        pytest.param("clean_table", "mujoco", marks=pytest.mark.long),
         ("contact:insert_peg", "mujoco"),
         ("contact:press_button", "mujoco"),
-        ("clean_both", "kinematic"),
+        pytest.param("clean_both", "kinematic", marks=pytest.mark.long),
         ("share_eraser", "kinematic"),
     ],
 )

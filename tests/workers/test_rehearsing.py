@@ -15,6 +15,7 @@ from skillc.services.reporting import SilentReporter
 from skillc.workers.jobs import RehearsalRequest, Rehearse
 from skillc.workers.rehearsing import rehearse
 from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
+from skillc_runtime.film import film
 
 MAX_TICKS = 20_000
 
@@ -30,17 +31,21 @@ def run_until_held(host: CellHost) -> None:
 
 
 @pytest.mark.parametrize(
-    ("backend", "film"), [("kinematic", False), pytest.param("mujoco", True, marks=pytest.mark.sim)]
+    ("backend", "filmed"), [("kinematic", False), pytest.param("mujoco", True, marks=pytest.mark.sim)]
 )
-def test_a_twin_holds_what_the_gripper_reports(tmp_path: Path, backend: BackendName, film: bool) -> None:
+def test_a_twin_holds_what_the_gripper_reports(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, backend: BackendName, filmed: bool
+) -> None:
+    monkeypatch.setattr(film, "WIDTH", 640)
+    monkeypatch.setattr(film, "HEIGHT", 360)
     with open_cell(make_settings(tmp_path, TABLE, backend), SilentReporter()) as host:
         run_until_held(host)
         known = decode_snapshot(host.take_twin())
         before = host.world.sequence
         folder = tmp_path / "rehearsal"
-        done = rehearse(Rehearse(RehearsalRequest(task=TABLE[1], film=film), str(folder)), known)
+        done = rehearse(Rehearse(RehearsalRequest(task=TABLE[1], film=filmed), str(folder)), known)
         assert (done.status, [each.skill for each in done.plan]) == ("succeeded", ["Wipe"]), done.failure
-        assert host.world.sequence == before and (folder / "film.mp4").exists() == film
+        assert host.world.sequence == before and (folder / "film.mp4").exists() == filmed
 
 
 def test_a_twin_knows_nothing_that_only_the_simulation_knows(tmp_path: Path) -> None:
