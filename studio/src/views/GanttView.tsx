@@ -86,8 +86,8 @@ function whyEmpty(state: OperationState): string {
   return "The plan of what runs appears here: each step and device over time.";
 }
 
-/** From where in percent of the chart the label of a tick is on its left. */
-const LAST_TICK = 90;
+/** From where in percent of the chart a tick has no label: there is no room for it. */
+const LAST_LABEL = 90;
 
 function Chart({ gantt }: { gantt: Gantt }) {
   const busy = busyDevices(gantt);
@@ -98,12 +98,8 @@ function Chart({ gantt }: { gantt: Gantt }) {
         <span />
         <span class="gantt-track">
           {ticksOf(gantt, 6).map((each) => (
-            <span
-              key={each}
-              class={`gantt-tick ${at(each) > LAST_TICK ? "is-last" : ""}`}
-              style={{ left: `${at(each)}%` }}
-            >
-              {Number(each.toPrecision(6))} s
+            <span key={each} class="gantt-tick" style={{ left: `${at(each)}%` }}>
+              {at(each) > LAST_LABEL ? "" : `${Number(each.toPrecision(6))} s`}
             </span>
           ))}
         </span>
