@@ -55,14 +55,19 @@ export async function openPath(library: string, path: string | null): Promise<vo
   await openFile(library, wanted);
 }
 
+/** How many files were asked for: only the last one is shown, in whatever order they arrive. */
+let asked = 0;
+
 export async function openFile(library: string, path: string): Promise<void> {
   const before = source.peek();
   if (before?.draft != null && before.path !== path) {
     message.value = { kind: "error", text: `${before.path} has changes. Save them, or undo them, first.` };
     return;
   }
+  const number = ++asked;
   await attempt(async () => {
     const { text, hash, editable } = await api.file(library, path);
+    if (number !== asked) return;
     source.value = { library, path, text, hash, editable, draft: null, problem: "" };
   });
 }
