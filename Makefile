@@ -70,7 +70,7 @@ fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; fa
 mistakes: .venv/.dev ## make EDITS=10000 random mistakes in libraries from SEED=0, one, two and three at once; each has to be one error
 	PYTHONPATH=tests:tests/compiler $(BIN)/python -m random_mistakes --edits $(EDITS) --seed $(SEED)
 
-soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits, RUNS=2000 tasks and WIPINGS=50 with random requests
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak); kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits, RUNS=2000 tasks and WIPINGS=50 with random requests, simulations that take minutes, a page over OPERATIONS=600
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m killed_servers --kills $(KILLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)

@@ -69,7 +69,7 @@ class Author:
             (self.folder / name).write_text(text, "utf-8")
 
     def edit(self) -> None:
-        """Edit one file, mostly in a body or a signature; sometimes undo nothing of it for several steps."""
+        """Edit one file, mostly in a body or a signature."""
         path = self.chance.choice(sorted(self.folder.glob("*.skill")))
         text = path.read_text("utf-8")
         edits = [_edit_body, _edit_signature, _make_mistake, _move, _suppress]
@@ -85,19 +85,31 @@ def _edit_body(text: str, chance: random.Random) -> str:
         return text
     here = chance.choice(inside)
     match chance.randrange(6):
+        case 4:
+            lines[here] = _renumber(lines[here], chance)
+        case 5:
+            lines[here] = f"{lines[here]}  # it is a comment"
+        case change:
+            _change_line(lines, here, change, "        # it is a comment")
+    return "\n".join(lines)
+
+
+def _change_line(lines: list[str], here: int, change: int, comment: str) -> None:
+    """Remove (0) or repeat (1) a line, write a comment above it (2), or exchange it with that above (3)."""
+    match change:
         case 0:
             del lines[here]
         case 1:
             lines.insert(here, lines[here])
         case 2:
-            lines.insert(here, "        # it is a comment")
-        case 3:
-            lines[here], lines[here - 1] = lines[here - 1], lines[here]
-        case 4:
-            lines[here] = "".join(chance.choice("123") if c.isdigit() and c != "0" else c for c in lines[here])
+            lines.insert(here, comment)
         case _:
-            lines[here] = f"{lines[here]}  # it is a comment"
-    return "\n".join(lines)
+            lines[here], lines[here - 1] = lines[here - 1], lines[here]
+
+
+def _renumber(line: str, chance: random.Random) -> str:
+    """Change the digits of a line, but for zeros."""
+    return "".join(chance.choice("123") if c.isdigit() and c != "0" else c for c in line)
 
 
 def _body_lines(lines: list[str]) -> list[int]:
@@ -120,19 +132,13 @@ def _edit_signature(text: str, chance: random.Random) -> str:
         return text
     here = chance.choice(inside)
     match chance.randrange(9):
-        case 0:
-            del lines[here]
-        case 1:
-            lines.insert(here, lines[here])
-        case 2:
-            lines.insert(here, "    ## It is documented.")
-        case 3:
-            lines[here], lines[here - 1] = lines[here - 1], lines[here]
+        case 0 | 1 | 2 | 3 as change:
+            _change_line(lines, here, change, "    ## It is documented.")
         case 4:
             lines.insert(here, f"    opt   more: Length = {chance.randrange(1, 9)} mm")
         case _ if numbered:
             here = chance.choice(numbered)
-            lines[here] = "".join(chance.choice("123") if c.isdigit() and c != "0" else c for c in lines[here])
+            lines[here] = _renumber(lines[here], chance)
         case _:
             lines[here] = f"{lines[here]}  # it is a comment"
     return "\n".join(lines)

@@ -43,11 +43,11 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
 
 def _declare(effects: Sequence[UndeclaredEffect], skill: Skill) -> Fix | None:
     """Return the edit that adds the missing postconditions at the end of a skill; None if they cannot be written."""
-    posts = (each for each in skill.requirements if each.kind == "post")
-    places = [each.span for part in (skill.parameters, skill.requirements, posts) for each in part]
-    if not places or not all(each.missing for each in effects):
+    posts = [each for each in skill.requirements if each.kind == "post"]
+    lines = posts or skill.requirements or skill.parameters
+    if not lines or not all(each.missing for each in effects):
         return None
-    last = places[-1]
+    last = lines[-1].span
     added = [f"post {each}" for each in dict.fromkeys(each.missing for each in effects)]
     text = "".join(f"\n{' ' * (last.column - 1)}{line}" for line in added)
     return Fix(last.after, text, f"add {' and '.join(f'`{line}`' for line in added)}", safe=False)

@@ -81,12 +81,13 @@ def _without_surplus(region: Sequence[Token], surplus: int, path: str) -> tuple[
         if begins_line(region, index) or not lines:
             lines.append(token)
         indent = lines[-1].column or 1
+        closes = token.type == "RBRACE" and bool(opened)
+        if closes and opened[-1] < indent and len(problems) < surplus:
+            problems.append(_unopened(token_span(token, path), _find_block(lines, path)))
+            continue
         if token.type == "LBRACE":
             opened.append(indent)
-        elif token.type == "RBRACE" and opened:
-            if opened[-1] < indent and len(problems) < surplus:
-                problems.append(_unopened(token_span(token, path), _find_block(lines, path)))
-                continue
+        elif closes:
             opened.pop()
         result.append(token)
     return tuple(result), problems

@@ -126,10 +126,9 @@ def _label(word: Token, colon: Token, value: Token, path: str) -> tuple[Token, D
 
 def report_missing_space(label: Span, value: str) -> Diagnostic:
     """Report that `value` follows a label's `:` without a space."""
-    end = label.after
     message = f"a space is missing between `:` and `{value}`"
     help_ = "without it, `a:b` reads as the name `b` of the vocabulary `a`"
-    return Diagnostic("missing-space-after-colon", label, message, help_, fix=Fix(end, " ", "insert a space"))
+    return Diagnostic("missing-space-after-colon", label, message, help_, fix=Fix(label.after, " ", "insert a space"))
 
 
 def match_foreign_comparison(tokens: Sequence[Token], index: int) -> int:

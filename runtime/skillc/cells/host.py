@@ -220,9 +220,8 @@ class CellHost:
         self.simulation.backend.close()
 
     def _describe_known(self, devices: bytes) -> CellSnapshot:
-        world, backend = self.world, self.settings.backend
-        writes = tuple(each.undoable for each in world.ledger.writes)
-        return CellSnapshot(self.library, world.snapshot(), writes, world.sequence, backend, devices)
+        world, writes = self.world, self.world.ledger.list_undoable()
+        return CellSnapshot(self.library, world.snapshot(), writes, world.sequence, self.settings.backend, devices)
 
     def _commit(self) -> None:
         """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""

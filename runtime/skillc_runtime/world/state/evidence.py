@@ -75,7 +75,7 @@ class UndoableWrite:
 class LedgerWrite:
     """A write, or several that are kept as one with the weakest evidence; they lead from one version to another.
 
-    `stored` is as what it was stored, if it was.
+    `stored` is how it was read from a store, if it was.
     """
 
     decides: DecidingWrite
@@ -121,6 +121,10 @@ class EvidenceLedger:
     def writes(self) -> tuple[LedgerWrite, ...]:
         """All writes, the oldest first: that one may stand for several."""
         return tuple(self._entries)
+
+    def list_undoable(self) -> tuple[UndoableWrite, ...]:
+        """Return all writes as they are stored, the oldest first."""
+        return tuple(each.undoable for each in self._entries)
 
     @property
     def merged(self) -> LedgerWrite | None:
