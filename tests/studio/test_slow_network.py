@@ -30,6 +30,7 @@ def _wait_for_all_events(page: Page, server: RunningServer) -> None:
 
 def test_a_slow_network_delays_and_loses_nothing(context: BrowserContext, server: RunningServer) -> None:
     put_back(server)
+    server.client.put("/cells/yard/pace", json={"factor": 0.1})
     page = context.new_page()
     throttle = context.new_cdp_session(page)
     throttle.send("Network.enable")
