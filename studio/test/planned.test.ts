@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import type { Envelope, OperationTree } from "../src/api/types";
 import { applyEvents, EMPTY } from "../src/state/operation";
-import { withPlanned } from "../src/state/planned";
+import { pendingNodes, withPlanned } from "../src/state/planned";
 import { treeRows } from "../src/state/rows";
 
 const source = { path: "a.skill", line: 1, column: 1 };
@@ -18,6 +18,7 @@ const TREE: OperationTree = {
   sequence: 0,
   nodes: [node(9, 0, "all"), node(1, 9, "A"), node(2, 1, "A1"), node(3, 9, "B"), node(4, 9, "C")],
 };
+const PLANS = pendingNodes(TREE);
 const event = (sequence: number, id: number, parent: number, name: string): Envelope => ({
   run: "r",
   sequence,
@@ -32,17 +33,17 @@ const rows = (state: Parameters<typeof treeRows>[0]): string[] =>
 const PLANNED = { ...EMPTY, attempts: [{ plan: null, arrived: null, nodes: [], reason: "" }] };
 
 test("before anything has started the tree of the plan is there, pending", () => {
-  expect(rows(withPlanned(PLANNED, TREE))).toEqual(["all pending"]);
+  expect(rows(withPlanned(PLANNED, PLANS))).toEqual(["all pending"]);
 });
 
 test("before there is a plan its tree is not there, nor what is in a call before its implementation is chosen", () => {
-  expect(rows(withPlanned(EMPTY, TREE))).toEqual([]);
-  expect(withPlanned(PLANNED, TREE).nodes.has(2)).toBe(false);
+  expect(rows(withPlanned(EMPTY, PLANS))).toEqual([]);
+  expect(withPlanned(PLANNED, PLANS).nodes.has(2)).toBe(false);
 });
 
 test("what runs is as the events say, what comes is pending, in the order of the plan", () => {
   const state = applyEvents(PLANNED, [event(1, 9, 0, "all"), event(2, 3, 9, "B")]);
-  expect(rows(withPlanned(state, TREE))).toEqual([
+  expect(rows(withPlanned(state, PLANS))).toEqual([
     "all running",
     "  A pending",
     "  B running",
@@ -52,7 +53,7 @@ test("what runs is as the events say, what comes is pending, in the order of the
 
 test("a node that the tree does not have yet stays", () => {
   const state = applyEvents(PLANNED, [event(1, 9, 0, "all"), event(2, 7, 9, "new")]);
-  expect(rows(withPlanned(state, TREE))).toContain("  new running");
+  expect(rows(withPlanned(state, PLANS))).toContain("  new running");
 });
 
 test("without a tree a state is as it was", () => {

@@ -19,6 +19,7 @@ import type {
   BelievedPoses,
   CellModel,
   Displacement,
+  Sample,
   SceneActions,
   SceneSources,
   SurfaceCoverage,
@@ -45,10 +46,19 @@ const rehearsedPaths = computed(() => {
 });
 const paths = computed(() => (isPlanned.value ? rehearsedPaths.value : []));
 
+let last = "";
+let lastSample: Sample | null = null;
+/** The sample that is shown: the same one while nothing but time passes, as nothing has to be drawn then. */
+const sample = computed(() => {
+  const now = JSON.stringify({ ...shownSample.value, time_s: 0 });
+  if (now !== last) [last, lastSample] = [now, shownSample.value];
+  return lastSample;
+});
+
 export const sceneSources: SceneSources = {
   model,
   believed,
-  sample: shownSample,
+  sample,
   selected: things,
   coverage: computed(() => (replay.value === null ? coverage.value : {})),
   paths,

@@ -16,6 +16,8 @@ export class Stage {
   private readonly lights = new SceneLights();
   width = 1;
   height = 1;
+  /** Whether nothing of the canvas is in sight, as while another panel is enlarged. */
+  isHidden = false;
   private readonly renderer: three.WebGLRenderer;
   private readonly quality = new Quality();
   private floor: ReturnType<typeof makeFloor> | null = null;
@@ -50,6 +52,7 @@ export class Stage {
   }
 
   setSize(width: number, height: number): void {
+    this.isHidden = width === 0 || height === 0;
     [this.width, this.height] = [Math.max(1, width), Math.max(1, height)];
     this.renderer.setSize(this.width, this.height, false);
   }

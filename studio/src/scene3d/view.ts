@@ -200,6 +200,7 @@ export class SceneView implements SceneHandle {
   }
 
   private draw(now: number): void {
+    if (this.stage.isHidden) return;
     const began = performance.now();
     if (this.isStale) this.update();
     this.isStale = false;

@@ -29,11 +29,14 @@ export function selectedPlace(selection: Selection, operation: OperationState): 
   return selectedNode(selection, operation)?.source ?? null;
 }
 
+/** The same whenever no thing is selected, so that what shows it need not change. */
+const NO_THINGS: readonly string[] = [];
+
 /** Return the IRIs of what is selected: a thing, or what the parameters of a call or of the one around it stand for. */
-export function selectedThings(selection: Selection, operation: OperationState): string[] {
+export function selectedThings(selection: Selection, operation: OperationState): readonly string[] {
   if (selection.kind === "thing") return [selection.iri];
   const node = selectedNode(selection, operation);
-  if (node === null) return [];
+  if (node === null) return NO_THINGS;
   const call = [node, ...ancestors(operation.nodes, node.key)].find((each) => each.choice !== null);
   return Object.values(call?.choice?.bindings ?? {}).flatMap(irisIn);
 }

@@ -15,7 +15,7 @@ import type {
   WorldFact,
 } from "../api/types";
 import { EMPTY, type OperationState } from "./operation";
-import { withPlanned } from "./planned";
+import { pendingNodes, withPlanned } from "./planned";
 import { describeRequest } from "./text";
 import { NOTHING, selectedPlace, selectedSpan, selectedThings, type Selection } from "./selection";
 
@@ -60,9 +60,11 @@ export const replay = signal<Replay | null>(null);
 export const planned = signal<OperationTree | null>(null);
 /** What the events tell that are shown: those that come, or those of the recording that is played. */
 export const told = computed(() => replay.value?.state ?? live.value);
-export const operation = computed(() =>
-  withPlanned(told.value, replay.value === null ? planned.value : replay.value.tree),
-);
+const shownPlans = computed(() => {
+  const tree = replay.value === null ? planned.value : replay.value.tree;
+  return tree && pendingNodes(tree);
+});
+export const operation = computed(() => withPlanned(told.value, shownPlans.value));
 
 export const sample = signal<Sample | null>(null);
 export const shownSample = computed(() => (replay.value === null ? sample.value : replay.value.sample));

@@ -1,6 +1,9 @@
 // The 3-D view, which is loaded after the rest of the page.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { cellName } from "../state/studio";
+import { cellName, live } from "../state/studio";
+
+/** How long the 3-D view waits for what is quick to show, in ms; making it takes the page longer than all the rest. */
+const FIRST_MS = 1000;
 
 export function SceneView() {
   const box = useRef<HTMLDivElement>(null);
@@ -39,8 +42,22 @@ export function SceneView() {
   );
 }
 
+/** Wait until the tree of the operation is painted, if there is one. */
+function restShown(): Promise<void> {
+  return new Promise((resolve) => {
+    const timer = window.setTimeout(resolve, FIRST_MS);
+    const end = live.subscribe(({ lastEvent }) => {
+      if (lastEvent === 0) return;
+      window.clearTimeout(timer);
+      requestAnimationFrame(() => requestAnimationFrame(() => resolve()));
+      queueMicrotask(() => end());
+    });
+  });
+}
+
 /** Show a cell in an element; the function that is returned ends that. */
 async function mountInto(element: HTMLElement, cell: string): Promise<() => void> {
+  await restShown();
   const { followScene, mountScene, sceneActions, sceneSources } = await import("../scene3d");
   const handle = mountScene(element, sceneSources, sceneActions(cell));
   const unfollow = followScene(cell);

@@ -1,6 +1,6 @@
 // The tree of the operation, live: only the rows in sight are drawn, whatever the size of the tree.
 import { computed, signal } from "@preact/signals";
-import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { activeCalls, ancestors } from "../state/operation";
 import { treeRows, visibleRange, type TreeRow } from "../state/rows";
 import { select } from "../state/actions";
@@ -134,7 +134,17 @@ interface RowProps {
   total: number;
 }
 
-function Row({ row, isSelected, position, total }: RowProps) {
+/** A row that is made anew only if what it shows has changed: of many in sight few do. */
+function Row(props: RowProps) {
+  const { row, isSelected, position, total } = props;
+  const { node, depth, expandable, open } = row;
+  return useMemo(
+    () => <RowContent {...props} />,
+    [node, depth, expandable, open, isSelected, position, total],
+  );
+}
+
+function RowContent({ row, isSelected, position, total }: RowProps) {
   const { node } = row;
   const choice = node.choice;
   return (
