@@ -59,7 +59,7 @@ sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are i
 	$(BIN)/pytest -m "sim and not long" -n 2
 
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
-	$(BIN)/pytest -m browser tests/studio
+	$(BIN)/pytest -m browser tests/studio -n 2 --dist loadfile
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel
