@@ -27,8 +27,8 @@ PACKAGES = (
     *("skillc_dsl", "skillc_ontology", "skillc_rdf", "skillc_model", "skillc_compiler", "skillc_skills"),
     *("skillc_runtime", "skillc"),
 )
-_SCENE = re.compile(r'\bscene\s+"([^"\n]+)"')
-_PYTHON = re.compile(r'\bpython\s+"([\w.]+):(\w+)"')
+_SCENE = re.compile(r'scene\s+"([^"\n]+)"')
+_PYTHON = re.compile(r'python\s+"([\w.]+):(\w+)"')
 _MOST = 500
 """The most entries in the cache; beyond it the older half is deleted."""
 
