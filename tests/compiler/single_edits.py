@@ -7,10 +7,9 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from lark import Token
-
 from skillc_dsl.parsing.grammar import END
 from skillc_dsl.parsing.lexer import tokenize
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source
 from skillc_dsl.units import UNITS
 

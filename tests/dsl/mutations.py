@@ -6,8 +6,9 @@ import random
 from dataclasses import dataclass
 
 from lark.exceptions import LarkError
+from lark_peer import load_parser
 
-from skillc_dsl.parsing.grammar import END, load_parser
+from skillc_dsl.parsing.grammar import END
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
 

@@ -7,8 +7,9 @@ from functools import cache
 
 from hypothesis import strategies as st
 from lark.grammar import NonTerminal, Rule
+from lark_peer import load_parser
 
-from skillc_dsl.parsing.grammar import fixed_texts, load_parser
+from skillc_dsl.parsing.grammar import fixed_texts
 
 WRITTEN: dict[str, list[str]] = {
     "NAME": ["arm", "surface", "Pick", "größe", "an_even_longer_name_of_something"],

@@ -1,21 +1,72 @@
-"""Tables from the cache parse as fresh ones do, and a bad cache costs nothing but time."""
+"""Our parser does what that of lark does, and tables from the cache are as fresh ones."""
 
+from __future__ import annotations
+
+import random
 from pathlib import Path
 
+import pytest
 from examples import WHOLE
+from hypothesis import given
+from lark.exceptions import LarkError
+from lark_peer import convert, describe, load_parser
+from programs import programs
 
-from skillc_dsl.parsing.grammar import grammar_text, make_parser
+from skillc_dsl.parsing.automaton import MisfitError, parse_tree
+from skillc_dsl.parsing.direct import build_directly
+from skillc_dsl.parsing.lexer import tokenize
+from skillc_dsl.parsing.tables import grammar_text, read_or_make_tables
+from skillc_dsl.parsing.tokens import Tree
+from skillc_dsl.source import Source
+
+SHIPPED = sorted((Path(__file__).parents[2] / "skills_src/skillc_skills").glob("*/*.skill"))
 
 
-def test_kept_tables_parse_alike(tmp_path: Path) -> None:
-    fresh = make_parser(grammar_text(), None).parse(WHOLE)
-    assert make_parser(grammar_text(), tmp_path / "new").parse(WHOLE) == fresh
+def parse_as_lark(text: str) -> Tree | None:
+    """Return the tree of a text without mistakes, None for any other; it is that of lark."""
+    lexed = tokenize(Source("", text))
+    try:
+        theirs = convert(load_parser().parse(text))
+    except LarkError:
+        theirs = None
+    try:
+        ours = None if lexed.diagnostics else parse_tree(lexed.value)
+    except MisfitError:
+        ours = None
+    assert ours == theirs
+    assert ours is None or describe(ours) == describe(theirs)  # type: ignore[arg-type]
+    return ours
+
+
+def test_a_file_with_everything_is_parsed_as_by_lark() -> None:
+    assert parse_as_lark(WHOLE) is not None
+
+
+@given(programs())
+def test_random_programs_are_parsed_as_by_lark(text: str) -> None:
+    assert parse_as_lark(text) is not None
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_shipped_files_are_parsed_as_by_lark_also_with_mistakes(path: Path) -> None:
+    text, chance = path.read_text(encoding="utf-8"), random.Random(path.stem)
+    assert parse_as_lark(text) is not None
+    assert build_directly(tokenize(Source("", text)).value, Source("", text)) is not None
+    for _ in range(5):
+        at = chance.randrange(len(text))
+        parse_as_lark(text[:at] + text[at + chance.randrange(1, 9) :])
+
+
+def test_tables_are_kept_and_damaged_ones_are_made_again(tmp_path: Path) -> None:
+    first = read_or_make_tables(grammar_text(), tmp_path / "new")
     (kept,) = (tmp_path / "new").iterdir()
-    assert make_parser(grammar_text(), tmp_path / "new").parse(WHOLE) == fresh
+    assert read_or_make_tables(grammar_text(), tmp_path / "new") == first
     kept.write_bytes(kept.read_bytes()[:-5])
-    assert make_parser(grammar_text(), tmp_path / "new").parse(WHOLE) == fresh
+    again = read_or_make_tables(grammar_text(), tmp_path / "new")
+    assert (len(again.states), again.rules) == (len(first.states), first.rules)
+    assert read_or_make_tables(grammar_text(), tmp_path / "new") == again
 
 
 def test_a_folder_that_cannot_be_made_is_no_obstacle(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
-    assert make_parser(grammar_text(), tmp_path / "file").parse("class A < B").children
+    assert read_or_make_tables(grammar_text(), tmp_path / "file").states

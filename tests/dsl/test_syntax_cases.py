@@ -4,10 +4,10 @@ import re
 from pathlib import Path
 
 import pytest
+from lark_peer import load_parser
 
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.encoding import decode
-from skillc_dsl.parsing.grammar import load_parser
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 

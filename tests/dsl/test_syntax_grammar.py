@@ -6,10 +6,12 @@ import pytest
 from lark import Lark
 from lark.exceptions import GrammarError
 from lark.parsers.lalr_analysis import LALR_Analyzer
+from lark_peer import load_parser
 
 from skillc_dsl.parsing.expectations import describe_terminals
-from skillc_dsl.parsing.grammar import END, fixed_texts, grammar_text, load_parser
+from skillc_dsl.parsing.grammar import END, fixed_texts
 from skillc_dsl.parsing.lexer import tokenize
+from skillc_dsl.parsing.tables import grammar_text
 from skillc_dsl.source import Source
 from skillc_dsl.units import UNITS
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lark import Token
-
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode, locate_cursor
 from skillc_compiler.ide.descriptions import format_parameter
 from skillc_compiler.ide.term_pages import format_bare_type, format_function_head
 from skillc_compiler.program.typed import Skill
+from skillc_dsl.parsing.tokens import Token
 
 _CLOSING = {")": "(", "]": "[", "}": "{"}
 

@@ -6,8 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from lark import Token
-
 from skillc_compiler.ide import offers
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.calls import find_open_call
@@ -19,6 +17,7 @@ from skillc_compiler.ide.term_pages import format_bare_type
 from skillc_compiler.program.types import Measure, Thing
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 from skillc_dsl.tokens import KEYWORDS
 from skillc_dsl.units import UNITS

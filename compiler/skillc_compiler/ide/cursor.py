@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from lark import Token
-
-from skillc_dsl.parsing.grammar import END, can_continue, load_parser, shift
+from skillc_dsl.parsing.grammar import END, can_continue, shift
 from skillc_dsl.parsing.lexer import tokenize
+from skillc_dsl.parsing.tables import load_tables
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
 
 _HEAD = re.compile(r"\s*(class|relation|property|function|skill|impl|task)\b|(use|prefix|import)\b")
@@ -92,7 +92,7 @@ def parser_states_after(tokens: Sequence[Token]) -> tuple[int, ...]:
     """Return the stack of parser states after `tokens`.
 
     A name that does not fit is skipped; any other token that does not fit closes the constructs that it may end."""
-    states: list[int] = list(load_parser().parse_interactive("").parser_state.state_stack)
+    states: list[int] = [load_tables().start]
     for token in tokens:
         after = shift(states, token.type)
         if after is not None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from lark import Token
-
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode
 from skillc_compiler.ide.visible import VisibleNames
@@ -15,6 +13,7 @@ from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, type_of
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.resolve.individuals import most_specific_classes
 from skillc_dsl import syntax as s
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 
 

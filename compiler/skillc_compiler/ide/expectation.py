@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lark import Token
-
 from skillc_compiler.ide.calls import OpenCall, find_open_call
 from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import Measure, Thing, Type, Vector, fits, type_of
 from skillc_compiler.resolve.type_names import BUILT_IN
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.units import DIMENSIONS, TIME, UNITS
 
 _COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL")

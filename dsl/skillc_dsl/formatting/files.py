@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lark import Token, Tree
-
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.columns import KEYWORD, ColumnCell, MemberLine, align_columns
 from skillc_dsl.formatting.inline import Branch, index_of
 from skillc_dsl.formatting.members import MemberFormatter
+from skillc_dsl.parsing.tokens import Token, Tree
 
 _HEADER = ("use", "prefix", "import_")
 _BLOCKS = ("skill", "impl", "task")
@@ -20,7 +19,7 @@ _WORD = 4
 class FileFormatter(MemberFormatter):
     """Creates the document of a file."""
 
-    def file(self, tree: Tree[Token]) -> d.Document:
+    def file(self, tree: Tree) -> d.Document:
         """Return the document of a file, with blank lines added below the header and around declarations in braces."""
         parts: list[d.Document] = []
         before = ""
@@ -33,9 +32,9 @@ class FileFormatter(MemberFormatter):
             before = kind
         return d.concatenate(*parts, self.notes.last)
 
-    def _paragraphs(self, trees: Sequence[Tree[Token]]) -> Iterator[list[Tree[Token]]]:
+    def _paragraphs(self, trees: Sequence[Tree]) -> Iterator[list[Tree]]:
         """Yield the header lines and declarations in groups; only consecutive terms of the vocabulary share a group."""
-        paragraph: list[Tree[Token]] = []
+        paragraph: list[Tree] = []
         for tree in trees:
             alone = tree.data in _HEADER + _BLOCKS or (paragraph and paragraph[0].data in _HEADER + _BLOCKS)
             if paragraph and (alone or _has_blank(self.notes.above(_keyword(tree)))):
@@ -45,7 +44,7 @@ class FileFormatter(MemberFormatter):
         if paragraph:
             yield paragraph
 
-    def _paragraph(self, trees: Sequence[Tree[Token]]) -> Iterator[d.Document]:
+    def _paragraph(self, trees: Sequence[Tree]) -> Iterator[d.Document]:
         first = trees[0]
         if first.data in _BLOCKS:
             start = index_of(first.children, "LBRACE")
@@ -63,7 +62,7 @@ class FileFormatter(MemberFormatter):
             return self.spaced(children)
         return d.concatenate(self.spaced(children[:start]), self.bracketed(children[start:]))
 
-    def _term(self, tree: Tree[Token]) -> MemberLine:
+    def _term(self, tree: Tree) -> MemberLine:
         """Return the declaration of a class, a relation, a property or a function."""
         head, rest = _keyword(tree), tree.children[1:]
         above, first = self.notes.above(head), ColumnCell(KEYWORD, self.bare(head))
@@ -93,7 +92,7 @@ class FileFormatter(MemberFormatter):
         return content, [d.Gap(), self.spaced(tail)] if tail else []
 
 
-def _keyword(tree: Tree[Token]) -> Token:
+def _keyword(tree: Tree) -> Token:
     """Return the first keyword of a declaration."""
     first = tree.children[0]
     if not isinstance(first, Token):

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lark import Token, Tree
-
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.formatting.equality import equal_modulo_layout
 from skillc_dsl.formatting.files import FileFormatter
 from skillc_dsl.formatting.layout import lay_out, render_rows
 from skillc_dsl.formatting.notes import attach_comments
-from skillc_dsl.parsing.grammar import load_parser
+from skillc_dsl.parsing.automaton import parse_tree
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.parsing.tokens import Token, Tree
 from skillc_dsl.source import Source, Span
 
 
@@ -48,19 +48,18 @@ def check_layout(source: Source) -> Diagnostic | None:
 
 
 def _layout(source: Source) -> str:
-    tree: Tree[Token] = load_parser().parse(source.text)
-    tokens = list(tree.scan_values(lambda value: isinstance(value, Token)))
-    notes = attach_comments(source, tokens, frozenset(_statements(tree)))
+    tree = parse_tree(tokenize(source).value)
+    notes = attach_comments(source, [*tree.tokens()], frozenset(_statements(tree)))
     return render_rows(lay_out(FileFormatter(notes).file(tree)))
 
 
-def _statements(tree: Tree[Token]) -> Iterator[int]:
+def _statements(tree: Tree) -> Iterator[int]:
     """Yield the positions of declarations, members and steps; blank lines above them are kept."""
-    for holder in tree.iter_subtrees():
+    for holder in tree.trees():
         names = [child.type for child in holder.children if isinstance(child, Token)]
         if holder.data == "start" or "LBRACE" in names:
             for child in holder.children:
-                first = next(child.scan_values(lambda v: True), None) if isinstance(child, Tree) else None
+                first = next(child.tokens(), None) if isinstance(child, Tree) else None
                 if first is not None:
                     yield first.start_pos or 0
 

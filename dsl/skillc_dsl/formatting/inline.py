@@ -6,13 +6,12 @@ import re
 from collections.abc import Sequence
 from typing import TypeAlias
 
-from lark import Token, Tree
-
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.notes import Notes
+from skillc_dsl.parsing.tokens import Token, Tree
 from skillc_dsl.tokens import NUMBER
 
-Branch: TypeAlias = Token | Tree[Token]
+Branch: TypeAlias = Token | Tree
 _CHAINS = ("sum", "product", "or_", "and_", "implies")
 _TIGHT = ("member", "negative", "opposite", "list_of", "implementation")
 _CALLS = ("call", "apply", "check")
@@ -107,7 +106,7 @@ class InlineFormatter:
     def _comma(self, token: Token, mark: d.Document | None = None) -> d.Document:
         return d.concatenate(mark or d.Punctuation(","), self.notes.behind(token))
 
-    def _chain(self, tree: Tree[Token]) -> d.Document:
+    def _chain(self, tree: Tree) -> d.Document:
         """Return a chain of operands and operators; if it does not fit one line, each operator begins a new line."""
         first, *rest = self._links(tree)
         parts: list[d.Document] = []
@@ -115,7 +114,7 @@ class InlineFormatter:
             parts += [d.SoftBreak(), self.of(operator), d.Gap(), self.of(operand)]
         return d.DocumentGroup(d.concatenate(self.of(first), d.Indent(d.Concatenation(tuple(parts)))))
 
-    def _links(self, tree: Tree[Token]) -> list[Branch]:
+    def _links(self, tree: Tree) -> list[Branch]:
         """Return operands and operators in order, with a chain on the left flattened into this one."""
         links: list[Branch] = list(tree.children)
         while isinstance(links[0], Tree) and links[0].data == tree.data and tree.data in ("sum", "product"):

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lark import Token, Tree
-
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.columns import KEYWORD, ColumnCell, MemberLine, align_columns
 from skillc_dsl.formatting.inline import Branch, index_of, is_token
 from skillc_dsl.formatting.steps import StepFormatter, has_braces
+from skillc_dsl.parsing.tokens import Token, Tree
 
 _LOOSE = ("duration", "shares", "pause")
 """Long keywords, which do not widen their column, as what follows them is in no other column."""
@@ -30,7 +29,7 @@ class MemberFormatter(StepFormatter):
         lines = d.Indent(d.concatenate(*body, self.above_closing(closing)))
         return d.concatenate(self.opening(opening), lines, d.HardBreak(), self.bare(closing))
 
-    def _member(self, tree: Tree[Token]) -> MemberLine:
+    def _member(self, tree: Tree) -> MemberLine:
         keyword, *rest = tree.children
         if not isinstance(keyword, Token):
             raise TypeError(f"a keyword was expected, not {keyword!r}")

@@ -6,10 +6,9 @@ from bisect import bisect_left
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from lark import Token
-
 from skillc_dsl.comments import Comment, find_comments
 from skillc_dsl.formatting.documents import NOTHING, BlankLine, CommentLine, Concatenation, Document, TrailingComment
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source
 
 _MARKS = ("COMMA", "LBRACE")

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lark import Token, Tree
-
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.inline import Branch, InlineFormatter, index_of, is_token
+from skillc_dsl.parsing.tokens import Token, Tree
 
 _SHORT = ("call", "wait", "wait_until", "check", "apply_posts")
 
@@ -75,7 +74,7 @@ class StepFormatter(InlineFormatter):
         return d.DocumentGroup(whole) if short else whole
 
 
-def _blocks(tree: Tree[Token]) -> Iterator[Sequence[Branch]]:
+def _blocks(tree: Tree) -> Iterator[Sequence[Branch]]:
     """Yield the blocks of an `if` and of every `else`, from `{` to `}`."""
     _, _, then, *orelse = tree.children
     yield _inside(then)

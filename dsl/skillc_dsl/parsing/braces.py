@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import takewhile
 
-from lark import Token
-
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome
 from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line
 from skillc_dsl.parsing.lexer import empty_token_after, token_span
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 
 

@@ -7,9 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from lark import Token
-
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_following_terminals
+from skillc_dsl.parsing.tokens import Token
 
 
 @dataclass(frozen=True, slots=True)

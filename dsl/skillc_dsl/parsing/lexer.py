@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from types import MappingProxyType
-
-from lark import Token
-from lark.exceptions import UnexpectedCharacters
-from lark.lexer import LexerState
+from typing import NamedTuple
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.encoding import REPLACEMENT
-from skillc_dsl.parsing.grammar import END, load_parser
+from skillc_dsl.parsing.grammar import END
+from skillc_dsl.parsing.tables import load_pattern, load_tables
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
 
 _HINTS = MappingProxyType(
@@ -30,6 +29,17 @@ _HINTS = MappingProxyType(
     }
 )
 
+WORD = "NAME"
+"""The terminal of texts that may be words of the language."""
+
+
+class Place(NamedTuple):
+    """A position in the text, with its line and column."""
+
+    position: int
+    line: int
+    column: int
+
 
 def token_span(token: Token, path: str) -> Span:
     """Return the place of a token."""
@@ -38,16 +48,23 @@ def token_span(token: Token, path: str) -> Span:
 
 def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
     """Return the tokens of `source` followed by an END token, without invalid characters."""
-    thread = load_parser().parse_interactive(source.text).lexer_thread
-    tokens: list[Token] = []
+    tables, match, text = load_tables(), load_pattern().match, source.text
+    words, ignored, tokens = tables.words, tables.ignored, list[Token]()
     problems: list[Diagnostic] = []
-    while True:
-        try:
-            tokens.extend(thread.lexer.lex(thread.state, None))
-        except UnexpectedCharacters:
-            _skip(thread.state, source, tokens, problems)
-        else:
-            break
+    at, line, begin, size = 0, 1, 0, len(text)
+    while at < size:
+        found = match(text, at)
+        if found is None:
+            at += _skip(Place(at, line, at - begin + 1), source, tokens, problems)
+            continue
+        end, terminal = found.end(), found.lastgroup or ""
+        if terminal not in ignored:
+            written = found.group()
+            terminal = words.get(written, terminal) if terminal == WORD else terminal
+            tokens.append(Token(terminal, written, at, line, at - begin + 1, line, end - begin + 1, end))
+        elif breaks := text.count("\n", at, end):
+            line, begin = line + breaks, text.rindex("\n", at, end) + 1
+        at = end
     return Outcome((*tokens, empty_token_after(tokens[-1] if tokens else None, END)), tuple(problems))
 
 
@@ -57,27 +74,24 @@ def empty_token_after(last: Token | None, terminal: str) -> Token:
     return Token(terminal, "", position, line, column, line, column, position)
 
 
-def _skip(state: LexerState, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> None:
-    """Report and skip characters that form no token: an unterminated string, or a run of unknown characters."""
-    counter = state.line_ctr
-    start, line, column = counter.char_pos, counter.line, counter.column
+def _skip(place: Place, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> int:
+    """Report characters that form no token, an unterminated string or a run of unknown ones; return how many."""
+    start, line, column = place
     quote = {'"': r'"[^\n]*', "'": r"'[^'\n]*'|'+"}.get(source.text[start])
     pattern = quote or re.escape(source.text[start]) + "+"
     match = re.compile(pattern).match(source.text, start)
     stretch = match.group().rstrip() if match else source.text[start]
     span = Span(source.path, line, column, line, column + len(stretch))
+    end = (line, span.end_column, start + len(stretch))
     if stretch.startswith('"'):
-        end = (line, span.end_column, start + len(stretch))
         tokens.append(Token("STRING", f'{stretch}"', start, line, column, *end))
         problems.append(_unterminated(span))
     elif stretch.startswith("'") and len(stretch) > 1:
-        tokens.append(
-            Token("STRING", f'"{stretch[1:-1]}"', start, line, column, line, span.end_column, start + len(stretch))
-        )
+        tokens.append(Token("STRING", f'"{stretch[1:-1]}"', start, line, column, *end))
         problems.append(_single_quotes(span, stretch))
     elif stretch[0] != REPLACEMENT:
         problems.append(_unknown_character(span, stretch))
-    counter.feed(Token("STRING", stretch), test_newline=False)
+    return len(stretch)
 
 
 def _unterminated(span: Span) -> Diagnostic:

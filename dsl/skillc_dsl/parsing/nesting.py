@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-from lark import Token, Tree
-
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.tables import NESTED
+from skillc_dsl.parsing.tokens import Token, Tree
 from skillc_dsl.source import Span
 
 DEEPEST = 64
 """The maximum depth of nested steps, conditions and values."""
-_NESTED = frozenset(
-    (
-        *("block", "counted", "timeout", "if_", "while_", "for_", "with_"),
-        *("implies", "not_", "quantified", "parentheses"),
-        *("sum", "product", "member", "apply", "list_of"),
-    )
-)
-"""The grammar rules that can be nested."""
 _WITH_MEMBERS = frozenset({"skill", "impl", "task"})
 
 
-def drop_too_deep(tree: Tree[Token], path: str) -> tuple[Tree[Token], tuple[Diagnostic, ...]]:
+def drop_too_deep(tree: Tree, path: str) -> tuple[Tree, tuple[Diagnostic, ...]]:
     """Return the parse tree of a file without the members and declarations nested too deep, and a problem for each."""
     problems: list[Diagnostic] = []
-    declarations: list[Tree[Token] | Token] = []
+    declarations: list[Tree | Token] = []
     for declaration in tree.children:
         if isinstance(declaration, Tree) and declaration.data in _WITH_MEMBERS:
             members = [member for member in declaration.children if not _reported(member, path, problems)]
@@ -34,7 +26,7 @@ def drop_too_deep(tree: Tree[Token], path: str) -> tuple[Tree[Token], tuple[Diag
     return Tree(tree.data, declarations), tuple(problems)
 
 
-def _reported(part: Tree[Token] | Token, path: str, problems: list[Diagnostic]) -> bool:
+def _reported(part: Tree | Token, path: str, problems: list[Diagnostic]) -> bool:
     """Whether a part is nested too deep; if so, it is reported at the first token that exceeds the maximum depth."""
     found = _first_too_deep(part)
     if found is not None:
@@ -42,15 +34,15 @@ def _reported(part: Tree[Token] | Token, path: str, problems: list[Diagnostic]) 
     return found is not None
 
 
-def _first_too_deep(part: Tree[Token] | Token) -> Token | None:
-    waiting: list[tuple[Tree[Token] | Token, int]] = [(part, 0)]
+def _first_too_deep(part: Tree | Token) -> Token | None:
+    waiting: list[tuple[Tree | Token, int]] = [(part, 0)]
     while waiting:
         inner, level = waiting.pop()
         if isinstance(inner, Token):
             if level > DEEPEST:
                 return inner
             continue
-        below = level + (inner.data in _NESTED)
+        below = level + (inner.data in NESTED)
         waiting += [(child, below) for child in reversed(inner.children)]
     return None
 

@@ -11,6 +11,7 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import report_not_text, report_too_large, report_wrong_bytes
 from skillc_dsl.parsing.braces import close_braces, region_lines
 from skillc_dsl.parsing.building.declarations import FileBuilder
+from skillc_dsl.parsing.direct import build_directly
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.nesting import drop_too_deep
 from skillc_dsl.parsing.recovery import Recovery
@@ -31,13 +32,17 @@ def parse(source: Source) -> Outcome[s.File]:
         return Outcome(s.File(source.path, (), ()), (refused,))
     lexed = tokenize(source)
     repaired = repair_tokens(lexed.value, source.path)
+    wrong = report_wrong_bytes(source)
+    if not lexed.diagnostics and not repaired.diagnostics and wrong is None:
+        file = build_directly(lexed.value, source)
+        if file is not None:
+            return Outcome(file)
     closed = close_braces(repaired.value, source.path)
     reported = {problem.span.line for problem in repaired.diagnostics}
     recovery = Recovery(closed.value, source.path, reported)
     builder = FileBuilder(source)
     tree, too_deep = drop_too_deep(recovery.run(), source.path)
     file = builder.file(tree)
-    wrong = report_wrong_bytes(source)
     if wrong is not None:
         return Outcome(file, (wrong,))
     unread = {problem.span.line for problem in lexed.diagnostics}

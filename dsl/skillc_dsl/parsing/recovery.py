@@ -4,25 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from lark import Token, Tree
-from lark.exceptions import UnexpectedToken
-from lark.parsers.lalr_parser_state import ParserState
-
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Misfit
+from skillc_dsl.parsing.automaton import MisfitError, Parser
 from skillc_dsl.parsing.expectations import (
     advise_on_foreign_word,
     describe_terminals,
     describe_token,
     explain_where_it_belongs,
 )
-from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, list_fitting_terminals, load_parser
+from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, list_fitting_terminals
 from skillc_dsl.parsing.lexer import empty_token_after, token_span
 from skillc_dsl.parsing.nesting import DEEPEST, report_too_deep
 from skillc_dsl.parsing.repairs import Fault, repair
 from skillc_dsl.parsing.reserved import report_reserved
 from skillc_dsl.parsing.second_step import report_second_step
 from skillc_dsl.parsing.token_repairs import join_tokens
+from skillc_dsl.parsing.tokens import Branch, Token, Tree, tokens_in
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
@@ -46,15 +44,15 @@ class Recovery:
         self.problems: list[Diagnostic] = []
         self.errors: list[s.ErrorNode] = []
         self._dropped: list[Token] = []
-        self._state: ParserState[int] = load_parser().parse_interactive("").parser_state
+        self._parser: Parser[Tree] = Parser(Tree)
         self._since = _CALM
         self._faults = 0
 
-    def run(self) -> Tree[Token]:
+    def run(self) -> Tree:
         """Return the parse tree of everything that was parsed."""
-        index, feed = 0, self._state.feed_token
-        while self.tokens[index].type != END or not can_continue(self._state.state_stack, END):
-            before = self._state.state_stack.copy()
+        index, feed = 0, self._parser.feed
+        while self.tokens[index].type != END or not can_continue(self._parser.states, END):
+            before = self._parser.states.copy()
             if len(before) > _MOST_STATES:
                 index = self._leave_too_deep(index)
                 continue
@@ -63,9 +61,10 @@ class Recovery:
                 feed(self.tokens[index])
                 self._since = 0 if _is_inserted(self.tokens[index]) else self._since + _is_written(self.tokens[index])
                 index += 1
-            except UnexpectedToken:
+            except MisfitError:
                 index = self._recover(before, index)
-        tree: Tree[Token] = feed(self.tokens[index], is_end=True)
+        tree = self._parser.finish(self.tokens[index])
+        assert isinstance(tree, Tree)
         return tree
 
     def _recover(self, before: list[int], index: int) -> int:
@@ -75,7 +74,7 @@ class Recovery:
             return self._give_up(index)
         if self._leave_unclosed_call(index):
             return index - 1
-        found = repair(Fault(self._state.state_stack, self.tokens, index, self.path))
+        found = repair(Fault(self._parser.states, self.tokens, index, self.path))
         if found is not None:
             self._report(found.problem)
             self._leave_error(index, [] if self.tokens[index] in found.tokens else [self.tokens[index]])
@@ -92,7 +91,7 @@ class Recovery:
 
     def _leave_unclosed_call(self, index: int) -> bool:
         """Report a call whose `)` is missing if the next one begins on a line of its own; whether it is so."""
-        values = self._state.value_stack
+        values = self._parser.values
         start = next((at for at in range(len(values), 0, -1) if _is_list(values[at - 1])), 0)
         opened = [value for value in values[start:] if isinstance(value, Token) and value.type == "LPAR"]
         begins = index > 1 and self.tokens[index - 1].type == "NAME" and begins_line(self.tokens, index - 1)
@@ -109,7 +108,7 @@ class Recovery:
 
     def _read_reserved_as_relation(self, index: int) -> None:
         """Report a relation that is called like a word of the language, and let it be parsed as a relation."""
-        problem = report_reserved(self._state.state_stack, self.tokens, index, self.path)
+        problem = report_reserved(self._parser.states, self.tokens, index, self.path)
         if problem is not None:
             token = self.tokens[index]
             self._report(problem)
@@ -128,7 +127,7 @@ class Recovery:
 
     def _drop_member(self, outer: int) -> None:
         """Drop the unfinished member of the declaration that begins at the level `outer`."""
-        states, values = self._state.state_stack, self._state.value_stack
+        states, values = self._parser.states, self._parser.values
         levels = (level for level in range(outer + 1, len(values)) if _is_list(values[level - 1]))
         level = next((level for level in levels if can_continue(states[: level + 1], "RBRACE")), None)
         if level is not None:
@@ -154,7 +153,7 @@ class Recovery:
         span = token_span(token, self.path)
         if token.type == "RBRACE" and END in expected:
             return Diagnostic("unopened-brace", span, "this `}` closes nothing", "delete it, or add the `{` before it")
-        second = report_second_step(before, self._state.value_stack, self.tokens, index, self.path)
+        second = report_second_step(before, self._parser.values, self.tokens, index, self.path)
         if second is not None:
             return second
         found = f"{describe_token(token)} does not fit here"
@@ -186,7 +185,7 @@ class Recovery:
         count = 2 if is_name else 1
         following = [token.type for token in self.tokens[position : position + count]]
         level = self._level("RBRACE")
-        if level is None or not can_continue(self._state.state_stack[: level + 1], *following):
+        if level is None or not can_continue(self._parser.states[: level + 1], *following):
             return False
         self._drop(level)
         return True
@@ -197,13 +196,13 @@ class Recovery:
         inner = self._level("RBRACE")
         while inner is not None and inner > outer:
             self._drop(inner)
-            self._state.feed_token(empty_token_after(self._last(), "RBRACE"))
+            self._parser.feed(empty_token_after(self._last(), "RBRACE"))
             outer, inner = self._level(terminal) or 0, self._level("RBRACE")
         self._drop(outer)
 
     def _last(self) -> Token:
         """Return the last token that was parsed."""
-        last: Token | Tree[Token] = self._state.value_stack[-1]
+        last: Branch = self._parser.values[-1]
         while isinstance(last, Tree):
             last = last.children[-1]
         return last
@@ -213,7 +212,7 @@ class Recovery:
 
         The stack is never cut between a pair of braces.
         """
-        states, values = self._state.state_stack, self._state.value_stack
+        states, values = self._parser.states, self._parser.values
         closed = 0
         for level in range(len(values), -1, -1):
             closed = max(0, closed + _braces(values[level : level + 1]))
@@ -230,10 +229,7 @@ class Recovery:
         self._dropped.clear()
 
     def _drop(self, level: int) -> None:
-        for value in self._state.value_stack[level:]:
-            self._dropped += [value] if isinstance(value, Token) else value.scan_values(lambda _: True)
-        del self._state.state_stack[level + 1 :]
-        del self._state.value_stack[level:]
+        self._dropped += tokens_in(self._parser.cut(level))
 
 
 def _braces(values: Sequence[object]) -> int:

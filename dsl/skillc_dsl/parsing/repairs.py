@@ -6,12 +6,11 @@ import difflib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from lark import Token
-
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, fixed_texts, list_fitting_terminals
 from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.parsing.token_repairs import join_tokens, report_missing_space
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 
 _INSERTED = (

@@ -5,12 +5,11 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 
-from lark import Token
-
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.parsing.expectations import name_terminals
 from skillc_dsl.parsing.grammar import begins_line, can_continue, list_following_terminals
 from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.tokens import Token
 
 NAME = "reserved-word"
 _ONLY_A_RELATION = "SENSED"

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lark import Token, Tree
-
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.parsing.grammar import begins_line, can_continue
 from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.tokens import Token, Tree
 
 
 def report_second_step(
-    states: Sequence[int], values: Sequence[Token | Tree[Token]], tokens: Sequence[Token], index: int, path: str
+    states: Sequence[int], values: Sequence[Token | Tree], tokens: Sequence[Token], index: int, path: str
 ) -> Diagnostic | None:
     """Return the problem if the token at `index` begins a step below the one of a `do` that is still open."""
     level = next((at for at, value in reversed([*enumerate(values)]) if _is_do(value)), None)
@@ -30,5 +29,5 @@ def report_second_step(
     )
 
 
-def _is_do(value: Token | Tree[Token]) -> bool:
+def _is_do(value: Token | Tree) -> bool:
     return isinstance(value, Token) and value.type == "DO"

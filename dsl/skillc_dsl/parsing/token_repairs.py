@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from lark import Token
-
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 from skillc_dsl.units import UNITS, suggest_units
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Literal, cast
 
-from lark import Token
-
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.places import Child, keyword_at
 from skillc_dsl.parsing.building.values import ValueBuilder
+from skillc_dsl.parsing.tokens import Token
 
 
 class ConditionBuilder(ValueBuilder):

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Literal, TypeVar, cast
 
-from lark import Token, Tree
-
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.parsing.building.members import MemberBuilder
 from skillc_dsl.parsing.building.places import Child, Part, Spanned, children_of_type, find_part, keyword_at
+from skillc_dsl.parsing.tokens import Tree
 
 P = TypeVar("P", bound=Spanned)
 TraitKind = Literal["functional", "symmetric", "transitive", "inverse", "sub"]
@@ -19,9 +18,9 @@ TraitKind = Literal["functional", "symmetric", "transitive", "inverse", "sub"]
 class FileBuilder(MemberBuilder):
     """Builds declarations; `start` is the whole file."""
 
-    def file(self, tree: Tree[Token]) -> s.File:
+    def file(self, tree: Tree) -> s.File:
         """Return the syntax tree of a file for its parse tree."""
-        file = self.transform(tree)
+        file = self.build(tree)
         if not isinstance(file, s.File):
             raise TypeError(f"a file was expected, not {file!r}")
         return file

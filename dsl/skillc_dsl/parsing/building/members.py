@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Literal, cast
 
-from lark import Token
-
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.nodes import NodeBuilder
 from skillc_dsl.parsing.building.places import Child, Part, find_part, first_of_type, keyword_at
+from skillc_dsl.parsing.tokens import Token
 
 
 class MemberBuilder(NodeBuilder):

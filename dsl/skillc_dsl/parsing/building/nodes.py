@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Literal, cast
 
-from lark import Token
-
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.conditions import ConditionBuilder
 from skillc_dsl.parsing.building.places import Child, Part, children_of_type, find_part, keyword_at
+from skillc_dsl.parsing.tokens import Token
 
 BlockKind = Literal[
     "seq", "sel", "reactive seq", "reactive sel", "par all", "par any", "par race", "par lead", "try", "invert", "once"

@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
-
-from lark import Token
-from lark.visitors import Transformer_NonRecursive
+from typing import Any, Protocol, TypeVar
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.tokens import Token, Tree
 from skillc_dsl.source import Source, Span
 
 T = TypeVar("T")
@@ -39,17 +37,29 @@ class Part:
     span: Span
 
 
-class TreeBuilder(Transformer_NonRecursive[Token, Spanned]):
+class TreeBuilder:
     """Builds syntax from the leaves up; each method has the name of the grammar rule whose children it gets."""
 
     def __init__(self, source: Source) -> None:
-        super().__init__(visit_tokens=False)
         self.source = source
         self.lines = source.text.split("\n")
         self.starts = [0]
         for line in self.lines:
             self.starts.append(self.starts[-1] + len(line) + 1)
         self.problems: list[Diagnostic] = []
+
+    def make(self, rule: str, children: list[Any]) -> Spanned:
+        """Return what a rule stands for, from what its parts do."""
+        made: Spanned = getattr(self, rule)(children)
+        return made
+
+    def build(self, tree: Tree) -> Spanned:
+        """Return what a tree stands for."""
+        made: dict[int, Spanned] = {}
+        for each in reversed([*tree.trees()]):
+            children = [child if isinstance(child, Token) else made.pop(id(child)) for child in each.children]
+            made[id(each)] = self.make(each.data, children)
+        return made[id(tree)]
 
     def place(self, child: Child) -> Span:
         """Return the place of a token or a piece of syntax."""
@@ -99,4 +109,4 @@ def find_part(children: Iterable[Child], rule: str) -> Part | None:
 def keyword_at(children: Sequence[Child], index: int) -> str:
     """Return the token at `index` as text, or an empty string if the child is not a token."""
     child = children[index] if index < len(children) else None
-    return child.value if isinstance(child, Token) else ""
+    return str(child) if isinstance(child, Token) else ""

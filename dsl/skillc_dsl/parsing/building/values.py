@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 
-from lark import Token
 from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.parsing.building.places import Child, TreeBuilder
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 
 _QUANTITY = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)")
