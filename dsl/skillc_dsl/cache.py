@@ -6,7 +6,7 @@ import contextlib
 import hashlib
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 _DIGEST_BYTES = 32
@@ -55,15 +55,15 @@ def delete_oldest(folder: Path, most: int, left: int) -> None:
 
     Other processes may delete some at the same time; a folder that cannot be read stays as it is.
     """
-    with contextlib.suppress(OSError):
-        files = sorted(_ages(folder))
-        for _, path in files[: len(files) - left] if len(files) > most else ():
-            path.unlink(missing_ok=True)
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        files = [each for each in entries if each.is_file()]
+        ages = sorted(_ages(files)) if len(files) > most else []
+        for _, path in ages[: len(ages) - left]:
+            Path(path).unlink(missing_ok=True)
 
 
-def _ages(folder: Path) -> Iterator[tuple[float, Path]]:
-    """Yield files with the time of their last change."""
-    for path in folder.iterdir():
+def _ages(files: Iterable[os.DirEntry[str]]) -> Iterator[tuple[float, str]]:
+    """Yield the time of the last change of files with their paths."""
+    for each in files:
         with contextlib.suppress(FileNotFoundError):
-            if path.is_file():
-                yield path.stat().st_mtime, path
+            yield each.stat().st_mtime, each.path

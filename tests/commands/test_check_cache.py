@@ -48,7 +48,7 @@ class Look:
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(check_cache, "describe_installation", lambda: ("this one",))
+    monkeypatch.setattr(check_cache, "installation_digest", lambda: b"this one")
     return tmp_path / "cache" / "skillc" / "checks"
 
 

@@ -43,7 +43,7 @@ STEPS = 6
 def cache_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(check_cache, "describe_installation", lambda: ("this one",))
+    monkeypatch.setattr(check_cache, "installation_digest", lambda: b"this one")
     return tmp_path / "cache" / "skillc"
 
 
@@ -236,5 +236,5 @@ def test_another_version_goes_on_from_nothing(tmp_path: Path, monkeypatch: pytes
     check(folder)
     file.write_text(f"{file.read_text('utf-8')}# it is a comment\n", "utf-8")
     assert _goes_on(find_library(folder))
-    monkeypatch.setattr(check_cache, "describe_installation", lambda: ("another one",))
+    monkeypatch.setattr(check_cache, "installation_digest", lambda: b"another one")
     assert not _goes_on(find_library(folder))

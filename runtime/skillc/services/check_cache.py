@@ -80,7 +80,7 @@ def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
     models, what checks read of the Python that it names, the current folder, skillc itself and the installed
     packages.
     """
-    return digest_parts((*describe_installation(), *_inputs(library, scene)))
+    return digest_parts((installation_digest(), *_inputs(library, scene)))
 
 
 def _with_texts(around: str, library: LibraryFiles) -> str:
@@ -98,7 +98,10 @@ def digest_parts(parts: Iterable[str | bytes]) -> str:
 
 @cache
 def installation_digest() -> bytes:
-    """Return the digest of the state of skillc, Python and the installed packages at the start of this process."""
+    """Return the digest of the state of skillc, Python and the installed packages when this process first looked.
+
+    That is the code that it runs, mostly, whatever is installed meanwhile.
+    """
     return hashlib.sha256("\n".join(describe_installation()).encode("utf-8", "surrogateescape")).digest()
 
 
