@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import cache
-from typing import TypeAlias, assert_never
+from collections.abc import Iterator
+from typing import assert_never
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
-from skillc_compiler.python.targets import method_returns
+from skillc_compiler.python.targets import Targets
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("never-ends", "not-endless")
 NEEDS = Need.TYPES
 READS = Reads.PYTHON
-_Returns: TypeAlias = Callable[[str, str, str], frozenset[str]]
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each body that cannot end, and each `endless` declaration that is wrong."""
-    returns = cache(method_returns)
+    targets = Targets()
     for skill in program.skills.values():
         if "endless" in skill.flags:
             yield from _check_promises(skill)
@@ -34,7 +32,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
             case TypedNode() as body:
                 yield from _check_ends(body)
             case s.RunPython() as target:
-                yield from _check_python(implementation, target, endless, returns)
+                yield from _check_python(implementation, target, endless, targets)
             case None:
                 pass
             case _:
@@ -114,10 +112,10 @@ def _check_promises(skill: Skill) -> Iterator[Diagnostic]:
 
 
 def _check_python(
-    implementation: Implementation, written: s.RunPython, endless: bool, returns: _Returns
+    implementation: Implementation, written: s.RunPython, endless: bool, targets: Targets
 ) -> Iterator[Diagnostic]:
     module, _, name = written.target.value.partition(":")
-    found = returns(module, name, "tick")
+    found = targets.method_returns(module, name, "tick")
     label = (Label(implementation.skill.name_span, "the skill"),)
     if found == {"RUNNING"} and not endless:
         message = f"`{name}` never ends by itself: its `tick` returns nothing but `RUNNING`"

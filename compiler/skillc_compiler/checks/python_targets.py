@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
 from typing import TypeAlias
 
 from skillc_compiler.checks.bad_targets import split_target
@@ -21,7 +20,7 @@ from skillc_compiler.python.info import (
     TargetInfo,
     Unclear,
 )
-from skillc_compiler.python.targets import read_target
+from skillc_compiler.python.targets import Targets
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.spelling import did_you_mean
@@ -37,7 +36,7 @@ _Reader: TypeAlias = Callable[[str, str], TargetInfo]
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each target that does not name a fitting Python object; each target is read once."""
-    reader = cache(read_target)
+    reader = Targets().read
     for implementation in program.implementations:
         if isinstance(implementation.body, s.RunPython):
             yield from _primitive(implementation, implementation.body.target, reader)

@@ -50,7 +50,7 @@ def _lineage(of: Defined, around: frozenset[str]) -> Lineage:
 
 
 def _qualified_name(of: Defined) -> str:
-    return f"{of.module}:{of.node.name}"
+    return f"{of.module.name}:{of.node.name}"
 
 
 def _is_decorated(of: Defined) -> bool:

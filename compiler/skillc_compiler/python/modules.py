@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import find_spec
 from pathlib import Path
@@ -18,14 +18,6 @@ QualifiedName: TypeAlias = tuple[str, str]
 """A module and a name in it."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Defined:
-    """The definition of a class or function, and its module."""
-
-    module: str
-    node: ast.ClassDef | Function
-
-
 @dataclass(frozen=True, slots=True)
 class _Names:
     """The names that a module binds at its top level, and its `import *` lines."""
@@ -34,33 +26,78 @@ class _Names:
     stars: tuple[ast.ImportFrom, ...]
 
 
+class Modules(dict[str, "Module"]):
+    """Modules by name, each of which is looked for and read once."""
+
+    def __missing__(self, name: str) -> Module:
+        self[name] = Module(name, self)
+        return self[name]
+
+
+@dataclass(frozen=True, eq=False)
+class Module:
+    """A module, perhaps missing; `others` are those that it can import."""
+
+    name: str
+    others: Modules
+
+    @cached_property
+    def file(self) -> Path | NoModule | Unclear:
+        """The file of the module; packages above it are not imported."""
+        return _find_file(self.name)
+
+    @cached_property
+    def names(self) -> _Names | NoModule | BrokenModule | Unclear:
+        """The names in the module."""
+        if not isinstance(self.file, Path):
+            return self.file
+        try:
+            return _parse_names(self.file, self.file.stat().st_mtime_ns)
+        except OSError:
+            return UNCLEAR
+
+    @property
+    def is_there(self) -> bool:
+        """Whether there is such a module, in a file of Python."""
+        return isinstance(self.file, Path)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Defined:
+    """The definition of a class or function, and its module."""
+
+    module: Module
+    node: ast.ClassDef | Function
+
+
 Definition: TypeAlias = Defined | Other | NoModule | BrokenModule | NoName | Unclear
 
 
-def find_definition(module: str, name: str, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
+def find_definition(module: Module, name: str, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
     """Return where a name of a module is defined."""
-    names = _names_in(module)
+    names = module.names
     if not isinstance(names, _Names):
         return names
-    if (module, name) in seen:
+    if (module.name, name) in seen:
         return UNCLEAR
+    seen |= {(module.name, name)}
     match names.bound.get(name):
         case ast.ClassDef() | ast.FunctionDef() | ast.AsyncFunctionDef() as node:
             return Defined(module, node)
         case ast.ImportFrom() as line:
-            found = find_definition(_imported_module(module, line), _original_name(line, name), seen | {(module, name)})
+            found = find_definition(_imported_module(module, line), _original_name(line, name), seen)
             return Other() if isinstance(found, NoName) and _module_at(module, ast.Name(name)) else found
         case ast.Import() | ast.Constant() | ast.JoinedStr() | ast.List() | ast.Dict() | ast.Tuple() | ast.Set():
             return Other()
         case ast.Name() | ast.Attribute() as alias:
-            return resolve_expression(module, alias, seen | {(module, name)})
+            return resolve_expression(module, alias, seen)
         case None:
-            return _find_starred(module, name, names, seen | {(module, name)})
+            return _find_starred(module, name, names, seen)
         case _:
             return UNCLEAR
 
 
-def resolve_expression(module: str, written: ast.expr, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
+def resolve_expression(module: Module, written: ast.expr, seen: frozenset[QualifiedName] = frozenset()) -> Definition:
     """Return the definition of a name, or of a name in an imported module."""
     match written:
         case ast.Name(id=name):
@@ -74,23 +111,24 @@ def resolve_expression(module: str, written: ast.expr, seen: frozenset[Qualified
             return UNCLEAR
 
 
-def dotted_name(module: str, written: ast.expr) -> str:
+def dotted_name(module: Module, written: ast.expr) -> str:
     """Return the "module.name" that an expression imports, as far as its file determines it; else as written."""
     match written:
         case ast.Call(func=func):
             return dotted_name(module, func)
         case ast.Attribute(value=value, attr=name):
-            return f"{_module_at(module, value) or dotted_name(module, value)}.{name}"
+            of = _module_at(module, value)
+            return f"{of.name if of else dotted_name(module, value)}.{name}"
         case ast.Name(id=name):
-            names = _names_in(module)
+            names = module.names
             line = names.bound.get(name) if isinstance(names, _Names) else None
             if isinstance(line, ast.ImportFrom):
-                return f"{_imported_module(module, line)}.{_original_name(line, name)}"
+                return f"{_imported_module(module, line).name}.{_original_name(line, name)}"
             return name
     return ""
 
 
-def _find_starred(module: str, name: str, names: _Names, seen: frozenset[QualifiedName]) -> Definition:
+def _find_starred(module: Module, name: str, names: _Names, seen: frozenset[QualifiedName]) -> Definition:
     """Return what `import *` provides; the last line that has the name wins."""
     if "__getattr__" in names.bound:
         return UNCLEAR
@@ -102,33 +140,36 @@ def _find_starred(module: str, name: str, names: _Names, seen: frozenset[Qualifi
     return NoName(tuple(sorted(n for n, node in names.bound.items() if isinstance(node, ast.ClassDef | Function))))
 
 
-def _module_at(module: str, written: ast.expr) -> str:
-    """Return the module that an expression denotes, or an empty string."""
+def _module_at(module: Module, written: ast.expr) -> Module | None:
+    """Return the module that an expression denotes, None if it denotes none."""
+    others = module.others
     match written:
         case ast.Attribute(value=value, attr=name):
             of = _module_at(module, value)
-            return f"{of}.{name}" if of and isinstance(_find_file(f"{of}.{name}"), Path) else ""
+            return _if_there(others[f"{of.name}.{name}"]) if of else None
         case ast.Name(id=name):
-            names = _names_in(module)
+            names = module.names
             match names.bound.get(name) if isinstance(names, _Names) else None:
                 case ast.Import(names=aliases):
                     alias = next(each for each in aliases if name in (each.asname, each.name.partition(".")[0]))
-                    return alias.name if alias.asname else alias.name.partition(".")[0]
+                    return others[alias.name if alias.asname else alias.name.partition(".")[0]]
                 case ast.ImportFrom() as line:
-                    found = f"{_imported_module(module, line)}.{_original_name(line, name)}"
-                    return found if isinstance(_find_file(found), Path) else ""
-    return ""
+                    return _if_there(others[f"{_imported_module(module, line).name}.{_original_name(line, name)}"])
+    return None
 
 
-def _imported_module(module: str, line: ast.ImportFrom) -> str:
+def _if_there(module: Module) -> Module | None:
+    return module if module.is_there else None
+
+
+def _imported_module(module: Module, line: ast.ImportFrom) -> Module:
     """Return the module that an import line imports from, with relative imports resolved."""
     if line.level == 0:
-        return line.module or ""
-    file = _find_file(module)
-    is_package = isinstance(file, Path) and file.name == "__init__.py"
-    parts = module.split(".") if is_package else module.split(".")[:-1]
+        return module.others[line.module or ""]
+    is_package = isinstance(module.file, Path) and module.file.name == "__init__.py"
+    parts = module.name.split(".") if is_package else module.name.split(".")[:-1]
     around = parts[: len(parts) - line.level + 1]
-    return ".".join([*around, *([line.module] if line.module else [])])
+    return module.others[".".join([*around, *([line.module] if line.module else [])])]
 
 
 def _original_name(line: ast.ImportFrom, name: str) -> str:
@@ -154,16 +195,6 @@ def _find_file(module: str) -> Path | NoModule | Unclear:
 def _submodule_spec(package: ModuleSpec, name: str) -> ModuleSpec | None:
     places = package.submodule_search_locations
     return PathFinder.find_spec(name, list(places)) if places is not None else None
-
-
-def _names_in(module: str) -> _Names | NoModule | BrokenModule | Unclear:
-    file = _find_file(module)
-    if not isinstance(file, Path):
-        return file
-    try:
-        return _parse_names(file, file.stat().st_mtime_ns)
-    except OSError:
-        return UNCLEAR
 
 
 @lru_cache(maxsize=256)

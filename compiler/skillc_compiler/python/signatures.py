@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from skillc_compiler.python.info import FunctionInfo, PythonSignature
-from skillc_compiler.python.modules import Function, dotted_name
+from skillc_compiler.python.modules import Function, Module, dotted_name
 
 PLAIN_DECORATORS = frozenset(
     (
@@ -16,13 +16,13 @@ PLAIN_DECORATORS = frozenset(
 """Decorators that do not change the signature."""
 
 
-def inspect_function(module: str, function: Function) -> FunctionInfo:
+def inspect_function(module: Module, function: Function) -> FunctionInfo:
     """Return a function with its signature, None if a decorator may have changed it."""
     plain = all(dotted_name(module, each) in PLAIN_DECORATORS for each in function.decorator_list)
     return FunctionInfo(read_signature(function) if plain else None, isinstance(function, ast.AsyncFunctionDef))
 
 
-def inspect_method(module: str, function: Function) -> FunctionInfo:
+def inspect_method(module: Module, function: Function) -> FunctionInfo:
     """Return a method with its signature without `self`."""
     found = inspect_function(module, function)
     return FunctionInfo(found.signature and found.signature.without_first(1), found.asynchronous)

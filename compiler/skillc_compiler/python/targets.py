@@ -1,42 +1,53 @@
-"""What a Python target "module:name" is, and what its methods may return, read from the source text."""
+"""What a Python target is, and what its methods may return, read from the source text."""
 
 from __future__ import annotations
 
 import ast
+from functools import cache
 
 from skillc_compiler.python.classes import inspect_class
 from skillc_compiler.python.info import TargetInfo
-from skillc_compiler.python.modules import Defined, Definition, Function, find_definition, resolve_expression
+from skillc_compiler.python.modules import Defined, Definition, Function, Modules, find_definition, resolve_expression
 from skillc_compiler.python.signatures import inspect_function
 
 
-def read_target(module: str, name: str) -> TargetInfo:
-    """Return what "module:name" is, as far as the source text of the modules determines it."""
-    found = find_definition(module, name)
+class Targets:
+    """Reads what Python targets are; each, and each module that it takes, is read once."""
+
+    def __init__(self) -> None:
+        self._modules = Modules()
+        self.read = cache(self._read)
+        self.method_returns = cache(self._method_returns)
+
+    def _read(self, module: str, name: str) -> TargetInfo:
+        """Return what "module:name" is, as far as the source text of the modules determines it."""
+        return _describe(find_definition(self._modules[module], name))
+
+    def _method_returns(self, module: str, name: str, method: str) -> frozenset[str]:
+        """Return the last name of every value that a method may return; empty if the text does not determine it."""
+        return _returns(find_definition(self._modules[module], name), method, frozenset())
+
+
+def _describe(found: Definition) -> TargetInfo:
     match found:
         case Defined(node=ast.ClassDef()):
             return inspect_class(found)
         case Defined(module=where, node=ast.FunctionDef() | ast.AsyncFunctionDef() as function):
             return inspect_function(where, function)
         case Defined():
-            raise AssertionError(f"{module}:{name} is neither a class nor a function")
+            raise AssertionError(f"{found} is neither a class nor a function")
         case _:
             return found
 
 
-def method_returns(module: str, name: str, method: str) -> frozenset[str]:
-    """Return the last name of every value that a method may return; empty if the text does not determine it."""
-    return _returns(find_definition(module, name), method, frozenset())
-
-
 def _returns(found: Definition, method: str, seen: frozenset[str]) -> frozenset[str]:
     match found:
-        case Defined(module=module, node=ast.ClassDef() as cls) if f"{module}:{cls.name}" not in seen:
+        case Defined(module=module, node=ast.ClassDef() as cls) if f"{module.name}:{cls.name}" not in seen:
             own = [part for part in cls.body if isinstance(part, Function) and part.name == method]
             if own:
                 return frozenset(_last_name(node.value) for node in ast.walk(own[-1]) if isinstance(node, ast.Return))
             if len(cls.bases) == 1:
-                return _returns(resolve_expression(module, cls.bases[0]), method, seen | {f"{module}:{cls.name}"})
+                return _returns(resolve_expression(module, cls.bases[0]), method, seen | {f"{module.name}:{cls.name}"})
     return frozenset()
 
 

@@ -153,10 +153,16 @@ def _python(sources: Iterable[Source]) -> Iterator[str]:
     foreign = sorted(target for target in named if target[0].partition(".")[0] not in PACKAGES)
     if not foreign:
         return
-    from skillc_compiler.python.targets import method_returns, read_target
+    from skillc_compiler.python.targets import Targets
 
+    targets = Targets()
     for module, name in foreign:
-        yield from (module, name, repr(read_target(module, name)), *sorted(method_returns(module, name, "tick")))
+        yield from (
+            module,
+            name,
+            repr(targets.read(module, name)),
+            *sorted(targets.method_returns(module, name, "tick")),
+        )
 
 
 def _states(folder: str) -> Iterator[str]:
