@@ -12,9 +12,11 @@ from lark.exceptions import LarkError
 from lark_peer import convert, describe, load_parser
 from programs import programs
 
+from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing.automaton import MisfitError, parse_tree
 from skillc_dsl.parsing.direct import build_directly
 from skillc_dsl.parsing.lexer import tokenize
+from skillc_dsl.parsing.parser import parse_with_problems
 from skillc_dsl.parsing.tables import grammar_text, read_or_make_tables
 from skillc_dsl.parsing.tokens import Tree
 from skillc_dsl.source import Source
@@ -38,6 +40,17 @@ def parse_as_lark(text: str) -> Tree | None:
     return ours
 
 
+def parse_in_both_ways(text: str) -> bool:
+    """Whether a text is parsed in one pass, with the same result as by the parser that reports mistakes."""
+    source = Source("a.skill", text)
+    lexed = tokenize(source)
+    direct = build_directly(lexed.value, source)
+    whole = parse_with_problems(source, lexed, None)
+    assert whole.diagnostics or direct is not None
+    assert direct is None or whole == Outcome(direct)
+    return direct is not None
+
+
 def test_a_file_with_everything_is_parsed_as_by_lark() -> None:
     assert parse_as_lark(WHOLE) is not None
 
@@ -45,16 +58,19 @@ def test_a_file_with_everything_is_parsed_as_by_lark() -> None:
 @given(programs())
 def test_random_programs_are_parsed_as_by_lark(text: str) -> None:
     assert parse_as_lark(text) is not None
+    parse_in_both_ways(text)
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_shipped_files_are_parsed_as_by_lark_also_with_mistakes(path: Path) -> None:
     text, chance = path.read_text(encoding="utf-8"), random.Random(path.stem)
     assert parse_as_lark(text) is not None
-    assert build_directly(tokenize(Source("", text)).value, Source("", text)) is not None
+    assert parse_in_both_ways(text)
     for _ in range(5):
         at = chance.randrange(len(text))
-        parse_as_lark(text[:at] + text[at + chance.randrange(1, 9) :])
+        mistaken = text[:at] + text[at + chance.randrange(1, 9) :]
+        parse_as_lark(mistaken)
+        parse_in_both_ways(mistaken)
 
 
 def test_tables_are_kept_and_damaged_ones_are_made_again(tmp_path: Path) -> None:

@@ -67,8 +67,11 @@ class Parser(Generic[V]):
         rule = self._tables.rules[number]
         states, values, depths = self.states, self.values, self.depths
         parts: list[Any] = []
-        depth = 0
-        if size := rule.size:
+        depth, size = 0, rule.size
+        if size == 1:
+            states.pop()
+            parts, depth = [values.pop()], depths.pop()
+        elif size:
             parts, depth = values[-size:], max(depths[-size:])
             del values[-size:], states[-size:], depths[-size:]
         if rule.spread:

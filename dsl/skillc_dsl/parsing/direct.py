@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.automaton import MisfitError, Parser
 from skillc_dsl.parsing.building.declarations import FileBuilder
 from skillc_dsl.parsing.nesting import DEEPEST
+from skillc_dsl.parsing.token_repairs import has_unknown_unit
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source
 
 
-def build_directly(tokens: Sequence[Token], source: Source) -> s.File | None:
+def build_directly(tokens: tuple[Token, ...], source: Source) -> s.File | None:
     """Return the syntax tree of a text; None if there is anything to report. The last of its tokens is the end."""
+    if has_unknown_unit(tokens):
+        return None
     builder = FileBuilder(source)
     parser = Parser(builder.make)
     try:

@@ -16,6 +16,7 @@ from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.nesting import drop_too_deep
 from skillc_dsl.parsing.recovery import Recovery
 from skillc_dsl.parsing.token_repairs import repair_tokens
+from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source
 
 MOST_PROBLEMS = 200
@@ -31,12 +32,14 @@ def parse(source: Source) -> Outcome[s.File]:
     if refused is not None:
         return Outcome(s.File(source.path, (), ()), (refused,))
     lexed = tokenize(source)
-    repaired = repair_tokens(lexed.value, source.path)
     wrong = report_wrong_bytes(source)
-    if not lexed.diagnostics and not repaired.diagnostics and wrong is None:
-        file = build_directly(lexed.value, source)
-        if file is not None:
-            return Outcome(file)
+    file = build_directly(lexed.value, source) if not lexed.diagnostics and wrong is None else None
+    return Outcome(file) if file is not None else parse_with_problems(source, lexed, wrong)
+
+
+def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong: Diagnostic | None) -> Outcome[s.File]:
+    """Return the syntax tree of all parts that can be parsed; `wrong` is the problem with bytes that are no text."""
+    repaired = repair_tokens(lexed.value, source.path)
     closed = close_braces(repaired.value, source.path)
     reported = {problem.span.line for problem in repaired.diagnostics}
     recovery = Recovery(closed.value, source.path, reported)

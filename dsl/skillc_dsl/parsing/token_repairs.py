@@ -35,6 +35,12 @@ def repair_tokens(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, 
     return Outcome(tuple(repaired), tuple(problems))
 
 
+def has_unknown_unit(tokens: tuple[Token, ...]) -> bool:
+    """Whether there is a number with an unknown unit, the one mistake in tokens that the grammar may not show."""
+    numbers = (at for at, token in enumerate(tokens) if token.type in ("QUANTITY", "NUMBER"))
+    return any(_unit_length(tokens, at) for at in numbers)
+
+
 def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, Token, Diagnostic | None]:
     """Return the number of tokens from `index` to replace, the token that replaces them, and the problem, if any."""
     if count := match_foreign_comparison(tokens, index):
