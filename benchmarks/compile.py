@@ -29,6 +29,7 @@ from skillc_compiler.checks import load_checks
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.pipeline import compile
 from skillc_compiler.program.parts import Reads
+from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.parsing.making import make_parser
@@ -140,7 +141,8 @@ def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
     proving, proofs = _seconds(lambda: prove(program.value))
     found = [(proving, "prove")]
     for one in load_checks():
-        of = proofs if one.READS is Reads.PROOFS else program.value
+        python = NamedPython(program.value, Targets())
+        of = {Reads.PROOFS: proofs, Reads.PYTHON: python}.get(one.READS, program.value)
         found.append((_seconds(lambda one=one, of=of: list(one.check(of)))[0], one.__name__))
     yield "check", sum(seconds for seconds, _ in found)
     for seconds, name in sorted(found, reverse=True)[:4]:

@@ -20,6 +20,7 @@ from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.parts import Part, Reads, only_in, parts_of
 from skillc_compiler.program.typed import Program
+from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_dsl.diagnostics import Diagnostic
 
 FoundBy: TypeAlias = Mapping[str, Sequence[Diagnostic]]
@@ -35,7 +36,10 @@ class CheckModule(Protocol):
     READS: Reads
 
     def check(self, of: Any, /) -> Iterator[Diagnostic]:
-        """Yield the problems of the proofs if it reads proofs, else of the program, which may be one declaration."""
+        """Yield the problems of the proofs if it reads proofs, else of the program, which may be one declaration.
+
+        A check that reads Python gets the program with what reads it.
+        """
         ...
 
 
@@ -60,6 +64,7 @@ class CheckMemo:
 
     parts: Memo[FoundBy] = field(default_factory=Memo)
     proofs: ProofMemo = field(default_factory=ProofMemo)
+    targets: Targets = field(default_factory=Targets)
     files: FileFindings | None = None
 
 
@@ -99,7 +104,8 @@ def _find_in_files(program: Program, memo: CheckMemo, paths: Collection[str]) ->
     for part in parts_of(program, paths):
         for name, problems in memo.parts.recall(part.of, partial(_check_part, part)).items():
             found[part.path][name] += problems
-    proofs, chosen = prove(program, memo.proofs, paths), only_in(program, paths)
+    memo.targets.refresh()
+    proofs, chosen = prove(program, memo.proofs, paths), NamedPython(only_in(program, paths), memo.targets)
     for check in load_checks():
         if check.READS in (Reads.PROOFS, Reads.PYTHON):
             for problem in check.check(proofs if check.READS is Reads.PROOFS else chosen):

@@ -7,9 +7,9 @@ from typing import assert_never
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
+from skillc_compiler.program.typed import Call, Implementation, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
-from skillc_compiler.python.targets import Targets
+from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -18,9 +18,9 @@ NEEDS = Need.TYPES
 READS = Reads.PYTHON
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
+def check(of: NamedPython) -> Iterator[Diagnostic]:
     """Yield a problem for each body that cannot end, and each `endless` declaration that is wrong."""
-    targets = Targets()
+    program, targets = of.program, of.targets
     for skill in program.skills.values():
         if "endless" in skill.flags:
             yield from _check_promises(skill)

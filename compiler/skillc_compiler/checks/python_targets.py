@@ -8,7 +8,7 @@ from typing import TypeAlias
 from skillc_compiler.checks.bad_targets import split_target
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Implementation, Program
+from skillc_compiler.program.typed import Implementation
 from skillc_compiler.python.info import (
     BrokenModule,
     ClassInfo,
@@ -20,7 +20,7 @@ from skillc_compiler.python.info import (
     TargetInfo,
     Unclear,
 )
-from skillc_compiler.python.targets import Targets
+from skillc_compiler.python.targets import NamedPython
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.spelling import did_you_mean
@@ -34,9 +34,9 @@ CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "withdraw": 0, "app
 _Reader: TypeAlias = Callable[[str, str], TargetInfo]
 
 
-def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each target that does not name a fitting Python object; each target is read once."""
-    reader = Targets().read
+def check(of: NamedPython) -> Iterator[Diagnostic]:
+    """Yield a problem for each target that does not name a fitting Python object."""
+    program, reader = of.program, of.targets.read
     for implementation in program.implementations:
         if isinstance(implementation.body, s.RunPython):
             yield from _primitive(implementation, implementation.body.target, reader)

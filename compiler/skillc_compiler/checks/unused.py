@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
+from functools import cache, partial
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
@@ -37,8 +38,9 @@ READS = Reads.NEIGHBOURS
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each declaration that can be removed without changing anything."""
+    terms = cache(partial(_terms, program.vocabulary))
     for unit in program.files:
-        yield from _header(program, unit)
+        yield from _header(program, unit, terms)
     for implementation in program.implementations:
         read = _names_read_in(implementation)
         for let in implementation.lets:
@@ -54,7 +56,7 @@ def _unused(name: str, span: Span, message: str) -> Diagnostic:
     return Diagnostic(name, span, message, help="remove it", severity="warning")
 
 
-def _header(program: Program, unit: ParsedFile) -> Iterator[Diagnostic]:
+def _header(program: Program, unit: ParsedFile, terms: Callable[[str], Collection[str]]) -> Iterator[Diagnostic]:
     """Yield a warning for each vocabulary, prefix and import of a header that is not used."""
     used = program.used[unit.file.path]
     prefixes = {text.partition(":")[0] for text in used if ":" in text}
@@ -62,7 +64,7 @@ def _header(program: Program, unit: ParsedFile) -> Iterator[Diagnostic]:
     for line in unit.file.header:
         match line:
             case s.Use():
-                yield from _vocabularies(program, line, used)
+                yield from _vocabularies(program, line, used, terms)
             case s.Prefix(name=name):
                 if name.text not in prefixes:
                     yield _unused("unused-prefix", name.span, f"the prefix `{name.text}` is never used")
@@ -71,9 +73,11 @@ def _header(program: Program, unit: ParsedFile) -> Iterator[Diagnostic]:
                     yield _unused("unused-import", path.span, f'nothing of "{path.value}" is used here')
 
 
-def _vocabularies(program: Program, line: s.Use, used: frozenset[str]) -> Iterator[Diagnostic]:
+def _vocabularies(
+    program: Program, line: s.Use, used: frozenset[str], terms: Callable[[str], Collection[str]]
+) -> Iterator[Diagnostic]:
     for name in line.vocabularies:
-        if name.text in program.vocabulary.prefixes and not used & _terms(program.vocabulary, name.text):
+        if name.text in program.vocabulary.prefixes and used.isdisjoint(terms(name.text)):
             yield _unused("unused-use", name.span, f"nothing of `{name.text}` is used by its bare name here")
 
 

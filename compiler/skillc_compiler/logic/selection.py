@@ -83,6 +83,8 @@ def rank_implementations(vocabulary: Vocabulary, declared: Sequence[Implementati
     Repeatedly, from those not yet ranked: those than which no other is more specific; of these the highest `prefer`,
     then the earliest declared.
     """
+    if len(declared) < 2:
+        return tuple(declared)
     left = list(declared)
     order = []
     while left:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import hashlib
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 
 import msgspec
 
 from skillc_compiler.logic.selection import rank_implementations
 from skillc_compiler.lower import declarations as flattening
+from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.spans import SpanIndex
-from skillc_compiler.program.typed import Implementation, ParsedFile, Program, TypedNode
+from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_compiler.resolve.files import library_namespace
 from skillc_dsl.diagnostics import Diagnostic
@@ -20,8 +23,19 @@ from skillc_model.pddl.names import assign_names
 from skillc_model.skills import SkillLibrary
 
 
-def lower_program(program: Program, problems: Sequence[Diagnostic]) -> SkillLibrary:
+@dataclass
+class LowerMemo:
+    """The declarations of the last analysis, as lowered."""
+
+    skills: Memo[library.Skill] = field(default_factory=Memo)
+    implementations: Memo[library.Implementation] = field(default_factory=Memo)
+
+
+def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerMemo | None = None) -> SkillLibrary:
     """Return the library of all declarations without errors that call only such skills."""
+    memo = memo or LowerMemo()
+    memo.skills.begin()
+    memo.implementations.begin()
     errors = SpanIndex(problem.span for problem in problems if problem.severity == "error")
     skills = {name: s for name, s in sorted(program.skills.items()) if not errors.any_on_lines_of(s.span)}
     sound = [i for i in program.implementations if i.body is not None and not errors.any_on_lines_of(i.span)]
@@ -35,8 +49,13 @@ def lower_program(program: Program, problems: Sequence[Diagnostic]) -> SkillLibr
         namespace=_namespace(program),
         hash=_hash(program.files),
         vocabulary=program.vocabulary,
-        skills={name: flattening.lower_skill(s, [i.name for i in order[name]]) for name, s in skills.items()},
-        implementations={i.key: _implementation(i) for i in sorted(kept, key=lambda i: i.key)},
+        skills={
+            name: memo.skills.recall((s, *order[name]), partial(_skill, s, order[name])) for name, s in skills.items()
+        },
+        implementations={
+            i.key: memo.implementations.recall((i,), partial(_implementation, i))
+            for i in sorted(kept, key=lambda i: i.key)
+        },
         tasks={
             task.name: flattening.lower_task(task)
             for task in sorted(program.tasks, key=lambda task: task.name)
@@ -50,6 +69,10 @@ def _namespace(program: Program) -> str:
     """Return the namespace of the terms that the library itself declares."""
     own = (unit.namespace for unit in program.files if unit.library == program.name)
     return next(own, library_namespace(program.name))
+
+
+def _skill(typed: Skill, order: Sequence[Implementation]) -> library.Skill:
+    return flattening.lower_skill(typed, [each.name for each in order])
 
 
 def _implementation(typed: Implementation) -> library.Implementation:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, TypeAlias
 
 import msgspec
@@ -29,7 +30,7 @@ class HeaderLine(msgspec.Struct, frozen=True):
     name: str
 
 
-class UnknownName(msgspec.Struct, frozen=True):
+class UnknownName(msgspec.Struct, frozen=True, dict=True):
     """A name without a declaration, and the kind of what it should be the name of.
 
     `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill or `task NAME`
@@ -52,17 +53,17 @@ class UnknownName(msgspec.Struct, frozen=True):
         """The name of the problem."""
         return f"unknown-{self.kind}"
 
-    @property
+    @cached_property
     def close(self) -> tuple[str, ...]:
         """The candidates that are probably meant, the closest first."""
         return () if self.line else close_names(self.written.text, self.candidates)
 
-    @property
+    @cached_property
     def is_misspelt(self) -> bool:
         """Whether a candidate is spelt almost like it, so that nothing else has to be missing."""
         return bool(not self.line and alike_names(self.written.text, self.candidates))
 
-    @property
+    @cached_property
     def help(self) -> str:
         """What to write instead."""
         return self.otherwise if self.line else did_you_mean(self.written.text, self.candidates) or self.otherwise

@@ -33,6 +33,10 @@ class Modules(dict[str, "Module"]):
         self[name] = Module(name, self)
         return self[name]
 
+    def are_current(self) -> bool:
+        """Whether each of them is where it was found, and has not changed since."""
+        return all(each.state == Module(name, self).state for name, each in self.items())
+
 
 @dataclass(frozen=True, eq=False)
 class Module:
@@ -47,14 +51,18 @@ class Module:
         return _find_file(self.name)
 
     @cached_property
+    def state(self) -> tuple[Path | NoModule | Unclear, int]:
+        """Where the module is, and when its file was changed last; 0 without one."""
+        try:
+            return self.file, self.file.stat().st_mtime_ns if isinstance(self.file, Path) else 0
+        except OSError:
+            return UNCLEAR, 0
+
+    @cached_property
     def names(self) -> _Names | NoModule | BrokenModule | Unclear:
         """The names in the module."""
-        if not isinstance(self.file, Path):
-            return self.file
-        try:
-            return _parse_names(self.file, self.file.stat().st_mtime_ns)
-        except OSError:
-            return UNCLEAR
+        file, changed_ns = self.state
+        return _parse_names(file, changed_ns) if isinstance(file, Path) else file
 
     @property
     def is_there(self) -> bool:
@@ -202,6 +210,8 @@ def _parse_names(file: Path, _changed_ns: int) -> _Names | BrokenModule | Unclea
     """Return what the text of a file defines at its top level."""
     try:
         body = ast.parse(file.read_bytes()).body
+    except OSError:
+        return UNCLEAR
     except SyntaxError as error:
         return BrokenModule(error.lineno or 1, error.msg)
     except (ValueError, RecursionError, MemoryError):

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 from functools import cache
+from typing import NamedTuple
 
+from skillc_compiler.program.typed import Program
 from skillc_compiler.python.classes import inspect_class
 from skillc_compiler.python.info import TargetInfo
 from skillc_compiler.python.modules import Defined, Definition, Function, Modules, find_definition, resolve_expression
@@ -12,9 +14,17 @@ from skillc_compiler.python.signatures import inspect_function
 
 
 class Targets:
-    """Reads what Python targets are; each, and each module that it takes, is read once."""
+    """Reads what Python targets are; each, and each module that it takes, is read once until `refresh`."""
 
     def __init__(self) -> None:
+        self._begin()
+
+    def refresh(self) -> None:
+        """Forget everything if a module that was looked for is another one now, or has changed."""
+        if not self._modules.are_current():
+            self._begin()
+
+    def _begin(self) -> None:
         self._modules = Modules()
         self.read = cache(self._read)
         self.method_returns = cache(self._method_returns)
@@ -26,6 +36,13 @@ class Targets:
     def _method_returns(self, module: str, name: str, method: str) -> frozenset[str]:
         """Return the last name of every value that a method may return; empty if the text does not determine it."""
         return _returns(find_definition(self._modules[module], name), method, frozenset())
+
+
+class NamedPython(NamedTuple):
+    """A program with what reads the Python that it names."""
+
+    program: Program
+    targets: Targets
 
 
 def _describe(found: Definition) -> TargetInfo:
