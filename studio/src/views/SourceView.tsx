@@ -10,6 +10,7 @@ import {
   openFile,
   openPath,
   readFiles,
+  refreshFile,
   revertFile,
   saveFile,
   showConflict,
@@ -24,10 +25,16 @@ const isFixable = signal(false);
 const renaming = signal(false);
 
 export function SourceView() {
-  const name = cell.value?.library;
+  const { library: name, library_hash: hash, library_problem: problem } = cell.value ?? {};
   useEffect(() => {
     if (name !== undefined) void readFiles(name);
   }, [name]);
+  useEffect(() => {
+    const refresh = (): void => void refreshFile().then(() => shownEditor.peek()?.filesChanged());
+    refresh();
+    window.addEventListener("focus", refresh);
+    return () => window.removeEventListener("focus", refresh);
+  }, [name, hash, problem]);
   const wanted = place.value;
   useEffect(() => {
     if (name !== undefined && wanted !== null) void openPath(name, wanted.path);
@@ -50,7 +57,7 @@ export function SourceView() {
           {files.value.length === 0 ? "The files of this library cannot be read." : "Choose a file."}
         </div>
       ) : (
-        <EditorBox key={`${source.value.path} ${source.value.hash}`} />
+        <EditorBox key={`${source.value.library} ${source.value.path}`} />
       )}
     </div>
   );
@@ -154,6 +161,10 @@ function EditorBox() {
     };
   }, []);
   const path = source.value?.path ?? "";
+  useEffect(() => {
+    const now = source.peek(); // What was typed after this was drawn is in it.
+    if (now !== null) editor?.show(now.draft ?? now.text ?? "");
+  }, [editor, source.value?.draft, source.value?.text]);
   const wanted = place.value?.path === path ? place.value.line : null;
   const lines = activePlaces.value.filter((each) => each.path === path).map((each) => each.line);
   const marked = [...breakpoints.value]
