@@ -231,6 +231,17 @@ const LOOK = EditorView.theme({
     color: "var(--ink)",
     backgroundColor: "var(--selected)",
   },
+  ".cm-diagnostic": { maxWidth: "480px", padding: "6px 10px", fontSize: "12px" },
+  ".cm-diagnostic-error": { borderLeftColor: "var(--bad)" },
+  ".cm-diagnosticAction": {
+    margin: "4px 0 0",
+    padding: "2px 8px",
+    display: "block",
+    font: "inherit",
+    color: "var(--on-accent)",
+    backgroundColor: "var(--accent)",
+    borderRadius: "var(--radius)",
+  },
   ".cm-hover-text": { maxWidth: "480px", padding: "6px 10px", whiteSpace: "pre-wrap", fontSize: "12px" },
   ".cm-searchMatch": { backgroundColor: "var(--waiting-ground)", outline: "1px solid var(--waiting)" },
 });

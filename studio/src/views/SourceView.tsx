@@ -1,7 +1,7 @@
 // Source: the files of the library of the cell, with the line of the selected step and of what runs.
 import { signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { cell, place } from "../state/studio";
+import { cell, connection, place } from "../state/studio";
 import {
   activePlaces,
   breakpoints,
@@ -24,8 +24,18 @@ const shownEditor = signal<SourceEditor | null>(null);
 const isFixable = signal(false);
 const renaming = signal(false);
 
+/** How often the open file is looked at, which others may change on disk. */
+const LOOK_MS = 2000;
+
 export function SourceView() {
   const { library: name, library_hash: hash, library_problem: problem } = cell.value ?? {};
+  useEffect(() => {
+    const look = (): void => {
+      if (!document.hidden && connection.peek().state === "open") void refreshFile();
+    };
+    const timer = window.setInterval(look, LOOK_MS);
+    return () => window.clearInterval(timer);
+  }, []);
   useEffect(() => {
     if (name !== undefined) void readFiles(name);
   }, [name]);
