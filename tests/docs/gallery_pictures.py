@@ -139,11 +139,12 @@ def main(names: Iterable[str]) -> None:
         print(picture.file.relative_to(ROOT), file=sys.stderr)
     if not wanted:
         # These need a pseudo terminal, which Windows does not have, and Chromium.
+        from docs.mistake_pictures import write_mistake_picture
         from docs.studio_pictures import write_studio_pictures
         from docs.terminal_pictures import write_terminal_pictures
 
         write_robots_picture()
-        for file in chain(write_terminal_pictures(), write_studio_pictures()):
+        for file in chain(write_terminal_pictures(), write_studio_pictures(), (write_mistake_picture(),)):
             print(file.relative_to(ROOT), file=sys.stderr)
         write_readme_film()
 
