@@ -78,12 +78,10 @@ function labelWidth(plot: uPlot, values: string[] | null): number {
   return 22 + Math.max(...values.map((each) => plot.ctx.measureText(each).width / devicePixelRatio));
 }
 
-/** Give a plot the size of its element. How high its legend is depends on its width, so that is set first. */
+/** Give a plot the size of its element without the legend, which is as wide as the element. */
 export function fitPlot(plot: uPlot, element: HTMLElement): void {
-  const width = element.clientWidth;
-  plot.setSize({ width, height: plot.height });
   const legend = element.querySelector(".u-legend")?.clientHeight ?? 24;
-  plot.setSize({ width, height: Math.max(80, element.clientHeight - legend) });
+  plot.setSize({ width: element.clientWidth, height: Math.max(80, element.clientHeight - legend) });
 }
 
 function fromZero(_: uPlot, least: number | null, most: number | null): [number, number] {
