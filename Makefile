@@ -100,7 +100,7 @@ studio: .venv/.node ## build the page of the studio, runtime/skillc/studio_files
 docs: .venv/.dev  ## build the site of the documentation, out/site/index.html; nothing is loaded from elsewhere
 	PYTHONPATH=docs $(BIN)/python -m skillc_site out/site
 
-pictures: .venv/.dev ## make the pictures of docs/gallery.md and the film of README from runs (half an hour); films are kept in out/pictures
+pictures: .venv/.dev .venv/.studio ## make the pictures of docs and the film of README from runs (half an hour); films are kept in out/pictures
 	PYTHONPATH=tests $(BIN)/python -m docs.gallery_pictures
 
 accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build, docs/diagnostics.md and docs/matrix.md

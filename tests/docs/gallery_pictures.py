@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/gallery.md and the film of README from runs of the shipped tasks: `make pictures`.
+"""Makes the pictures of docs/gallery.md, the film of README, terminals and the studio from runs: `make pictures`.
 
 Each task runs with seed 0 into out/pictures; a picture is a frame of its film. Names of tasks make some pictures only,
 from runs that are there already.
@@ -10,6 +10,7 @@ import shutil
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import av
@@ -128,7 +129,7 @@ def _readme_frames() -> Iterator[Picture]:
 
 
 def main(names: Iterable[str]) -> None:
-    """Make the pictures of some tasks, or without names those of all and the film of README."""
+    """Make the pictures of some tasks, or without names all pictures."""
     PICTURES.mkdir(parents=True, exist_ok=True)
     wanted = [find_task_picture(each) for each in names]
     if not wanted:
@@ -137,11 +138,13 @@ def main(names: Iterable[str]) -> None:
         write_task_picture(picture)
         print(picture.file.relative_to(ROOT), file=sys.stderr)
     if not wanted:
-        # This needs a pseudo terminal, which Windows does not have.
+        # These need a pseudo terminal, which Windows does not have, and Chromium.
+        from docs.mistake_pictures import write_mistake_picture
+        from docs.studio_pictures import write_studio_pictures
         from docs.terminal_pictures import write_terminal_pictures
 
         write_robots_picture()
-        for file in write_terminal_pictures():
+        for file in chain(write_terminal_pictures(), write_studio_pictures(), (write_mistake_picture(),)):
             print(file.relative_to(ROOT), file=sys.stderr)
         write_readme_film()
 

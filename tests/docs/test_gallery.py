@@ -38,6 +38,13 @@ def test_pictures_are_small() -> None:
     assert README_FILM.stat().st_size <= README_BYTES
 
 
+def test_each_picture_of_the_studio_is_shown_with_a_text_for_who_cannot_see_it() -> None:
+    pages = [path.read_text("utf-8") for path in (ROOT / "docs").glob("*.md")]
+    shown = {file: text for page in pages for text, file in SHOWN.findall(page)}
+    files = sorted(path.name for path in PICTURES.iterdir() if path.name.startswith(("studio-", "mistakes-")))
+    assert len(files) > 5 and [each for each in files if len(shown.get(each, "")) < 30] == []
+
+
 def test_readme_opens_with_a_film_that_repeats() -> None:
     before = (ROOT / "README.md").read_text("utf-8").split("\n## ")[0]
     assert "](docs/pictures/skillc.webp)" in before

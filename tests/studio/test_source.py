@@ -97,6 +97,38 @@ def test_a_problem_has_a_fix(source: Page) -> None:
     expect(source.get_by_role("button", name="Revert")).to_be_disabled()
 
 
+def test_a_problem_is_shown_still_after_the_file_is_saved_and_another_view_was_shown(source: Page) -> None:
+    write(source, "crte", "pre   cart contain crate")
+    problem = source.locator(".cm-lintRange-error").first
+    expect(problem).to_be_visible()
+    source.keyboard.press("Control+s")
+    expect(source.get_by_role("button", name="Save")).to_be_disabled()
+    expect(problem).to_be_visible()
+    source.keyboard.insert_text("a")
+    expect(source.locator(".cm-line", has_text="cratecrtea")).to_be_visible()
+    source.get_by_role("button", name="Revert").click()
+    expect(source.locator(".cm-line", has_text="cratecrtea")).to_be_hidden()
+    expect(problem).to_be_visible()
+    source.get_by_role("tab", name="Why").click()
+    source.get_by_role("tab", name="Source").click()
+    expect(problem).to_be_visible()
+
+
+def test_a_problem_is_shown_however_fast_somebody_writes(source: Page) -> None:
+    write(source, "crte", "pre   cart contain crate")
+    write(source, "", "pre   cart != to")
+    for each in "  # a comment that takes some time to write, with much to say":
+        source.keyboard.type(each)
+    expect(source.locator(".cm-lintRange-error").first).to_be_visible()
+
+
+def test_a_file_that_others_change_is_read_again_with_its_problems(source: Page, own_server: RunningServer) -> None:
+    changed = read(own_server).replace("pre   cart contain crate", "pre   cart contain crte")
+    (own_server.folder / "yard.skill").write_text(changed, "utf-8")
+    expect(source.locator(".source-editor")).to_contain_text("contain crte")
+    expect(source.locator(".cm-lintRange-error").first).to_be_visible()
+
+
 @pytest.mark.parametrize(
     "scheme", [pytest.param(each, marks=pytest.mark.looks(color_scheme=each)) for each in ("light", "dark")]
 )

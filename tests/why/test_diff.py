@@ -18,6 +18,7 @@ from skillc.cli.main import skillc
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import TaskRequest, load_task
+from skillc_model.conditions import And, Compare, Holds, Individual, Literal, Not, PropertyOf
 from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import (
@@ -108,6 +109,15 @@ def test_the_first_difference_is_what_was_changed(tmp_path: Path, edit: Edit, pa
     first = find_differences(tmp_path, edit)[0]
     assert first["part"] == part and first["what"].startswith(what), first
     assert first["first"] != first["second"]
+
+
+def test_goals_are_shown_in_the_syntax_of_the_language(tmp_path: Path) -> None:
+    box, cup = (Individual(f"http://example.org/lab#{name}") for name in ("Box", "Cup"))
+    sealed = Compare(PropertyOf(cup, "http://example.org/onto/parts#isSealed"), "==", Literal(True))
+    goal = And((Holds(box, "http://example.org/skiros.owl#contain", cup), Not(sealed)))
+    found = find_differences(tmp_path, change(TaskStarted, goal=goal))
+    assert found[0]["what"] == "objective"
+    assert found[0]["second"] == "Box contain Cup and (not Cup.isSealed == true)"
 
 
 def test_a_run_differs_in_nothing_from_itself(tmp_path: Path) -> None:

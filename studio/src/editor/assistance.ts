@@ -1,7 +1,7 @@
 // What the language server does for the editor: problems, completion, hover, go to the definition, and formatting.
 import type { CompletionContext, CompletionResult } from "@codemirror/autocomplete";
 import type { Diagnostic } from "@codemirror/lint";
-import type { Extension, Text } from "@codemirror/state";
+import { Prec, type Extension, type Text } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap } from "@codemirror/view";
 import type { Position } from "../api/types";
 import { changesOf, offsetOf, positionOf } from "./edits";
@@ -54,11 +54,12 @@ export function assistance(server: LanguageServer, onGo: (place: Position) => vo
     );
     return true;
   };
+  const explain = hoverTooltip(async (view, offset) => {
+    const text = await hover(server, positionOf(view.state.doc, offset));
+    return text === "" ? null : { pos: offset, above: true, create: () => ({ dom: hoverBox(text) }) };
+  });
   return [
-    hoverTooltip(async (view, offset) => {
-      const text = await hover(server, positionOf(view.state.doc, offset));
-      return text === "" ? null : { pos: offset, above: true, create: () => ({ dom: hoverBox(text) }) };
-    }),
+    Prec.lowest(explain), // Below what is wrong there.
     keymap.of([
       { key: "F12", run: (view) => goTo(view, view.state.selection.main.head) },
       { key: "Shift-Alt-f", run: (view) => format(server, view) },
@@ -85,7 +86,8 @@ async function hover(server: LanguageServer, position: LspPosition): Promise<str
 function hoverBox(text: string): HTMLElement {
   const box = document.createElement("div");
   box.className = "cm-hover-text";
-  box.textContent = text.replaceAll(/```\w*\n?/g, "").trim();
+  const plain = text.replaceAll(/```\w*\n?/g, "").replaceAll(/\*\*([^*]+)\*\*/g, "$1");
+  box.textContent = plain.trim();
   return box;
 }
 

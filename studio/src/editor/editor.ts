@@ -22,6 +22,7 @@ import {
   type DecorationSet,
 } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
+import { changeTo } from "./edits";
 import { skillLanguage } from "./language";
 
 export interface EditorOptions {
@@ -36,6 +37,8 @@ export interface EditorOptions {
 }
 
 export interface Editor {
+  /** Show another text; the cursor stays where it is in what both have in common. */
+  show(text: string): void;
   /** Bring a line into sight and mark it as selected; null marks none. */
   reveal(line: number | null): void;
   /** Mark the lines that run, and those with a breakpoint. */
@@ -113,6 +116,10 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): Editor 
   view.scrollDOM.tabIndex = 0; // So that it can be scrolled with the keyboard, as axe wants it.
   return {
     view,
+    show: (text) => {
+      const change = changeTo(view.state.doc.toString(), text);
+      if (change !== null) view.dispatch({ changes: change });
+    },
     reveal: (line) => {
       const effects: StateEffect<unknown>[] = [setMarks.of({ selected: line })];
       if (line !== null && line <= view.state.doc.lines)
@@ -223,6 +230,17 @@ const LOOK = EditorView.theme({
   ".cm-tooltip-autocomplete > ul > li[aria-selected]": {
     color: "var(--ink)",
     backgroundColor: "var(--selected)",
+  },
+  ".cm-diagnostic": { maxWidth: "480px", padding: "6px 10px", fontSize: "12px" },
+  ".cm-diagnostic-error": { borderLeftColor: "var(--bad)" },
+  ".cm-diagnosticAction": {
+    margin: "4px 0 0",
+    padding: "2px 8px",
+    display: "block",
+    font: "inherit",
+    color: "var(--on-accent)",
+    backgroundColor: "var(--accent)",
+    borderRadius: "var(--radius)",
   },
   ".cm-hover-text": { maxWidth: "480px", padding: "6px 10px", whiteSpace: "pre-wrap", fontSize: "12px" },
   ".cm-searchMatch": { backgroundColor: "var(--waiting-ground)", outline: "1px solid var(--waiting)" },

@@ -22,6 +22,17 @@ export function changesOf(doc: Text, edits: readonly LspEdit[]): ChangeSpec[] {
   }));
 }
 
+/** Return the change of one text into another: what is between the parts that they begin and end with; null if none. */
+export function changeTo(before: string, after: string): { from: number; to: number; insert: string } | null {
+  if (before === after) return null;
+  const shorter = Math.min(before.length, after.length);
+  let from = 0;
+  while (from < shorter && before[from] === after[from]) from++;
+  let same = 0;
+  while (same < shorter - from && before.at(-1 - same) === after.at(-1 - same)) same++;
+  return { from, to: before.length - same, insert: after.slice(from, after.length - same) };
+}
+
 /** Return a text with edits, which are about the text before all of them and do not overlap. */
 export function applyEdits(text: string, edits: readonly LspEdit[]): string {
   const doc = Text.of(text.split("\n"));

@@ -52,6 +52,8 @@ const ANSWER_MS = 8000;
 /** How long a server may take to start. */
 const START_MS = 60_000;
 const LOOK_MS = 100;
+/** The kind of a change of a file whose text is another one. */
+const CHANGED = 2;
 
 /** A client for the texts of one library; `onDiagnostics` gets what is wrong with a text. */
 export class LanguageServer {
@@ -62,6 +64,8 @@ export class LanguageServer {
   private isOver = false;
   private open: { path: string; text: string } | null = null;
   private readonly answers = new Map<number, (answer: Message) => void>();
+  /** What the server has said last about each text: it says nothing again while that is the same. */
+  private readonly found = new Map<string, LspDiagnostic[]>();
 
   constructor(
     private readonly library: string,
@@ -83,6 +87,17 @@ export class LanguageServer {
     if (before !== null)
       this.notify("textDocument/didClose", { textDocument: { uri: this.uri(before.path) } });
     this.tellOpen();
+  }
+
+  /** Return what is wrong with a text, as far as the server has said; null if it has said nothing yet. */
+  problems(path: string): LspDiagnostic[] | null {
+    return this.found.get(path) ?? null;
+  }
+
+  /** Tell that a file was changed on disk, by somebody else. */
+  changedOnDisk(path: string): void {
+    const changes = [{ uri: this.uri(path), type: CHANGED }];
+    if (this.isReady) this.notify("workspace/didChangeWatchedFiles", { changes });
   }
 
   /** Ask something about the open text, at a position if there is one; null if there is no answer. */
@@ -125,6 +140,7 @@ export class LanguageServer {
       this.isReady = false;
       for (const answer of this.answers.values()) answer({});
       this.answers.clear();
+      this.found.clear();
       if (!this.isOver && event.code !== REFUSED)
         window.setTimeout(() => !this.isOver && this.connect(), AGAIN_MS);
     };
@@ -153,6 +169,7 @@ export class LanguageServer {
   private receive(message: Message): void {
     if (message.method === "textDocument/publishDiagnostics") {
       const { uri, diagnostics } = message.params as { uri: string; diagnostics: LspDiagnostic[] };
+      this.found.set(this.pathOf(uri), diagnostics);
       this.onDiagnostics(this.pathOf(uri), diagnostics);
     } else if (message.id !== undefined && message.method !== undefined) {
       this.send({ id: message.id, result: null });

@@ -18,6 +18,8 @@ import {
 /** An editor with what the buttons beside it do. */
 export interface SourceEditor extends Editor {
   format(): void;
+  /** Look at the problems again, as another file of the library may have changed. */
+  filesChanged(): void;
   /** Apply all safe fixes. */
   fixAll(): void;
   /** Return the name at the cursor, or why it cannot be renamed. */
@@ -69,17 +71,22 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
   });
   const { view } = editor;
   let safe: readonly LspEdit[] = [];
-  listener = (path, found) => {
-    if (path !== file.path) return;
+  /** Show problems, unless there are newer ones; once more if the text has changed while their fixes were asked for. */
+  const diagnose = async (found: LspDiagnostic[]): Promise<void> => {
     const { doc } = view.state;
-    void findFixes(client, path, doc, found).then(({ diagnostics, all }) => {
-      if (view.state.doc !== doc) return;
-      safe = all;
-      options.onFixable(all.length > 0);
-      editor.diagnose(diagnostics);
-    });
+    const { diagnostics, all } = await findFixes(client, file.path, doc, found);
+    if (client.problems(file.path) !== found) return;
+    if (view.state.doc !== doc) return diagnose(found);
+    safe = all;
+    options.onFixable(all.length > 0);
+    editor.diagnose(diagnostics);
+  };
+  listener = (path, found) => {
+    if (path === file.path) void diagnose(found);
   };
   client.show(file.path, text);
+  const known = client.problems(file.path);
+  if (known !== null) void diagnose(known);
   const position = () => positionOf(view.state.doc, view.state.selection.main.head);
   return {
     ...editor,
@@ -88,6 +95,7 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
       void format(client, view);
       view.focus();
     },
+    filesChanged: () => client.changedOnDisk(file.path),
     fixAll: () => {
       applyFix(view, safe);
       view.focus();

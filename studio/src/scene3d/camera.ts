@@ -22,6 +22,8 @@ export class SceneCamera {
   readonly controls: OrbitControls;
   follows = false;
   private glide: Glide | null = null;
+  /** The share of the height that nothing covers. */
+  private free = 1;
 
   constructor(canvas: HTMLElement, changed: () => void) {
     this.camera.up.set(0, 0, 1);
@@ -35,9 +37,10 @@ export class SceneCamera {
     this.controls.addEventListener("start", () => (this.glide = null));
   }
 
-  setSize(width: number, height: number): void {
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+  /** Set the size of the picture in pixels, `covered` of which are covered on top: its middle is that of the rest. */
+  setSize(width: number, height: number, covered: number): void {
+    this.free = 1 - covered / height;
+    this.camera.setViewOffset(width, height, 0, -covered / 2, width, height);
   }
 
   /** Look at a sphere from a preset direction; at once, or gliding there. */
@@ -45,7 +48,7 @@ export class SceneCamera {
     this.follows = preset === "follow";
     if (preset === "follow") return;
     const half = (this.camera.fov / 2) * (Math.PI / 180);
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    const narrow = Math.atan(Math.tan(half) * Math.min(this.free, this.camera.aspect));
     const away = DIRECTIONS[preset].clone().normalize();
     const place = away.multiplyScalar((0.92 * sphere.radius) / Math.sin(narrow)).add(sphere.center);
     this.glide = {

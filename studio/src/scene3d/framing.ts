@@ -1,6 +1,7 @@
 // What is in the picture, and where a point of the world is in it.
 import * as three from "three";
 import type { SceneBodies } from "./bodies";
+import type { Box } from "./labels";
 import type { PoseNumbers } from "./types";
 
 const LEAST_M = 0.15;
@@ -18,6 +19,11 @@ export function frameThese(
   const sphere = box.getBoundingSphere(new three.Sphere());
   sphere.radius = Math.max(LEAST_M, sphere.radius);
   return sphere;
+}
+
+/** Return how much of a picture of a height is covered at its top, in pixels: by what ends in its upper half. */
+export function topCover(covered: readonly Box[], height: number): number {
+  return Math.max(0, ...covered.map(({ bottom }) => bottom).filter((each) => each < height / 2));
 }
 
 /** Return where a point is in a picture of a size in pixels; null if it is outside. */

@@ -26,10 +26,12 @@ export interface Box {
 }
 
 /** Return where the lower middles of labels are in pixels, by key: above their points, or below if there is no room.
- *  Those behind the viewer, outside or covered on both sides are left out. `reserved` is covered by something else. */
+ *  Those behind the viewer, outside or covered on both sides are left out; none goes over the edges of a picture of a
+ *  width. `reserved` is covered by something else. */
 export function placeLabels(
   labels: readonly Label[],
   project: (at: three.Vector3) => { x: number; y: number } | null,
+  width: number,
   reserved: readonly Box[] = [],
 ): Map<string, { x: number; y: number }> {
   const taken = [...reserved];
@@ -38,16 +40,17 @@ export function placeLabels(
     const at = project(label.at);
     if (at === null) continue;
     const half = (label.text.length * WIDTH_OF_CHARACTER + PADDING) / 2;
+    const x = Math.max(half, Math.min(width - half, at.x));
     const boxes = [at.y - GAP, at.y + GAP + HEIGHT].map((bottom) => ({
-      left: at.x - half,
-      right: at.x + half,
+      left: x - half,
+      right: x + half,
       top: bottom - HEIGHT,
       bottom,
     }));
     const box = boxes.find((one) => !taken.some((each) => overlaps(each, one)));
     if (box === undefined) continue;
     taken.push(box);
-    places.set(label.key, { x: at.x, y: box.bottom });
+    places.set(label.key, { x, y: box.bottom });
   }
   return places;
 }
@@ -65,9 +68,10 @@ export class LabelLayer {
   show(
     labels: readonly Label[],
     project: (at: three.Vector3) => { x: number; y: number } | null,
+    width: number,
     reserved: readonly Box[],
   ): void {
-    const places = placeLabels(labels, project, reserved);
+    const places = placeLabels(labels, project, width, reserved);
     const known = new Map(labels.map((each) => [each.key, each]));
     for (const [key, element] of this.elements)
       if (!places.has(key)) {

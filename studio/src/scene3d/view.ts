@@ -6,7 +6,7 @@ import { findMisbeliefs, shiftsOf, type Misbelief } from "./belief";
 import { SceneBodies } from "./bodies";
 import { SceneCamera } from "./camera";
 import { CoverageLayer } from "./coverage";
-import { frameThese, projectTo } from "./framing";
+import { frameThese, projectTo, topCover } from "./framing";
 import { findForces, ForceArrows, type DrawnForce } from "./forces";
 import { placeBodies, poseOf } from "./kinematics";
 import { LabelLayer, type Box } from "./labels";
@@ -77,6 +77,7 @@ export class SceneView implements SceneHandle {
       this.overlay.onResize((width, height, covered) => {
         this.stage.setSize(width, height);
         this.covered = covered;
+        this.camera.setSize(width, height, topCover(covered, height));
         this.request();
       }),
     );
@@ -204,11 +205,12 @@ export class SceneView implements SceneHandle {
     const began = performance.now();
     if (this.isStale) this.update();
     this.isStale = false;
-    const isBeside = this.options.value.reality === "beside";
     const tool = Object.values(this.sources.sample.value?.arms ?? {})[0]?.tool;
     if (this.camera.advance(now, tool === undefined ? null : new three.Vector3(tool[0], tool[1], tool[2])))
       this.request();
-    this.camera.setSize(this.stage.width / (isBeside ? 2 : 1), this.stage.height);
+    const isBeside = this.options.value.reality === "beside";
+    const { width, height } = this.stage;
+    this.camera.setSize(width / (isBeside ? 2 : 1), height, topCover(this.covered, height));
     const [reality, belief] = [() => this.place(false), () => this.place(true)];
     const halves = isBeside
       ? [reality, belief]
@@ -275,6 +277,7 @@ export class SceneView implements SceneHandle {
     this.labels.show(
       labels,
       (at) => projectTo(this.camera.camera, width, this.stage.height, at),
+      width,
       this.covered,
     );
   }

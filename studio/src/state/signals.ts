@@ -30,9 +30,13 @@ const seen = new Set<string>();
 export const recorded = signal<Plotted | null>(null);
 /** What is recorded of the operation that is shown, if it was not seen live. */
 const stored = signal<Plotted | null>(null);
+/** Whether that is being read. */
+export const isReadingStored = signal(false);
 
 const shown = computed(() => (replay.value === null ? stored.value : recorded.value));
-export const plotLines = computed(() => shown.value?.lines ?? (replay.value === null ? liveLines.value : []));
+export const plotLines = computed(
+  () => shown.value?.lines ?? (replay.value === null && !isReadingStored.value ? liveLines.value : []),
+);
 
 /** The columns to plot, the time first: those of the operation that is shown. */
 export const plotColumns = computed(() => {
@@ -94,15 +98,20 @@ export function armLines(arms: readonly string[]): Line[] {
 function readStored(): void {
   const id = operationId.value;
   stored.value = null;
-  if (id === null || isOngoing.value || status.value === null || seen.has(id)) return;
-  void readSignals(id).then(
-    (found) => {
-      if (operationId.peek() === id) stored.value = found;
-    },
-    (error: unknown) => {
-      if (!(error instanceof ApiError)) throw error;
-    },
-  );
+  isReadingStored.value = id !== null && !isOngoing.value && status.value !== null && !seen.has(id);
+  if (id === null || !isReadingStored.peek()) return;
+  void readSignals(id)
+    .then(
+      (found) => {
+        if (operationId.peek() === id) stored.value = found;
+      },
+      (error: unknown) => {
+        if (!(error instanceof ApiError)) throw error;
+      },
+    )
+    .finally(() => {
+      if (operationId.peek() === id) isReadingStored.value = false;
+    });
 }
 
 /** Read the recorded forces of an operation; null if it has none. */

@@ -72,6 +72,20 @@ export async function openFile(library: string, path: string): Promise<void> {
   });
 }
 
+/** Read the open file again if somebody else has changed it; a draft stays, and is compared when it is saved. */
+export async function refreshFile(): Promise<void> {
+  const current = source.peek();
+  if (current === null || current.draft !== null) return;
+  try {
+    const { text, hash, editable } = await api.file(current.library, current.path);
+    if (hash !== current.hash && source.peek() === current)
+      source.value = { ...current, text, hash, editable };
+  } catch (error) {
+    // A file that is gone, or a server that is away: what was read stays.
+    if (!(error instanceof ApiError)) throw error;
+  }
+}
+
 /** Write the draft, unless the file on disk is not the one that was read; then say what the check of it says. */
 export async function saveFile(): Promise<void> {
   const current = source.peek();

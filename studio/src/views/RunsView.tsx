@@ -43,7 +43,7 @@ export function RunsView() {
       <div class="view-tools row">
         <input
           type="search"
-          placeholder="Search: task, thing, person, state"
+          placeholder="Search in the runs"
           aria-label="Search in the runs"
           value={text}
           onInput={(event) => (search.value = event.currentTarget.value)}

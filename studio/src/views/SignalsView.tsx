@@ -2,13 +2,13 @@
 import { useEffect, useRef } from "preact/hooks";
 import { effect, signal } from "@preact/signals";
 import type uPlot from "uplot";
-import { plotColumns, plotLines } from "../state/signals";
+import { isReadingStored, plotColumns, plotLines } from "../state/signals";
 import { select } from "../state/actions";
 import { replay, span } from "../state/studio";
 import { GanttView } from "./GanttView";
 import { TabbedPanel } from "./Panel";
 import { isDark, signalsTab } from "./layout";
-import { drawPlot } from "./plot";
+import { drawPlot, fitPlot } from "./plot";
 
 const pausedAt = signal(false);
 
@@ -26,6 +26,12 @@ export function SignalsView() {
       ]}
     />
   );
+}
+
+/** Say why there is no plot. */
+function describeNothing(): string {
+  if (replay.value !== null) return "This recording has no forces or speeds of an arm.";
+  return isReadingStored.value ? "The recorded signals are read …" : "No arm of this cell is measured yet.";
 }
 
 function Tools() {
@@ -55,15 +61,14 @@ function Plots() {
     ).then((made) => {
       if (isOver) return made.destroy();
       plot = made;
+      fitPlot(made, element);
       end = effect(() => {
         const columns = plotColumns.value;
         if (!pausedAt.value) made.setData(columns as uPlot.AlignedData);
       });
     });
     const ofSpan = span.subscribe(() => plot?.redraw(false));
-    const observer = new ResizeObserver(() =>
-      plot?.setSize({ width: element.clientWidth, height: plotHeight(element) }),
-    );
+    const observer = new ResizeObserver(() => plot !== null && fitPlot(plot, element));
     observer.observe(element);
     return () => {
       isOver = true;
@@ -73,14 +78,7 @@ function Plots() {
       plot?.destroy();
     };
   }, [key]);
-  if (lines.length === 0)
-    return (
-      <div class="empty">
-        {replay.value === null
-          ? "No arm of this cell is measured yet."
-          : "This recording has no forces or speeds of an arm."}
-      </div>
-    );
+  if (lines.length === 0) return <div class="empty">{describeNothing()}</div>;
   return (
     <div
       class="plots"
@@ -89,9 +87,4 @@ function Plots() {
       aria-label={`Plot of ${lines.map((each) => each.name).join(", ")}`}
     />
   );
-}
-
-/** Return the height of the plot without its legend. */
-function plotHeight(element: HTMLElement): number {
-  return Math.max(80, element.clientHeight - (element.querySelector(".u-legend")?.clientHeight ?? 24));
 }

@@ -1,7 +1,7 @@
 // Source: the files of the library of the cell, with the line of the selected step and of what runs.
 import { signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { cell, place } from "../state/studio";
+import { cell, connection, place } from "../state/studio";
 import {
   activePlaces,
   breakpoints,
@@ -10,6 +10,7 @@ import {
   openFile,
   openPath,
   readFiles,
+  refreshFile,
   revertFile,
   saveFile,
   showConflict,
@@ -23,11 +24,27 @@ const shownEditor = signal<SourceEditor | null>(null);
 const isFixable = signal(false);
 const renaming = signal(false);
 
+/** How often the open file is looked at, which others may change on disk. */
+const LOOK_MS = 2000;
+
 export function SourceView() {
-  const name = cell.value?.library;
+  const { library: name, library_hash: hash, library_problem: problem } = cell.value ?? {};
+  useEffect(() => {
+    const look = (): void => {
+      if (!document.hidden && connection.peek().state === "open") void refreshFile();
+    };
+    const timer = window.setInterval(look, LOOK_MS);
+    return () => window.clearInterval(timer);
+  }, []);
   useEffect(() => {
     if (name !== undefined) void readFiles(name);
   }, [name]);
+  useEffect(() => {
+    const refresh = (): void => void refreshFile().then(() => shownEditor.peek()?.filesChanged());
+    refresh();
+    window.addEventListener("focus", refresh);
+    return () => window.removeEventListener("focus", refresh);
+  }, [name, hash, problem]);
   const wanted = place.value;
   useEffect(() => {
     if (name !== undefined && wanted !== null) void openPath(name, wanted.path);
@@ -50,7 +67,7 @@ export function SourceView() {
           {files.value.length === 0 ? "The files of this library cannot be read." : "Choose a file."}
         </div>
       ) : (
-        <EditorBox key={`${source.value.path} ${source.value.hash}`} />
+        <EditorBox key={`${source.value.library} ${source.value.path}`} />
       )}
     </div>
   );
@@ -154,6 +171,10 @@ function EditorBox() {
     };
   }, []);
   const path = source.value?.path ?? "";
+  useEffect(() => {
+    const now = source.peek(); // What was typed after this was drawn is in it.
+    if (now !== null) editor?.show(now.draft ?? now.text ?? "");
+  }, [editor, source.value?.draft, source.value?.text]);
   const wanted = place.value?.path === path ? place.value.line : null;
   const lines = activePlaces.value.filter((each) => each.path === path).map((each) => each.line);
   const marked = [...breakpoints.value]

@@ -226,7 +226,7 @@ function Connection() {
           onClick={() => void logOut()}
         >
           <span class="truncate">{who.name}</span>
-          <span class="muted small">{who.role}</span>
+          {who.role !== who.name && <span class="muted small">{who.role}</span>}
         </button>
       )}
     </div>

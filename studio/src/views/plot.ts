@@ -71,11 +71,17 @@ export async function drawPlot(
 /** The least height of an axis: noise around zero is not blown up. */
 const LEAST = 0.1;
 
-/** Return how wide an axis has to be for its labels. */
+/** Return how wide an axis has to be for its labels, with the ticks beside them and some space at the edge. */
 function labelWidth(plot: uPlot, values: string[] | null): number {
   if (values === null) return 40;
   plot.ctx.font = FONT;
-  return 16 + Math.max(...values.map((each) => plot.ctx.measureText(each).width / devicePixelRatio));
+  return 22 + Math.max(...values.map((each) => plot.ctx.measureText(each).width / devicePixelRatio));
+}
+
+/** Give a plot the size of its element without the legend, which is as wide as the element. */
+export function fitPlot(plot: uPlot, element: HTMLElement): void {
+  const legend = element.querySelector(".u-legend")?.clientHeight ?? 24;
+  plot.setSize({ width: element.clientWidth, height: Math.max(80, element.clientHeight - legend) });
 }
 
 function fromZero(_: uPlot, least: number | null, most: number | null): [number, number] {

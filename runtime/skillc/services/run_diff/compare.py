@@ -21,6 +21,8 @@ from skillc.services.run_diff.calls import (
 from skillc.services.run_diff.difference import Difference, Leaf, Part, RunDiff, compare_mappings, find_difference
 from skillc.services.run_diff.recorded import RecordedRunData, read_recorded_run
 from skillc.services.run_diff.signals import compare_signals
+from skillc_model.format_condition import format_condition
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.events import Disturbed, Requested, TaskStarted
 from skillc_runtime.recording.known_facts import format_status
@@ -75,8 +77,9 @@ def _about_run(start: TaskStarted) -> dict[str, Leaf]:
 
 
 def _describe_objective(start: TaskStarted) -> str:
-    """Return the goal or the body as JSON, with the local names of what it is about: no vocabulary is recorded."""
-    text = msgspec.json.encode(start.body if start.goal is None else start.goal).decode()
+    """Return the goal in the syntax of the language, or the body as JSON; by local names: no prefixes are recorded."""
+    body = msgspec.json.encode(start.body).decode()
+    text = body if start.goal is None else format_condition(start.goal, Vocabulary())
     return re.sub(r"[a-z]+://[^\"\s]*[#/]", "", text)
 
 
