@@ -92,6 +92,8 @@ class LostNames:
         lost = self.names.get(unknown.owner, frozenset()) | self.names.get(LIBRARY, frozenset())
         if text in lost or unknown.written.text in lost:
             return True
+        if unknown.kind == "implementation" and self.declarations:
+            return not unknown.is_misspelt
         if unknown.owner != LIBRARY:
             return unknown.owner in self.names and not unknown.is_misspelt
         if unknown.written.span.path in self.headers and not unknown.is_misspelt:
@@ -101,9 +103,13 @@ class LostNames:
         return missing and is_lost and not unknown.is_misspelt
 
 
-def find_lost(files: Iterable[s.File]) -> LostNames:
-    """Return what the syntax errors of the files may have removed."""
+def find_lost(files: Sequence[s.File]) -> LostNames:
+    """Return what syntax errors of the files may have removed, and the implementations of skills that do not exist."""
     names: dict[str, set[str]] = defaultdict(set)
+    declarations = [declaration for file in files for declaration in file.declarations]
+    skills = {each.name.text for each in declarations if isinstance(each, s.SkillDeclaration)}
+    ways = (each for each in declarations if isinstance(each, s.ImplementationDeclaration))
+    names[LIBRARY] |= {each.name.text for each in ways if each.skill.text not in skills}
     headers: set[str] = set()
     outside: set[str] = set()
     for file in files:

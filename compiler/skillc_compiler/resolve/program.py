@@ -125,7 +125,7 @@ def _contexts(
 
 def _find_lost(files: Sequence[ParsedFile], base: Vocabulary) -> LostNames:
     """Return what may be missing: because of syntax errors, and of files and vocabularies that do not exist."""
-    lost = find_lost(unit.file for unit in files)
+    lost = find_lost([unit.file for unit in files])
     return replace(lost, headers=lost.headers | {unit.file.path for unit in files if _lacks_a_file(unit, base)})
 
 
