@@ -42,7 +42,7 @@ def open_studio(page: Page, server: RunningServer) -> None:
     warm_up(server)
     page.goto(f"{origin_of(server)}/#code={make_code(server)}")
     page.locator(".workspace").wait_for()
-    page.get_by_text("operational").wait_for()
+    page.get_by_text("operational", exact=True).wait_for()
 
 
 def warm_up(server: RunningServer) -> None:

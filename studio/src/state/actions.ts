@@ -42,6 +42,7 @@ export function showCell(name: string): void {
     studio.replay.value = null;
     studio.library.value = null;
     studio.facts.value = [];
+    studio.areFactsRead.value = false;
     studio.worldSequence.value = 0;
     const ofCell = [...studio.operations.value.values()].filter((each) => each.cell === name);
     const ongoing = ofCell.find((each) => !studio.ENDS.includes(each.state));

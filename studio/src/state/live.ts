@@ -154,6 +154,7 @@ interface Facts {
 function showFacts({ facts, sequence }: Facts): void {
   batch(() => {
     studio.facts.value = facts;
+    studio.areFactsRead.value = true;
     studio.worldSequence.value = sequence;
   });
 }

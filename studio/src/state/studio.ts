@@ -30,6 +30,8 @@ export const cell = computed(() => cells.value.get(cellName.value ?? "") ?? null
 
 export const library = signal<LibraryDescription | null>(null);
 export const facts = signal<readonly WorldFact[]>([]);
+/** Whether the facts of the cell that is shown have been read. */
+export const areFactsRead = signal(false);
 /** The number of the last write that `facts` has. */
 export const worldSequence = signal(0);
 

@@ -15,9 +15,12 @@ export function localName(iri: string): string {
   return /[^#/]*$/.exec(iri)?.[0] ?? iri;
 }
 
+/** Smaller numbers in SI units come from rounding. */
+const ROUNDING = 1e-12;
+
 /** Return a number as people write it: up to `digits` significant digits, without needless zeros. */
 export function formatNumber(value: number, digits = 6): string {
-  return String(Number(value.toPrecision(digits)));
+  return String(Number((Math.abs(value) < ROUNDING ? 0 : value).toPrecision(digits)));
 }
 
 function withUnit(text: string, unit: string): string {

@@ -65,7 +65,7 @@ function CellChoice() {
         </select>
       </label>
       <span title={current.reason || current.scene}>
-        <CellBadge state={current.state} />
+        <CellBadge state={current.state} isKnown={connection.value.state === "open"} />
       </span>
       {needsCare && (
         <button

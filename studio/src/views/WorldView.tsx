@@ -5,7 +5,16 @@ import { api } from "../api/client";
 import type { WorldFact } from "../api/types";
 import { attempt } from "../state/actions";
 import { readWorld } from "../state/live";
-import { cellName, facts, mayCommand, refusalOf, selection, things } from "../state/studio";
+import {
+  areFactsRead,
+  cell,
+  cellName,
+  facts,
+  mayCommand,
+  refusalOf,
+  selection,
+  things,
+} from "../state/studio";
 import { formatFact, individualsOf } from "../state/text";
 import { maximised } from "./layout";
 import { Fact } from "./links";
@@ -95,6 +104,17 @@ function Shown() {
   }
 }
 
+function NoFacts() {
+  if (cell.value?.state === "off") return <div class="empty">No facts: the cell is off.</div>;
+  if (areFactsRead.value) return <div class="empty">The world of the cell is empty.</div>;
+  return (
+    <div class="empty" role="status">
+      <span class="spinner" />
+      The facts are loaded
+    </div>
+  );
+}
+
 function FactTable() {
   const selected = new Set(things.value);
   const text = search.value.toLowerCase();
@@ -103,8 +123,7 @@ function FactTable() {
     (each) => text === "" || formatFact(each.fact).toLowerCase().includes(text),
   );
   const shown = [...found.filter(isAbout), ...found.filter((each) => !isAbout(each))].slice(0, 500);
-  if (facts.value.length === 0)
-    return <div class="empty">No facts: the cell is off, or its world is empty.</div>;
+  if (facts.value.length === 0) return <NoFacts />;
   if (shown.length === 0) return <div class="empty">No fact has “{search.value}” in it.</div>;
   return (
     <table>

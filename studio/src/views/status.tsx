@@ -50,8 +50,10 @@ export function RunBadge({ state, verified }: { state: RunState; verified?: bool
   return <Badge look={RUN[state]} />;
 }
 
-export function CellBadge({ state }: { state: CellState }) {
-  return <Badge look={CELL[state]} />;
+/** The state of a cell, or the one that it had last while there is no connection. */
+export function CellBadge({ state, isKnown }: { state: CellState; isKnown: boolean }) {
+  const [, , word] = CELL[state];
+  return <Badge look={isKnown ? CELL[state] : ["is-idle", "ring", `was ${word}`]} />;
 }
 
 /** The state of a node as a shape; its word is for screen readers. */
