@@ -114,7 +114,7 @@ def open_page(browser: Browser, server: RunningServer, samples: Samples) -> Page
     page.set_default_timeout(READY_MS)
     samples.pass_on(page)
     page.goto(f"{origin_of(server)}/#code={make_code(server)}")
-    page.get_by_text("operational").wait_for()
+    page.get_by_text("operational", exact=True).wait_for()
     return page
 
 

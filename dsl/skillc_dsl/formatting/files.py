@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.columns import KEYWORD, ColumnCell, MemberLine, align_columns
-from skillc_dsl.formatting.inline import Branch, index_of
+from skillc_dsl.formatting.inline import index_of
 from skillc_dsl.formatting.members import MemberFormatter
-from skillc_dsl.parsing.tokens import Token, Tree
+from skillc_dsl.parsing.tokens import Branch, Token, Tree
 
 _HEADER = ("use", "prefix", "import_")
 _BLOCKS = ("skill", "impl", "task")

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import TypeAlias
 
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.notes import Notes
-from skillc_dsl.parsing.tokens import Token, Tree
+from skillc_dsl.parsing.tokens import Branch, Token, Tree
 from skillc_dsl.tokens import NUMBER
 
-Branch: TypeAlias = Token | Tree
 _CHAINS = ("sum", "product", "or_", "and_", "implies")
 _TIGHT = ("member", "negative", "opposite", "list_of", "implementation")
 _CALLS = ("call", "apply", "check")

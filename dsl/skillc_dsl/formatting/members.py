@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.columns import KEYWORD, ColumnCell, MemberLine, align_columns
-from skillc_dsl.formatting.inline import Branch, index_of, is_token
+from skillc_dsl.formatting.inline import index_of, is_token
 from skillc_dsl.formatting.steps import StepFormatter, has_braces
-from skillc_dsl.parsing.tokens import Token, Tree
+from skillc_dsl.parsing.tokens import Branch, Token, Tree
 
 _LOOSE = ("duration", "shares", "pause")
 """Long keywords, which do not widen their column, as what follows them is in no other column."""

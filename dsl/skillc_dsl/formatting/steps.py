@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_dsl.formatting import documents as d
-from skillc_dsl.formatting.inline import Branch, InlineFormatter, index_of, is_token
-from skillc_dsl.parsing.tokens import Token, Tree
+from skillc_dsl.formatting.inline import InlineFormatter, index_of, is_token
+from skillc_dsl.parsing.tokens import Branch, Token, Tree
 
 _SHORT = ("call", "wait", "wait_until", "check", "apply_posts")
 

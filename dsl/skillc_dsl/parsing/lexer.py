@@ -9,7 +9,7 @@ from typing import NamedTuple
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.encoding import REPLACEMENT
 from skillc_dsl.parsing.grammar import END
-from skillc_dsl.parsing.tables import load_pattern, load_tables
+from skillc_dsl.parsing.tables import WORD, load_pattern, load_tables
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
 
@@ -29,11 +29,8 @@ _HINTS = MappingProxyType(
     }
 )
 
-WORD = "NAME"
-"""The terminal of texts that may be words of the language."""
 
-
-class Place(NamedTuple):
+class LexerPosition(NamedTuple):
     """A position in the text, with its line and column."""
 
     position: int
@@ -55,7 +52,7 @@ def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
     while at < size:
         found = match(text, at)
         if found is None:
-            at += _skip(Place(at, line, at - begin + 1), source, tokens, problems)
+            at += _skip(LexerPosition(at, line, at - begin + 1), source, tokens, problems)
             continue
         end, terminal = found.end(), found.lastgroup or ""
         if terminal not in ignored:
@@ -74,7 +71,7 @@ def empty_token_after(last: Token | None, terminal: str) -> Token:
     return Token(terminal, "", position, line, column, line, column, position)
 
 
-def _skip(place: Place, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> int:
+def _skip(place: LexerPosition, source: Source, tokens: list[Token], problems: list[Diagnostic]) -> int:
     """Report characters that form no token, an unterminated string or a run of unknown ones; return how many."""
     start, line, column = place
     quote = {'"': r'"[^\n]*', "'": r"'[^'\n]*'|'+"}.get(source.text[start])

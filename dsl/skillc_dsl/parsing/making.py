@@ -11,10 +11,7 @@ from lark.grammar import Rule as LarkRule
 from lark.lexer import TerminalDef
 from lark.parsers.lalr_analysis import Shift
 
-from skillc_dsl.parsing.tables import NESTED, Rule, Tables
-
-WORD = "NAME"
-"""The terminal whose texts may be words of the language."""
+from skillc_dsl.parsing.tables import NESTED, WORD, Rule, Tables
 
 
 def make_parser(grammar: str) -> Lark:

@@ -14,6 +14,8 @@ import msgspec
 from skillc_dsl import cache
 from skillc_dsl.units import UNITS
 
+WORD = "NAME"
+"""The terminal whose texts may be words of the language."""
 _FORMAT = 1
 """Another number makes the tables in caches unknown."""
 

@@ -109,4 +109,4 @@ def find_part(children: Iterable[Child], rule: str) -> Part | None:
 def keyword_at(children: Sequence[Child], index: int) -> str:
     """Return the token at `index` as text, or an empty string if the child is not a token."""
     child = children[index] if index < len(children) else None
-    return str(child) if isinstance(child, Token) else ""
+    return child.value if isinstance(child, Token) else ""
