@@ -77,6 +77,25 @@ def test_two_runs_are_compared(server: RunningServer) -> None:
     assert str(server.folder) not in str(diff["runs"])
 
 
+def test_a_run_is_compared_as_soon_as_its_task_has_begun(server: RunningServer) -> None:
+    server.put_back()
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    ended = server.submit(**CARRY)["id"]
+    server.wait_for(ended, "succeeded")
+    server.put_back()
+    waiting, queued = (server.submit(**CARRY, approve=True)["id"] for _ in range(2))
+    wait_until(lambda: server.client.get(f"/operations/{waiting}/events").json(), bool)
+    begun, not_begun = (
+        server.client.get(f"/operations/{ended}/diff", params={"other": each}) for each in (waiting, queued)
+    )
+    for each in (queued, waiting):
+        server.client.post(f"/operations/{each}/commands", json={"type": "stop"})
+    assert begun.status_code == 200, begun.text
+    task = next(each for each in begun.json()["differences"] if each["what"] == "task")
+    assert (task["first"], task["second"]) == ("finished, not verified", "not ended as far as it is recorded")
+    assert not_begun.status_code == 422 and f"{queued} has not begun its task" in not_begun.json()["detail"]
+
+
 @pytest.mark.parametrize(
     ("path", "status"),
     [

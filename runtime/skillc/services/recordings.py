@@ -52,7 +52,7 @@ def read_run(run: Path, reporter: Reporter) -> RunHistory:
     """Read the recording of a run, given its folder or a file with its events. ServiceError if it cannot be read."""
     path = find_recording(run)
     with _reading(path, reporter) as envelopes:
-        return _require_history(read_history(each.event for each in envelopes), path)
+        return _require_history(read_history(each.event for each in envelopes), str(path))
 
 
 def read_envelopes(path: Path, reporter: Reporter) -> tuple[Envelope, ...]:
@@ -93,7 +93,12 @@ def read_result(path: Path, events: Sequence[Envelope]) -> TaskResult:
             return msgspec.json.decode(file.read_bytes(), type=TaskResult)
         except (OSError, msgspec.MsgspecError) as error:
             raise ServiceError(f"{file} cannot be read: {error}") from error
-    history = _require_history(read_history(each.event for each in events), path)
+    return make_result(events, str(path))
+
+
+def make_result(events: Sequence[Envelope], name: str) -> TaskResult:
+    """Return the result that the events of a run tell. ServiceError with its name if its task has not begun."""
+    history = _require_history(read_history(each.event for each in events), name)
     if not history.status:
         history = msgspec.structs.replace(history, status="interrupted")
     if not history.attempts:
@@ -133,9 +138,9 @@ def _explaining(path: Path) -> Iterator[None]:
         raise ServiceError(f"{path} cannot be read: {error.strerror or error}") from error
 
 
-def _require_history(history: RunHistory | None, path: Path) -> RunHistory:
+def _require_history(history: RunHistory | None, name: str) -> RunHistory:
     if history is None:
-        raise ServiceError(f"{path} has no events of a task: the run ended before the task began")
+        raise ServiceError(f"{name} has no events of a task: the run ended before the task began")
     return history
 
 

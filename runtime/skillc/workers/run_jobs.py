@@ -42,7 +42,7 @@ class ReadSignals(msgspec.Struct, frozen=True, tag="signals"):
 
 
 class CompareRuns(msgspec.Struct, frozen=True, tag="compare"):
-    """Compare two runs by their recordings."""
+    """Compare two runs; one that goes on as far as it is."""
 
     first: RunFiles
     second: RunFiles

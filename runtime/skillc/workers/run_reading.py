@@ -8,16 +8,15 @@ from typing import TypeAlias, assert_never
 
 import msgspec
 import numpy as np
-from msgspec import structs
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
 from skillc.services.errors import ServiceError
 from skillc.services.operation_tree import OperationTree, build_tree
-from skillc.services.recordings import answer_question, read_signals
-from skillc.services.reporting import SilentReporter
+from skillc.services.recordings import answer_question, make_result, read_signals
 from skillc.services.run_diff.compare import compare_runs
 from skillc.services.run_diff.difference import RunDiff
+from skillc.services.run_diff.recorded import RecordedRunData, make_run_data, read_mcap_columns
 from skillc.services.story_text import explain_call, format_answer, overview_lines
 from skillc.workers.jobs import JobRefused
 from skillc.workers.run_jobs import (
@@ -74,7 +73,7 @@ def _answer(job: RunJob) -> RunAnswer:
         case ReadSignals():
             return _read_signals(job)
         case CompareRuns(first, second):
-            return _compare(first, second)
+            return compare_runs(_read_run(first), _read_run(second))
         case _:
             assert_never(job)
 
@@ -157,6 +156,10 @@ def _read_signals(job: ReadSignals) -> SignalRows:
     )
 
 
-def _compare(first: RunFiles, second: RunFiles) -> RunDiff:
-    diff = compare_runs(Path(first.recording), Path(second.recording), SilentReporter())
-    return structs.replace(diff, runs=(first.operation, second.operation))
+def _read_run(run: RunFiles) -> RecordedRunData:
+    """Read a run, also while it goes on: the journal has its events before the recording does."""
+    envelopes, recording = _read_events(run), Path(run.recording)
+    if read_history(each.event for each in envelopes) is None:
+        raise ServiceError(f"{run.operation} has not begun its task")
+    signals = read_mcap_columns(recording) if recording.exists() and recording.stat().st_size else None
+    return make_run_data(run.operation, envelopes, make_result(envelopes, run.operation), signals)

@@ -35,8 +35,10 @@ def command(run: Path, other: Path, as_json: bool) -> None:
     from skillc.cli.console import Terminal, page_of, print_json, print_lines, print_remark
     from skillc.cli.diff_output import format_diff
     from skillc.services.run_diff.compare import compare_runs
+    from skillc.services.run_diff.recorded import read_recorded_run
 
-    diff = compare_runs(run, other, Terminal())
+    terminal = Terminal()
+    diff = compare_runs(read_recorded_run(run, terminal), read_recorded_run(other, terminal))
     if as_json:
         print_json(diff)
         return

@@ -5,12 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import zip_longest
-from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from skillc.services.reporting import Reporter
 from skillc.services.run_diff.calls import (
     compare_choices,
     compare_durations,
@@ -19,7 +17,7 @@ from skillc.services.run_diff.calls import (
     pair_calls,
 )
 from skillc.services.run_diff.difference import Difference, Leaf, Part, RunDiff, compare_mappings, find_difference
-from skillc.services.run_diff.recorded import RecordedRunData, read_recorded_run
+from skillc.services.run_diff.recorded import RecordedRunData
 from skillc.services.run_diff.signals import compare_signals
 from skillc_model.format_condition import format_condition
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -28,9 +26,8 @@ from skillc_runtime.recording.events import Disturbed, Requested, TaskStarted
 from skillc_runtime.recording.known_facts import format_status
 
 
-def compare_runs(one: Path, other: Path, reporter: Reporter) -> RunDiff:
-    """Compare two runs, given their folders or recordings. ServiceError if one cannot be read."""
-    first, second = read_recorded_run(one, reporter), read_recorded_run(other, reporter)
+def compare_runs(first: RecordedRunData, second: RecordedRunData) -> RunDiff:
+    """Return in what two runs differ."""
     pairs = pair_calls(first.history, second.history)
     about, same = _about_run(first.start), _about_run(second.start)
     requests = _list_requests(first), _list_requests(second)
@@ -104,7 +101,7 @@ def _describe_request(event: Requested | Disturbed) -> str:
 
 def _describe_end(run: RecordedRunData) -> str:
     if not run.history.status:
-        return "the recording ends before the task"
+        return "not ended as far as it is recorded"
     status = format_status(run.history.status, run.history.verified)
     return f"{status}: {run.result.failure}" if run.result.failure else status
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from skillc.services.reporting import Reporter
 from skillc.services.signal_files import read_signal_dictionary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, TaskStarted
 from skillc_runtime.recording.history import RunHistory
 from skillc_runtime.recording.history_builder import read_history
@@ -46,12 +47,24 @@ def read_recorded_run(run: Path, reporter: Reporter) -> RecordedRunData:
     """Read a run, given its folder or its recording. ServiceError if that is not possible."""
     path = find_recording(run)
     envelopes = read_envelopes(path, reporter)
-    result = read_result(path, envelopes)
+    return make_run_data(str(run), envelopes, read_result(path, envelopes), _find_signals(path))
+
+
+def make_run_data(
+    name: str, envelopes: Sequence[Envelope], result: TaskResult, signals: Mapping[str, Array] | None
+) -> RecordedRunData:
+    """Return what is compared of a run, given its events with the start of its task, and its signals."""
     events = tuple(each.event for each in envelopes)
     history = read_history(events)
     assert history is not None, "a run without history has no result"
     start = next(event for event in events if isinstance(event, TaskStarted))
-    return RecordedRunData(str(run), start, events, history, result, _find_signals(path))
+    return RecordedRunData(name, start, events, history, result, signals)
+
+
+def read_mcap_columns(path: Path) -> Mapping[str, Array]:
+    """Return the columns of the signals in an MCAP file. ServiceError if it cannot be read."""
+    table = read_signals(path)
+    return {each.column: table.column(each.column) for each in table.signals}
 
 
 def _find_signals(path: Path) -> Mapping[str, Array] | None:
@@ -62,10 +75,7 @@ def _find_signals(path: Path) -> Mapping[str, Array] | None:
     if (path.parent / DICTIONARY).exists() and not is_mcap(path):
         return _read_files(path.parent)
     mcap = path if is_mcap(path) else find_mcap(path.parent)
-    if mcap is None:
-        return None
-    table = read_signals(mcap)
-    return {each.column: table.column(each.column) for each in table.signals}
+    return None if mcap is None else read_mcap_columns(mcap)
 
 
 def _read_files(folder: Path) -> Mapping[str, Array]:
