@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.diagnostics.unplannable import report_unplannable
-from skillc_compiler.lower.library import LowerMemo, lower_program
+from skillc_compiler.lower.library import lower_program
 from skillc_compiler.problems import AnalysisMemo, find_problems, visible_diagnostics
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser, read_sources
@@ -44,7 +44,7 @@ def compile(
         return analyse(texts, vocabulary, importable, name, scenes, parsed_by, memo)
 
     with gc_disabled():
-        found = lower_and_report(find(sources), sources, memo.lowered)
+        found = lower_and_report(find(sources), sources, memo)
         useful = keep_useful_fixes(found.diagnostics, sources, lambda texts: find(texts).diagnostics)
     return Outcome(found.value, useful)
 
@@ -65,9 +65,10 @@ def analyse(
 
 
 def lower_and_report(
-    program: Outcome[Program], sources: Sequence[Source], memo: LowerMemo | None = None
+    program: Outcome[Program], sources: Sequence[Source], memo: AnalysisMemo | None = None
 ) -> Outcome[SkillLibrary]:
     """Lower a program, and select the diagnostics that the author of `sources` sees."""
-    library = lower_program(program.value, program.diagnostics, memo)
-    left_out = report_unplannable(library, program.value, program.diagnostics)
+    memo = memo or AnalysisMemo()
+    library = lower_program(program.value, program.diagnostics, memo.lowered)
+    left_out = report_unplannable(library, program.value, program.diagnostics, memo.planning)
     return Outcome(library, visible_diagnostics((*program.diagnostics, *left_out), sources))

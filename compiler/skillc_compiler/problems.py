@@ -9,6 +9,7 @@ from skillc_compiler.checks import CheckMemo, run_checks
 from skillc_compiler.diagnostics.prefixes import with_prefix
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
 from skillc_compiler.diagnostics.unknown_names import report_unknown_names
+from skillc_compiler.diagnostics.unplannable import PlanningMemo
 from skillc_compiler.lower.library import LowerMemo
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.typed import ParsedFile, Program
@@ -27,6 +28,7 @@ class AnalysisMemo:
     resolve: ResolveMemo = field(default_factory=ResolveMemo)
     checks: CheckMemo = field(default_factory=CheckMemo)
     lowered: LowerMemo = field(default_factory=LowerMemo)
+    planning: PlanningMemo = field(default_factory=PlanningMemo)
 
 
 def find_problems(

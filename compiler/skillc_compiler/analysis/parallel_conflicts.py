@@ -9,7 +9,7 @@ from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.findings import ParallelConflict
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.writes import PropertyWrite, RelationWrite, Write
-from skillc_compiler.program.typed import Call, Program, TypedNode
+from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import Individual, Literal, Variable
@@ -50,12 +50,19 @@ def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> fro
     passed = {argument.name.text: argument.value.meaning for argument in call.arguments}
     names = {device.parameter.text for device in call.skill.devices if device.kind == "uses"}
     for implementation in program.candidates(call):
-        if isinstance(implementation.body, TypedNode):
-            for inner in calls_in(implementation.body):
-                found = _devices(program, inner, (*context, call.skill.name))
-                names |= {device.name for device in found if isinstance(device, Variable)}
+        names |= devices_inside(program, implementation, context)
     values = (passed.get(name) for name in names)
     return frozenset(value for value in values if isinstance(value, Variable | Individual))
+
+
+def devices_inside(program: Program, of: Implementation, context: tuple[str, ...] = ()) -> frozenset[str]:
+    """Return the names that the body of an implementation has for the devices that it uses exclusively.
+
+    `context` names the skills whose bodies are being followed.
+    """
+    calls = calls_in(of.body) if isinstance(of.body, TypedNode) else ()
+    found = (device for inner in calls for device in _devices(program, inner, (*context, of.skill.name)))
+    return frozenset(device.name for device in found if isinstance(device, Variable))
 
 
 def _conflicts(axioms: CanonicalAxioms, ours: frozenset[Write], theirs: frozenset[Write]) -> list[str]:

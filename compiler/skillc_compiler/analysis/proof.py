@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TypeAlias, TypeVar
 
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.axioms import CanonicalAxioms, build_axioms
-from skillc_compiler.analysis.called import CalledBodies
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
@@ -23,14 +22,17 @@ from skillc_compiler.analysis.findings import (
     ViolatedProperty,
 )
 from skillc_compiler.analysis.initial_state import can_start, declare_names, initial_state, parameter_state
+from skillc_compiler.analysis.interfaces import Interface, summarise
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
+from skillc_compiler.analysis.sameness import Proved
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.analysis.writes import NO_WRITES, Write
-from skillc_compiler.program.memo import Memo
+from skillc_compiler.program.called import called_by, may_run_one_that_runs_it, run_by
+from skillc_compiler.program.memo import Latest, Memo
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
@@ -40,39 +42,47 @@ F = TypeVar("F", bound=Finding)
 
 @dataclass(frozen=True)
 class Proof:
-    """The findings in one body. `leaks` are its changes that its description does not declare."""
+    """The findings in one body; an implementation has an interface, which its callers read."""
 
     of: Implementation | Task
     findings: tuple[Finding, ...]
-    leaks: frozenset[Write] = NO_WRITES
+    interface: Interface | None = None
 
 
 Proofs: TypeAlias = Mapping[str, Proof]
-"""The proof of each compound implementation by its key, and of each task with a body by `task NAME`."""
+"""The proof of each compound implementation, and of each task with a body, by its key."""
 
 
 @dataclass
 class ProofMemo:
-    """The proofs of the last analysis."""
+    """The proofs of the last analysis, of what they are, and the interfaces of all implementations."""
 
     proofs: Memo[Proof] = field(default_factory=Memo)
+    primitives: Memo[Interface] = field(default_factory=Memo)
+    interfaces: Latest[Interface] = field(default_factory=Latest)
+    proved: Latest[Proved] = field(default_factory=Latest)
+
+    def begin(self) -> None:
+        """Begin the next analysis."""
+        for each in vars(self).values():
+            each.begin()
 
 
 def prove(program: Program, memo: ProofMemo | None = None, paths: Collection[str] | None = None) -> Proofs:
     """Return the proofs of a program, in the order of its declarations; with `paths`, only those in these files.
 
-    A proof in `memo` is reused if neither the body nor anything that it may run has changed.
+    A proof in `memo` is reused if neither the body nor the interface of anything that it calls has changed.
     """
     memo = memo or ProofMemo()
-    memo.proofs.begin()
-    prover = Prover(program, memo.proofs)
+    memo.begin()
+    prover = Prover(program, memo)
     implementations = [each for each in program.implementations if paths is None or each.span.path in paths]
     tasks = [each for each in program.tasks if paths is None or each.span.path in paths]
     for implementation in implementations:
-        prover.leaks(implementation)
+        prover.prove_implementation(implementation)
     for task in tasks:
         prover.prove_task(task)
-    keys = (*(each.key for each in implementations), *(f"task {task.name}" for task in tasks))
+    keys = (each.key for part in (implementations, tasks) for each in part)
     return {key: prover.proofs[key] for key in keys if key in prover.proofs}
 
 
@@ -87,40 +97,65 @@ class Prover:
     """Computes proofs on demand."""
 
     program: Program
-    memo: Memo[Proof] = field(default_factory=Memo)
+    memo: ProofMemo = field(default_factory=ProofMemo)
     proofs: dict[str, Proof] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._axioms: CanonicalAxioms = build_axioms(self.program.vocabulary)
         self.summaries = WriteSummaries(self.program, self._axioms)
-        self._called = CalledBodies(self.program)
+        self._interfaces: dict[str, Interface] = {}
         self._busy: set[str] = set()
 
     def leaks(self, implementation: Implementation) -> frozenset[Write]:
         """Return what an implementation changes beyond its postconditions when it succeeds."""
         if not isinstance(implementation.body, TypedNode) or implementation.key in self._busy:
             return NO_WRITES
-        if implementation.key not in self.proofs:
-            self._busy.add(implementation.key)
-            compute = partial(self._prove_implementation, implementation, implementation.body)
-            self.proofs[implementation.key] = self._recall(implementation, implementation.body, compute)
-            self._busy.discard(implementation.key)
-        return self.proofs[implementation.key].leaks
+        return self._interface(implementation).leaks
+
+    def prove_implementation(self, implementation: Implementation) -> None:
+        """Prove the body of an implementation, if it has one."""
+        if isinstance(implementation.body, TypedNode):
+            self._interface(implementation)
 
     def prove_task(self, task: Task) -> None:
         """Prove the body of a task."""
         if task.body is not None:
-            self.proofs[f"task {task.name}"] = self._recall(task, task.body, partial(self._prove_task, task, task.body))
+            self.proofs[task.key] = self._recall(task, partial(self._prove_task, task, task.body))
+
+    def _interface(self, of: Implementation) -> Interface:
+        """Return what callers read of an implementation: the same object as in the analysis before if it is equal."""
+        if of.key not in self._interfaces:
+            self._interfaces[of.key] = self.memo.interfaces.same(of.key, self._find_interface(of))
+        return self._interfaces[of.key]
+
+    def _find_interface(self, of: Implementation) -> Interface:
+        if not isinstance(of.body, TypedNode):
+            compute = partial(summarise, self.program, self.summaries, of)
+            return self.memo.primitives.recall((of, self.program.vocabulary), compute)
+        self._busy.add(of.key)
+        proof = self._recall(of, partial(self._prove_implementation, of, of.body))
+        self._busy.discard(of.key)
+        self.proofs[of.key] = proof
+        assert proof.interface is not None, "an implementation has one"
+        return proof.interface
 
     def _prove_task(self, task: Task, body: TypedNode) -> Proof:
         run = self.new_exploration(task, body)
         run.explore(run, body, {State(): None}, EvalContext())
         return Proof(task, self._all_findings(task, body, run, ()))
 
-    def _recall(self, of: Implementation | Task, body: TypedNode, compute: Callable[[], Proof]) -> Proof:
-        """Return the known proof of a body; that of one that may run itself depends on the order, and is not reused."""
-        run = self._called.run_by(body)
-        return compute() if run is None else self.memo.recall((of, self.program.vocabulary, *run), compute)
+    def _recall(self, of: Implementation | Task, compute: Callable[[], Proof]) -> Proof:
+        """Return the known proof of a body.
+
+        That of one which runs others that run it depends on the order, and is not reused.
+        """
+        if isinstance(of, Implementation) and may_run_one_that_runs_it(self.program, of):
+            return compute()
+        called = (self._interface(one) for one in called_by(self.program, of) if one.key != of.key)
+        follows = run_by(self.program, of) if isinstance(of, Implementation) and of.verify else ()
+        kept = self.memo.proved.same(of.key, Proved(of))
+        proof = self.memo.proofs.recall((kept, self.program.vocabulary, *called, *follows), compute)
+        return proof if proof.of is of else replace(proof, of=of)
 
     def new_exploration(self, of: Implementation | Task, body: TypedNode) -> Exploration:
         """Return a new exploration of a body."""
@@ -151,7 +186,8 @@ class Prover:
             *self._verify_findings(implementation, body, start),
         )
         leaks = end_states.undeclared_writes(run, implementation, start, ends)
-        return Proof(implementation, self._all_findings(implementation, body, run, end_findings), leaks)
+        interface = summarise(self.program, self.summaries, implementation, leaks)
+        return Proof(implementation, self._all_findings(implementation, body, run, end_findings), interface)
 
     def _verify_findings(self, implementation: Implementation, body: TypedNode, start: State) -> Iterator[Finding]:
         for line in implementation.verify:

@@ -88,20 +88,21 @@ class WriteSummaries:
     def scoped_writes(self, call: Call, context: tuple[str, ...] = ()) -> frozenset[Write]:
         """Return the writes of scoped skills that remain after the call, until an enclosing `with` ends.
 
-        `around` names the skills whose bodies are being followed.
+        `context` names the skills whose bodies are being followed.
         """
         if call.skill is None or call.skill.name in context:
             return NO_WRITES
         if "scoped" in call.skill.flags:
             return self.writes_of_call(call)
-        bodies = [one.body for one in self._program.candidates(call) if isinstance(one.body, TypedNode)]
-        inner = (
-            write
-            for body in bodies
-            for each in calls_in(body)
-            for write in self.scoped_writes(each, (*context, call.skill.name))
-        )
-        return in_caller_terms(call, hide_names(inner, [p.name for p in call.skill.parameters]))
+        candidates = self._program.candidates(call)
+        inner = (write for one in candidates for write in self.scoped_writes_inside(one, context))
+        return in_caller_terms(call, frozenset(inner))
+
+    def scoped_writes_inside(self, of: Implementation, context: tuple[str, ...] = ()) -> frozenset[Write]:
+        """Return the writes of scoped skills that remain after an implementation has run, in its own terms."""
+        calls = calls_in(of.body) if isinstance(of.body, TypedNode) else ()
+        inner = (write for each in calls for write in self.scoped_writes(each, (*context, of.skill.name)))
+        return hide_names(inner, [p.name for p in of.skill.parameters])
 
     def skills_run_by(self, call: Call) -> frozenset[str]:
         """Return the names of all skills that a call may run."""

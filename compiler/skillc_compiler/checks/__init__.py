@@ -18,7 +18,7 @@ from skillc_compiler.analysis.proof import ProofMemo, prove
 from skillc_compiler.program.causes import group_by_cause
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.memo import Memo
-from skillc_compiler.program.parts import Part, Reads, only_in, parts_of
+from skillc_compiler.program.parts import Part, Reads, families_of, only_in, parts_of
 from skillc_compiler.program.typed import Program
 from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_dsl.diagnostics import Diagnostic
@@ -57,12 +57,13 @@ class FileFindings(Protocol):
 
 @dataclass
 class CheckMemo:
-    """What the checks have found in the declarations of the last analysis, and the proofs of its bodies.
+    """What the checks have found in the declarations and families of the last analysis, and the proofs of its bodies.
 
     `files` knows what others have found in whole files.
     """
 
     parts: Memo[FoundBy] = field(default_factory=Memo)
+    families: Memo[FoundBy] = field(default_factory=Memo)
     proofs: ProofMemo = field(default_factory=ProofMemo)
     targets: Targets = field(default_factory=Targets)
     files: FileFindings | None = None
@@ -89,6 +90,10 @@ def find_all(program: Program, memo: CheckMemo, paths: Collection[str] | None = 
     for path in chosen:
         for name, problems in in_files[path].items():
             found[name] += problems
+    memo.families.begin()
+    for part in families_of(program, paths):
+        for name, problems in memo.families.recall(part.of, partial(_check_part, part, Reads.FAMILY)).items():
+            found[name] += (each for each in problems if paths is None or each.span.path in paths)
     for check in load_checks():
         if check.READS is Reads.NEIGHBOURS:
             found[check.__name__] += (each for each in check.check(program) if paths is None or each.span.path in paths)
@@ -102,7 +107,7 @@ def _find_in_files(program: Program, memo: CheckMemo, paths: Collection[str]) ->
     found: dict[str, dict[str, list[Diagnostic]]] = {path: defaultdict(list) for path in paths}
     memo.parts.begin()
     for part in parts_of(program, paths):
-        for name, problems in memo.parts.recall(part.of, partial(_check_part, part)).items():
+        for name, problems in memo.parts.recall(part.of, partial(_check_part, part, Reads.DECLARATION)).items():
             found[part.path][name] += problems
     memo.targets.refresh()
     proofs, chosen = prove(program, memo.proofs, paths), NamedPython(only_in(program, paths), memo.targets)
@@ -119,9 +124,9 @@ def _paths(program: Program) -> Iterable[str]:
     return dict.fromkeys((*(unit.file.path for unit in program.files), *(span.path for span in spans)))
 
 
-def _check_part(part: Part) -> FoundBy:
+def _check_part(part: Part, reads: Reads) -> FoundBy:
     program = part.program()
-    checks = (each for each in load_checks() if each.READS is Reads.DECLARATION)
+    checks = (each for each in load_checks() if each.READS is reads)
     found = {each.__name__: tuple(each.check(program)) for each in checks}
     return {name: problems for name, problems in found.items() if problems}
 

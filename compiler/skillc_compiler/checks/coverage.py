@@ -15,7 +15,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("no-fitting-implementation",)
 NEEDS = Need.PROGRAM
-READS = Reads.NEIGHBOURS
+READS = Reads.FAMILY
 SHOWN = 3
 
 

@@ -3,27 +3,65 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
 
 from skillc_compiler.checks.planning import UNPLANNABLE, check_skill
-from skillc_compiler.program.typed import Program, Skill
+from skillc_compiler.program import typed
+from skillc_compiler.program.memo import Latest, Memo
+from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_model.pddl.devices import passed_on
 from skillc_model.pddl.domain import Excluded
 from skillc_model.pddl.planning import make_planning_domain
-from skillc_model.skills import SkillLibrary
+from skillc_model.planning_view import encode_view
+from skillc_model.skills import Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
-def report_unplannable(library: SkillLibrary, program: Program, problems: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+@dataclass
+class PlanningMemo:
+    """What planners read of each skill in the last analysis, of all of them, and which they leave out."""
+
+    views: Memo[tuple[object, ...]] = field(default_factory=Memo)
+    read: Latest[tuple[object, ...]] = field(default_factory=Latest)
+    excluded: Memo[tuple[Excluded, ...]] = field(default_factory=Memo)
+
+    def begin(self) -> None:
+        """Begin the next analysis."""
+        for each in vars(self).values():
+            each.begin()
+
+
+def report_unplannable(
+    library: SkillLibrary, program: Program, problems: Iterable[Diagnostic], memo: PlanningMemo
+) -> Iterator[Diagnostic]:
     """Yield a warning for each skill that no plan can contain, unless its description alone already shows why.
 
     If there is an error, nothing is planned, so nothing is reported.
     """
     if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
         return
-    for excluded in make_planning_domain(library).excluded:
+    for excluded in _find_excluded(library, memo):
         skill = program.skills[excluded.skill]
         if program.implementations_of[skill.name] and not any(check_skill(program, skill)):
             yield _problem(skill, excluded)
+
+
+def _find_excluded(library: SkillLibrary, memo: PlanningMemo) -> tuple[Excluded, ...]:
+    """Return the skills that planners leave out: the same as in the analysis before if they read the same."""
+    memo.begin()
+    views = (
+        memo.views.recall((skill, *library.implementations_of(name)), partial(_view, library, skill))
+        for name, skill in library.skills.items()
+    )
+    read = memo.read.same("", tuple(views))
+    return memo.excluded.recall((read, library.vocabulary), lambda: make_planning_domain(library).excluded)
+
+
+def _view(library: SkillLibrary, skill: Skill) -> tuple[object, ...]:
+    implementations = library.implementations_of(skill.name)
+    return encode_view(skill, implementations), tuple(passed_on(skill, implementations))
 
 
 def _has_class_cycle(vocabulary: Vocabulary) -> bool:
@@ -31,7 +69,7 @@ def _has_class_cycle(vocabulary: Vocabulary) -> bool:
     return any(vocabulary.is_a(parent, iri) for iri, term in vocabulary.classes.items() for parent in term.parents)
 
 
-def _problem(skill: Skill, excluded: Excluded) -> Diagnostic:
+def _problem(skill: typed.Skill, excluded: Excluded) -> Diagnostic:
     written = (r.condition.span for r in skill.requirements if r.text == excluded.requirement)
     return Diagnostic(
         UNPLANNABLE,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import Type, type_of
 from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
-from skillc_compiler.resolve.names import Names, bare_terms
+from skillc_compiler.resolve.names import Homes, Names, bare_terms
 from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl.source import Span
 from skillc_model import skills as library
@@ -37,7 +37,7 @@ def make_context(
         prefixes={**prefixes, **vocabulary.prefixes},
         functions=vocabulary.functions,
         skills=set(callees),
-        elsewhere={},
+        elsewhere=Homes({}, frozenset()),
     )
     return FileContext(
         names=names,

@@ -61,7 +61,7 @@ class Analysis:
         """The compiled library with all diagnostics, as from the compiler; by far the slowest property."""
         with gc_disabled():
             checked = Outcome(self.program, find_problems(self.files, self.resolved, self.memo))
-            return lower_and_report(checked, _ordered(self.library), self.memo.lowered if self.memo else None)
+            return lower_and_report(checked, _ordered(self.library), self.memo)
 
     @property
     def problems(self) -> tuple[Diagnostic, ...]:

@@ -97,5 +97,5 @@ def rank_implementations(vocabulary: Vocabulary, declared: Sequence[Implementati
 
 def is_more_specific(vocabulary: Vocabulary, one: Implementation, other: Implementation) -> bool:
     """Whether each parameter type of `one` is at least as narrow as that of `other`, and at least one is narrower."""
-    pairs = [(p.type, q.type) for p, q in zip(one.parameters, other.parameters, strict=True)]
+    pairs = [(p.type, q.type) for p, q in zip(one.parameters, other.parameters, strict=True) if p.type != q.type]
     return all(fits(vocabulary, p, q) for p, q in pairs) and not all(fits(vocabulary, q, p) for p, q in pairs)

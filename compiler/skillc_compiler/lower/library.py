@@ -12,30 +12,38 @@ import msgspec
 
 from skillc_compiler.logic.selection import rank_implementations
 from skillc_compiler.lower import declarations as flattening
-from skillc_compiler.program.memo import Memo
+from skillc_compiler.program.memo import Latest, Memo
 from skillc_compiler.program.spans import SpanIndex
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_compiler.resolve.files import library_namespace
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model import skills as library
+from skillc_model.pddl.constants import mentions_of
 from skillc_model.pddl.names import assign_names
 from skillc_model.skills import SkillLibrary
 
 
 @dataclass
 class LowerMemo:
-    """The declarations of the last analysis, as lowered."""
+    """The declarations of the last analysis, as lowered, and their names for planners."""
 
     skills: Memo[library.Skill] = field(default_factory=Memo)
     implementations: Memo[library.Implementation] = field(default_factory=Memo)
+    individuals: Memo[frozenset[str]] = field(default_factory=Memo)
+    named: Latest[tuple[object, ...]] = field(default_factory=Latest)
+    names: Memo[dict[str, str]] = field(default_factory=Memo)
+
+    def begin(self) -> None:
+        """Begin the next analysis."""
+        for each in vars(self).values():
+            each.begin()
 
 
 def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerMemo | None = None) -> SkillLibrary:
     """Return the library of all declarations without errors that call only such skills."""
     memo = memo or LowerMemo()
-    memo.skills.begin()
-    memo.implementations.begin()
+    memo.begin()
     errors = SpanIndex(problem.span for problem in problems if problem.severity == "error")
     skills = {name: s for name, s in sorted(program.skills.items()) if not errors.any_on_lines_of(s.span)}
     sound = [i for i in program.implementations if i.body is not None and not errors.any_on_lines_of(i.span)]
@@ -62,7 +70,25 @@ def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerM
             if not errors.any_on_lines_of(task.span) and _calls_known(task.body, skills)
         },
     )
-    return msgspec.structs.replace(unnamed, names=assign_names(unnamed))
+    return msgspec.structs.replace(unnamed, names=_assign_names(unnamed, memo))
+
+
+def _assign_names(unnamed: SkillLibrary, memo: LowerMemo) -> dict[str, str]:
+    """Return the names for planners: those of the analysis before if the same things need names."""
+    vocabulary = unnamed.vocabulary
+    named = (
+        memo.individuals.recall(
+            (skill, *unnamed.implementations_of(name), vocabulary), partial(_individuals_in, unnamed, skill)
+        )
+        for name, skill in unnamed.skills.items()
+    )
+    needed = memo.named.same("", (tuple(unnamed.skills), frozenset[str]().union(*named)))
+    return memo.names.recall((needed, vocabulary), partial(assign_names, unnamed))
+
+
+def _individuals_in(of: SkillLibrary, skill: library.Skill) -> frozenset[str]:
+    found = mentions_of(skill, of.implementations_of(skill.name), of.vocabulary) if skill.planned else ()
+    return frozenset(each.individual for each in found)
 
 
 def _namespace(program: Program) -> str:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum, auto
 
 from msgspec import structs
 
+from skillc_compiler.program.called import called_by
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
 from skillc_dsl import syntax as s
 
@@ -15,12 +16,14 @@ from skillc_dsl import syntax as s
 class Reads(Enum):
     """What a check reads.
 
-    DECLARATION: one declaration, the skills that it names and the vocabulary. PYTHON: also files of Python. PROOFS: the
-    proofs of bodies. NEIGHBOURS: also the skills and implementations that a declaration names or may run, the rest of
-    its file and what it imports. LIBRARY: everything, but of bodies only which skills they call.
+    DECLARATION: one declaration, the skills that it names and the vocabulary. FAMILY: a skill with its implementations,
+    or a task, and the implementations of the skills that these call. PYTHON: also files of Python. PROOFS: the proofs
+    of bodies. NEIGHBOURS: also the skills and implementations that a declaration names or may run, the rest of its file
+    and what it imports. LIBRARY: everything, but of bodies only which skills they call.
     """
 
     DECLARATION = auto()
+    FAMILY = auto()
     PYTHON = auto()
     PROOFS = auto()
     NEIGHBOURS = auto()
@@ -48,6 +51,31 @@ def parts_of(program: Program, paths: Collection[str] | None = None) -> Iterator
                 (declaration, program.vocabulary),
                 lambda unit=unit, declaration=declaration: _written_alone(program, unit, declaration),  # type: ignore[misc]
             )
+
+
+def families_of(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
+    """Yield every skill with its implementations, and every task; with `paths`, only those with a part in these files.
+
+    Each has as `neighbours` the implementations of the skills that its bodies call.
+    """
+    for skill in program.skills.values():
+        own = program.implementations_of[skill.name]
+        if paths is None or skill.span.path in paths or any(each.span.path in paths for each in own):
+            yield _family(program, skill, own)
+    for task in program.tasks:
+        if paths is None or task.span.path in paths:
+            yield _family(program, task, (task,))
+
+
+def _family(program: Program, head: Skill | Task, bodies: Sequence[Implementation | Task]) -> Part:
+    called = {each.key: each for body in bodies for each in called_by(program, body)}
+    neighbours = tuple(each for each in called.values() if not any(each is body for body in bodies))
+    implementations = tuple(each for each in bodies if isinstance(each, Implementation))
+
+    def family() -> Program:
+        return replace(_alone(program, head), implementations=implementations, neighbours=neighbours)
+
+    return Part(head.span.path, (head, *implementations, *neighbours, program.vocabulary), family)
 
 
 def only_in(program: Program, paths: Collection[str]) -> Program:

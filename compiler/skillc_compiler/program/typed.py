@@ -213,6 +213,11 @@ class Task(msgspec.Struct, frozen=True):
     name_span: Span
     span: Span
 
+    @property
+    def key(self) -> str:
+        """The name of the task among those of implementations."""
+        return f"task {self.name}"
+
 
 @dataclass(frozen=True, slots=True)
 class ParsedFile:
@@ -232,7 +237,8 @@ class ParsedFile:
 class Program:
     """A resolved library. `used` holds for each file the bare and qualified names that were looked up in it.
 
-    `unknown` are the names that could not be resolved, `lost` is what may be missing because of other errors.
+    `unknown` are the names that could not be resolved, `lost` is what may be missing because of other errors. In a part
+    of a library, `neighbours` are implementations outside of it that its calls may select.
     """
 
     name: str
@@ -244,14 +250,21 @@ class Program:
     used: Mapping[str, frozenset[str]]
     unknown: tuple[UnknownName, ...] = ()
     lost: LostNames = field(default_factory=LostNames)
+    neighbours: tuple[Implementation, ...] = ()
 
     @cached_property
     def implementations_of(self) -> Mapping[str, tuple[Implementation, ...]]:
         """Each skill's implementations in order of declaration."""
         found: dict[str, tuple[Implementation, ...]] = dict.fromkeys(self.skills, ())
-        for implementation in self.implementations:
-            found[implementation.skill.name] += (implementation,)
+        for implementation in (*self.implementations, *self.neighbours):
+            name = implementation.skill.name
+            found[name] = (*found.get(name, ()), implementation)
         return found
+
+    @cached_property
+    def called(self) -> dict[str, tuple[Implementation, ...]]:
+        """The implementations of the skills that a body calls, by its key, as far as they have been looked up."""
+        return {}
 
     def candidates(self, call: Call) -> tuple[Implementation, ...]:
         """Return the implementations that may be selected for a call."""

@@ -29,9 +29,12 @@ def all_nodes(program: Program) -> Iterator[TypedNode]:
 
 def nodes_in(node: TypedNode) -> Iterator[TypedNode]:
     """Yield a node and all nodes in it."""
-    yield node
-    for child in (*node.children, *node.orelse):
-        yield from nodes_in(child)
+    waiting = [node]
+    while waiting:
+        inner = waiting.pop()
+        yield inner
+        if inner.children or inner.orelse:
+            waiting += reversed((*inner.children, *inner.orelse))
 
 
 def all_calls(program: Program) -> Iterator[Call]:

@@ -56,6 +56,7 @@ class ResolveMemo:
     declarations: Latest[tuple[s.Declaration, list[str]]] = field(default_factory=Latest)
     bare: Memo[Bare] = field(default_factory=Memo)
     known: Latest[Mapping[Kind, set[str]]] = field(default_factory=Latest)
+    homes: Latest[Mapping[str, str]] = field(default_factory=Latest)
     names: Latest[Names] = field(default_factory=Latest)
     individuals: Latest[Mapping[str, str | None]] = field(default_factory=Latest)
     declared_terms: Latest[tuple[object, ...]] = field(default_factory=Latest)
@@ -119,6 +120,9 @@ class Resolver:
 
     def look_up_skill(self, context: FileContext, name: s.Name) -> str | None:
         """Return the name if it is a visible skill's; else it is unknown in the file of the context."""
+        if name.text in context.names.skills:
+            self.found[name.span.path].append(Found((), (), frozenset((name.text,))))
+            return name.text
         names = replace(context.names, problems=[], unknown=[], used=set())
         found = names.look_up_skill(name)
         self.found[name.span.path].append(Found.of(names))

@@ -24,6 +24,18 @@ Kind: TypeAlias = Literal["class", "relation", "property"]
 KINDS: tuple[Kind, ...] = ("class", "relation", "property")
 
 
+@dataclass(frozen=True, slots=True)
+class Homes:
+    """The file that declares a name, for each name of the library that is not `visible` in a file."""
+
+    of: Mapping[str, str]
+    visible: Set[str]
+
+    def get(self, name: str) -> str | None:
+        """Return the file; None if the name is visible, or nothing declares it."""
+        return None if name in self.visible else self.of.get(name)
+
+
 @dataclass
 class Names:
     """The names visible in one file, and the problems found when looking names up.
@@ -38,7 +50,7 @@ class Names:
     prefixes: Mapping[str, str]
     functions: Mapping[str, FunctionTerm]
     skills: Set[str]
-    elsewhere: Mapping[str, str]
+    elsewhere: Homes
     problems: list[Diagnostic] = field(default_factory=list)
     unknown: list[UnknownName] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
@@ -167,8 +179,9 @@ class Names:
 
     def find_line(self, kind: Kind, text: str) -> HeaderLine | None:
         """Return the line at the top of the file that would make a name visible, None if there is no such line."""
-        if text in self.elsewhere:
-            return HeaderLine("import", self.elsewhere[text].rpartition("/")[2])
+        declaring = self.elsewhere.get(text)
+        if declaring is not None:
+            return HeaderLine("import", declaring.rpartition("/")[2])
         homes = (prefix for prefix, base in self.prefixes.items() if self._has(kind, base + text))
         home = min(homes, default=None)
         return HeaderLine("use", home) if home else None

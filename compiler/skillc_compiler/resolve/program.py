@@ -20,7 +20,7 @@ from skillc_compiler.resolve.duplicates import find_twice, remove_duplicates
 from skillc_compiler.resolve.implementations import resolve_implementation
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.memo import NOTHING, Found, ResolveMemo, Resolver
-from skillc_compiler.resolve.names import KINDS, Kind, Names
+from skillc_compiler.resolve.names import KINDS, Homes, Kind, Names
 from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import resolve_skill
 from skillc_compiler.resolve.spelling import suggest_fix
@@ -146,7 +146,8 @@ def _names(
     memo: ResolveMemo,
 ) -> dict[str, Names]:
     known = memo.known.same("", _known(declared, base))
-    homes = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
+    declaring = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
+    homes = memo.homes.same("", declaring)
     found = {}
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
@@ -158,7 +159,7 @@ def _names(
             prefixes=prefixes_in(unit.file, base),
             functions={},
             skills={name for there in here for name in there.skills},
-            elsewhere={name: path for name, path in homes.items() if name not in visible_here},
+            elsewhere=Homes(homes, visible_here),
         )
     return found
 

@@ -29,10 +29,15 @@ def find_mentions(library: SkillLibrary) -> dict[str, tuple[Mention, ...]]:
     A library with errors may use terms that are not in its vocabulary; these require no class.
     """
     return {
-        name: tuple(_Mentions(library.vocabulary).of(skill, library.implementations_of(name)))
+        name: mentions_of(skill, library.implementations_of(name), library.vocabulary)
         for name, skill in sorted(library.skills.items())
         if skill.planned
     }
+
+
+def mentions_of(skill: Skill, implementations: Iterable[Implementation], vocabulary: Vocabulary) -> tuple[Mention, ...]:
+    """Return the individuals that a skill and all its `implementations` name."""
+    return tuple(_Mentions(vocabulary).of(skill, implementations))
 
 
 def assumed_classes(found: Iterable[Mention], vocabulary: Vocabulary) -> dict[str, frozenset[str]]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from skillc_model.conditions import Variable
-from skillc_model.skills import Compound, Skill, SkillLibrary
+from skillc_model.skills import Compound, Implementation, Skill, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_model.tree import Call
 
@@ -17,7 +17,7 @@ def locked_parameters(library: SkillLibrary) -> dict[str, tuple[str, ...]]:
     called skill infers has no name in the caller.
     """
     locked = {name: set(skill.uses) for name, skill in library.skills.items()}
-    passed = {name: tuple(_passed_on(skill, library)) for name, skill in library.skills.items()}
+    passed = {name: tuple(passed_on(skill, library.implementations_of(name))) for name, skill in library.skills.items()}
     changed = True
     while changed:
         changed = False
@@ -28,18 +28,18 @@ def locked_parameters(library: SkillLibrary) -> dict[str, tuple[str, ...]]:
     return {name: _in_order(skill, locked[name]) for name, skill in library.skills.items()}
 
 
-def _passed_on(skill: Skill, library: SkillLibrary) -> Iterator[tuple[str, str, str]]:
-    """Yield the parameters that a skill passes on, each with the called skill and its parameter."""
+def passed_on(skill: Skill, implementations: Iterable[Implementation]) -> Iterator[tuple[str, str, str]]:
+    """Yield the parameters that implementations pass on, each with the called skill and its parameter."""
     own = {each.name for each in skill.parameters}
-    for call in _calls(skill, library):
+    for call in _calls(implementations):
         for parameter, value in call.arguments.items():
             match value:
                 case Variable(name=name) if name in own:
                     yield name, call.skill, parameter
 
 
-def _calls(skill: Skill, library: SkillLibrary) -> Iterator[Call]:
-    for each in library.implementations_of(skill.name):
+def _calls(implementations: Iterable[Implementation]) -> Iterator[Call]:
+    for each in implementations:
         if isinstance(each.body, Compound):
             yield from find_calls(each.body.node)
 

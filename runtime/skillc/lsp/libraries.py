@@ -96,6 +96,8 @@ class Libraries:
 
     def find_file(self, root: Root, path: str) -> Path:
         """Return the file of a span's path."""
+        if path in self._sources.get(root, ()):
+            return root.folder / path
         return files.find_file(path, root, self._around(root).value.places)
 
     def view(self, uri: str) -> FileView:

@@ -1,0 +1,44 @@
+"""What a caller can observe of an implementation: its proof stays valid while that of all that it calls is the same."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from skillc_compiler.analysis.parallel_conflicts import devices_inside
+from skillc_compiler.analysis.summaries import WriteSummaries
+from skillc_compiler.analysis.writes import NO_WRITES, Write
+from skillc_compiler.program.typed import Implementation, Program, Requirement
+
+
+@dataclass(frozen=True, slots=True)
+class Interface:
+    """What the proofs of its callers read of an implementation.
+
+    `leaks` are its changes that its description does not declare; `writes`, `writes_on_failure` and `scoped_writes` are
+    those of its summary, in its own terms. `devices` are the parameters with devices that it uses exclusively.
+    """
+
+    key: str
+    requirements: tuple[Requirement, ...]
+    leaks: frozenset[Write]
+    writes: frozenset[Write]
+    writes_on_failure: frozenset[Write]
+    scoped_writes: frozenset[Write]
+    may_break_hold: bool
+    devices: frozenset[str]
+
+
+def summarise(
+    program: Program, summaries: WriteSummaries, of: Implementation, leaks: frozenset[Write] = NO_WRITES
+) -> Interface:
+    """Return the interface of an implementation that leaks these writes."""
+    return Interface(
+        key=of.key,
+        requirements=of.requirements,
+        leaks=leaks,
+        writes=summaries.all_writes(of),
+        writes_on_failure=summaries.writes_on_failure(of),
+        scoped_writes=summaries.scoped_writes_inside(of),
+        may_break_hold=summaries.may_break_hold(of.skill),
+        devices=devices_inside(program, of),
+    )
