@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 
 from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.unknown import LIBRARY, UnknownName
@@ -12,63 +14,79 @@ from skillc_dsl.source import Span
 from skillc_model.conditions import Given, Invoke
 
 
-def find_orphan(program: Program, unknown: UnknownName) -> s.Name | None:
-    """Return the only declaration of the kind and the owner of an unknown name that nothing uses, or None.
+@dataclass
+class Orphans:
+    """The declarations of a program that nothing uses."""
 
-    Of several, the one in the file of the unknown name is meant.
-    """
-    found = [*(_unused_terms if unknown.owner == LIBRARY else _unused_members)(program, unknown)]
-    here = [name for name in found if name.span.path == unknown.written.span.path]
-    return next((each[0] for each in (found, here) if len(each) == 1), None)
+    program: Program
 
+    def find(self, unknown: UnknownName) -> s.Name | None:
+        """Return the only declaration of the kind and the owner of an unknown name that nothing uses, or None.
 
-def _unused_terms(program: Program, unknown: UnknownName) -> Iterator[s.Name]:
-    """Yield the names of unused skills or functions, whatever is missing."""
-    called = {call.skill.name for call in all_calls(program) if call.skill is not None}
-    invoked = {value.meaning.function for value in all_values(program) if isinstance(value.meaning, Invoke)}
-    for declaration in (d for unit in program.files for d in unit.file.declarations):
-        match declaration:
-            case s.SkillDeclaration(name=name) if unknown.kind == "skill":
-                if name.text not in called and not program.implementations_of.get(name.text):
-                    yield name
-            case s.FunctionDeclaration(name=name) if unknown.kind == "function":
-                if name.text not in invoked:
-                    yield name
-            case _:
-                pass
+        Of several, the one in the file of the unknown name is meant.
+        """
+        found = [*(self._terms if unknown.owner == LIBRARY else self._members)(unknown)]
+        here = [name for name in found if name.span.path == unknown.written.span.path]
+        return next((each[0] for each in (found, here) if len(each) == 1), None)
 
+    def _terms(self, unknown: UnknownName) -> Iterator[s.Name]:
+        """Yield the names of unused skills or functions, whatever is missing."""
+        for declaration in self._declarations():
+            match declaration:
+                case s.SkillDeclaration(name=name) if unknown.kind == "skill":
+                    if name.text not in self._called and not self.program.implementations_of.get(name.text):
+                        yield name
+                case s.FunctionDeclaration(name=name) if unknown.kind == "function":
+                    if name.text not in self._invoked:
+                        yield name
+                case _:
+                    pass
 
-def _unused_members(program: Program, unknown: UnknownName) -> Iterator[s.Name]:
-    """Yield the names of unused implementations, or parameters and other values, of the skill that lacks a name.
+    def _members(self, unknown: UnknownName) -> Iterator[s.Name]:
+        """Yield the names of unused implementations, or parameters and other values, of the skill that lacks a name.
 
-    A skill that runs Python uses all its parameters.
-    """
-    if any(isinstance(each.body, s.RunPython) for each in program.implementations_of.get(unknown.owner or "", ())):
-        return
-    chosen = {call.implementation for call in all_calls(program) if call.skill and call.skill.name == unknown.owner}
-    used = _used_places(program)
-    for declaration in (d for unit in program.files for d in unit.file.declarations):
-        match declaration:
-            case s.ImplementationDeclaration(name=name, skill=s.Name(text=skill), members=members):
-                if skill == unknown.owner and unknown.kind == "implementation":
-                    yield from () if name.text in chosen else (name,)
-            case s.SkillDeclaration(name=s.Name(text=skill), members=members):
-                pass
-            case _:
-                continue
-        if skill == unknown.owner and unknown.kind in ("parameter", "argument"):
-            names = (member.name for member in members if isinstance(member, s.Parameter | s.Let))
-            yield from (name for name in names if name.span not in used)
+        A skill that runs Python uses all its parameters.
+        """
+        known = self.program.implementations_of.get(unknown.owner or "", ())
+        if any(isinstance(each.body, s.RunPython) for each in known):
+            return
+        calls = all_calls(self.program)
+        chosen = {call.implementation for call in calls if call.skill and call.skill.name == unknown.owner}
+        for declaration in self._declarations():
+            match declaration:
+                case s.ImplementationDeclaration(name=name, skill=s.Name(text=skill), members=members):
+                    if skill == unknown.owner and unknown.kind == "implementation":
+                        yield from () if name.text in chosen else (name,)
+                case s.SkillDeclaration(name=s.Name(text=skill), members=members):
+                    pass
+                case _:
+                    continue
+            if skill == unknown.owner and unknown.kind in ("parameter", "argument"):
+                names = (member.name for member in members if isinstance(member, s.Parameter | s.Let))
+                yield from (name for name in names if name.span not in self._used_places)
 
+    def _declarations(self) -> Iterator[s.Declaration]:
+        return (declaration for unit in self.program.files for declaration in unit.file.declarations)
 
-def _used_places(program: Program) -> frozenset[Span]:
-    """Return the declarations of the values that are read, and of the parameters that are passed or named."""
-    found = {value.declared for value in all_values(program) if value.declared is not None}
-    named = [(call.skill, argument.name.text) for call in all_calls(program) for argument in call.arguments]
-    named += [(skill, device.parameter.text) for skill in program.skills.values() for device in skill.devices]
-    named += [(skill, name) for skill in program.skills.values() for name in _given_names(skill)]
-    parameters = (skill.parameter(name) for skill, name in named if skill is not None)
-    return frozenset({*found, *(parameter.span for parameter in parameters if parameter is not None)})
+    @cached_property
+    def _called(self) -> frozenset[str]:
+        return frozenset(call.skill.name for call in all_calls(self.program) if call.skill is not None)
+
+    @cached_property
+    def _invoked(self) -> frozenset[str]:
+        meanings = (value.meaning for value in all_values(self.program))
+        return frozenset(meaning.function for meaning in meanings if isinstance(meaning, Invoke))
+
+    @cached_property
+    def _used_places(self) -> frozenset[Span]:
+        """The declarations of the values that are read, and of the parameters that are passed or named."""
+        skills = self.program.skills.values()
+        found = {value.declared for value in all_values(self.program) if value.declared is not None}
+        named = [(call.skill, argument.name.text) for call in all_calls(self.program) for argument in call.arguments]
+        named += [(skill, device.parameter.text) for skill in skills for device in skill.devices]
+        named += [(skill, name) for skill in skills for name in _given_names(skill)]
+        parameters = (skill.parameter(name) for skill, name in named if skill is not None)
+        return frozenset({*found, *(parameter.span for parameter in parameters if parameter is not None)})
 
 
 def _given_names(skill: Skill) -> Iterator[str]:

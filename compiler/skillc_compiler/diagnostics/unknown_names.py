@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from skillc_compiler.diagnostics.orphans import find_orphan
+from skillc_compiler.diagnostics.orphans import Orphans
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownName
 from skillc_compiler.program.written import skill_of
@@ -35,11 +35,12 @@ def report_unknown_names(program: Program) -> Iterator[Diagnostic]:
             groups[_key(unknown)].append(unknown)
     times = _count_words(program.files) if any(len(group) > 1 for group in groups.values()) else {}
     calls: set[Key] = set()
+    orphans = Orphans(program)
     for group in sorted((sorted(each, key=lambda one: one.written.span) for each in groups.values()), key=_first_place):
         first = group[0]
         call = (first.owner, first.written.span.path, first.written.span.line)
         if not first.passed or call not in calls:
-            yield _report(group, program, times)
+            yield _report(group, orphans, times)
         calls |= {call} if first.passed else set()
 
 
@@ -64,9 +65,9 @@ def _key(unknown: UnknownName) -> Key:
     return unknown.owner, text, span.path if unknown.kind == "prefix" else ""
 
 
-def _report(group: Sequence[UnknownName], program: Program, times: Mapping[str, int]) -> Diagnostic:
+def _report(group: Sequence[UnknownName], orphans: Orphans, times: Mapping[str, int]) -> Diagnostic:
     """Return the diagnostic of names with one cause: at the misspelt declaration if there is one, else at the first."""
-    first, files = group[0], program.files
+    first, files = group[0], orphans.program.files
     if first.line is not None:
         return _report_line(group, first.line, files)
     alone = render_unknown_name(first)
@@ -81,15 +82,15 @@ def _report(group: Sequence[UnknownName], program: Program, times: Mapping[str, 
     labels = tuple(Label(each.written.span, "also here") for each in group[1:])
     if place is not None and not first.labels:
         labels = (Label(place, f"`{close[0]}` is declared here"), *labels)
-    return replace(alone, labels=(*alone.labels, *(() if close else _possible_places(first, program)), *labels))
+    return replace(alone, labels=(*alone.labels, *(() if close else _possible_places(first, orphans)), *labels))
 
 
-def _possible_places(unknown: UnknownName, program: Program) -> tuple[Label, ...]:
+def _possible_places(unknown: UnknownName, orphans: Orphans) -> tuple[Label, ...]:
     """Return where a name is probably to be declared: at a declaration that nothing uses, or after the parameters."""
-    orphan = find_orphan(program, unknown)
+    orphan = orphans.find(unknown)
     if orphan is not None:
         return (Label(orphan.span, f"`{orphan.text}` is declared here, and nothing refers to it"),)
-    skill = program.skills.get(unknown.owner or "")
+    skill = orphans.program.skills.get(unknown.owner or "")
     if skill is None or not skill.parameters or unknown.kind not in ("parameter", "argument"):
         return ()
     return (Label(skill.parameters[-1].span, f"a parameter `{unknown.written.text}` could be declared below this one"),)
