@@ -44,7 +44,7 @@ def compile(
         return analyse(texts, vocabulary, importable, name, scenes, parsed_by, memo)
 
     with gc_disabled():
-        found = lower_and_report(find(sources), sources, memo)
+        found = lower_and_report(find(sources), sources)
         useful = keep_useful_fixes(found.diagnostics, sources, lambda texts: find(texts).diagnostics)
     return Outcome(found.value, useful)
 
@@ -68,7 +68,6 @@ def lower_and_report(
     program: Outcome[Program], sources: Sequence[Source], memo: AnalysisMemo | None = None
 ) -> Outcome[SkillLibrary]:
     """Lower a program, and select the diagnostics that the author of `sources` sees."""
-    memo = memo or AnalysisMemo()
-    library = lower_program(program.value, program.diagnostics, memo.lowered)
-    left_out = report_unplannable(library, program.value, program.diagnostics, memo.planning)
+    library = lower_program(program.value, program.diagnostics, memo.lowered if memo else None)
+    left_out = report_unplannable(library, program.value, program.diagnostics, memo.planning if memo else None)
     return Outcome(library, visible_diagnostics((*program.diagnostics, *left_out), sources))

@@ -36,8 +36,12 @@ from skillc_model.format_condition import format_condition
 from skillc_model.traversal import free_variables, walk
 
 
-def end_findings(run: Exploration, implementation: Implementation, start: State, ends: EndStates) -> Iterator[Finding]:
+def end_findings(
+    run: Exploration, implementation: Implementation, before: tuple[State, State], ends: EndStates
+) -> Iterator[Finding]:
     """Yield the findings about the states in which an implementation ends.
+
+    `before` are the state at its start and the declared one.
 
     If a postcondition is not established, an undeclared effect usually has the same cause and is not reported.
     """
@@ -52,21 +56,23 @@ def end_findings(run: Exploration, implementation: Implementation, start: State,
         if unassigned.isdisjoint(free_variables(post.condition.meaning)):
             unproved += _check_post(run, implementation, post, ends.success)
     yield from unproved
-    declared = _declared_state(run, implementation, start)
+    start, _ = before
     effects = {one.effect: one for one in reversed(run.effects.values())}
     for one in effects.values():
         condition = effect_condition(one.effect)
         if condition is not None:
             if not unproved:
-                yield from _check_declared(run, implementation, one, condition, (start, declared), ends.success)
+                yield from _check_declared(run, implementation, one, condition, before, ends.success)
             yield from _check_released(run, one, condition, start, ends)
 
 
 def undeclared_writes(
-    run: Exploration, implementation: Implementation, start: State, ends: EndStates
+    run: Exploration, implementation: Implementation, before: tuple[State, State], ends: EndStates
 ) -> frozenset[Write]:
-    """Return the writes that a successful execution may leave behind and that the description does not declare."""
-    declared = _declared_state(run, implementation, start)
+    """Return the writes that a successful execution may leave behind and that the description does not declare.
+
+    `before` are the state at its start and the declared one.
+    """
     found = set()
     for write in run.summaries.all_writes(implementation):
         condition = written_condition(write) if isinstance(write, RelationWrite | PropertyWrite) else None
@@ -74,7 +80,7 @@ def undeclared_writes(
             if not _is_declared(run, implementation, write):
                 found.add(write)
             continue
-        if not all(_is_accounted_for(run.types, condition, (start, declared), state) for state in ends.success):
+        if not all(_is_accounted_for(run.types, condition, before, state) for state in ends.success):
             found.add(write)
     return frozenset(found)
 
@@ -146,7 +152,7 @@ def _is_beyond(types: AliasTypes, condition: Condition) -> bool:
     return False
 
 
-def _declared_state(run: Exploration, implementation: Implementation, start: State) -> State:
+def declared_state(run: Exploration, implementation: Implementation, start: State) -> State:
     """Return what a caller assumes after a success."""
     posts = requirements_of(implementation, "post")
     state = apply_effects(run.types, start, [effect for _, effect in definite_effects(posts)])

@@ -1,4 +1,4 @@
-"""What a caller can observe of an implementation: its proof stays valid while that of all that it calls is the same."""
+"""What callers can observe of the body of an implementation; while that stays the same, so do their proofs."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 from skillc_compiler.analysis.parallel_conflicts import devices_inside
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.analysis.writes import NO_WRITES, Write
+from skillc_compiler.analysis.writes import Write
 from skillc_compiler.program.typed import Implementation, Program, Requirement
 
 
 @dataclass(frozen=True, slots=True)
 class Interface:
-    """What the proofs of its callers read of an implementation.
+    """What the proofs of its callers read of an implementation with a body.
 
     `leaks` are its changes that its description does not declare; `writes`, `writes_on_failure` and `scoped_writes` are
     those of its summary, in its own terms. `devices` are the parameters with devices that it uses exclusively.
@@ -28,9 +28,7 @@ class Interface:
     devices: frozenset[str]
 
 
-def summarise(
-    program: Program, summaries: WriteSummaries, of: Implementation, leaks: frozenset[Write] = NO_WRITES
-) -> Interface:
+def summarise(program: Program, summaries: WriteSummaries, of: Implementation, leaks: frozenset[Write]) -> Interface:
     """Return the interface of an implementation that leaks these writes."""
     return Interface(
         key=of.key,

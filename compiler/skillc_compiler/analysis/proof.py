@@ -25,7 +25,7 @@ from skillc_compiler.analysis.initial_state import can_start, declare_names, ini
 from skillc_compiler.analysis.interfaces import Interface, summarise
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
-from skillc_compiler.analysis.sameness import Proved
+from skillc_compiler.analysis.sameness import CalledPrimitive, Proved
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import WriteSummaries
@@ -55,10 +55,10 @@ Proofs: TypeAlias = Mapping[str, Proof]
 
 @dataclass
 class ProofMemo:
-    """The proofs of the last analysis, of what they are, and the interfaces of all implementations."""
+    """The proofs of the last analysis, of what they are, and what callers read of implementations."""
 
     proofs: Memo[Proof] = field(default_factory=Memo)
-    primitives: Memo[Interface] = field(default_factory=Memo)
+    primitives: Latest[CalledPrimitive] = field(default_factory=Latest)
     interfaces: Latest[Interface] = field(default_factory=Latest)
     proved: Latest[Proved] = field(default_factory=Latest)
 
@@ -110,34 +110,36 @@ class Prover:
         """Return what an implementation changes beyond its postconditions when it succeeds."""
         if not isinstance(implementation.body, TypedNode) or implementation.key in self._busy:
             return NO_WRITES
-        return self._interface(implementation).leaks
+        return self._interface(implementation, implementation.body).leaks
 
     def prove_implementation(self, implementation: Implementation) -> None:
         """Prove the body of an implementation, if it has one."""
         if isinstance(implementation.body, TypedNode):
-            self._interface(implementation)
+            self._interface(implementation, implementation.body)
 
     def prove_task(self, task: Task) -> None:
         """Prove the body of a task."""
         if task.body is not None:
             self.proofs[task.key] = self._recall(task, partial(self._prove_task, task, task.body))
 
-    def _interface(self, of: Implementation) -> Interface:
+    def _interface(self, of: Implementation, body: TypedNode) -> Interface:
         """Return what callers read of an implementation: the same object as in the analysis before if it is equal."""
         if of.key not in self._interfaces:
-            self._interfaces[of.key] = self.memo.interfaces.same(of.key, self._find_interface(of))
+            self._interfaces[of.key] = self.memo.interfaces.same(of.key, self._find_interface(of, body))
         return self._interfaces[of.key]
 
-    def _find_interface(self, of: Implementation) -> Interface:
-        if not isinstance(of.body, TypedNode):
-            compute = partial(summarise, self.program, self.summaries, of)
-            return self.memo.primitives.recall((of, self.program.vocabulary), compute)
+    def _find_interface(self, of: Implementation, body: TypedNode) -> Interface:
         self._busy.add(of.key)
-        proof = self._recall(of, partial(self._prove_implementation, of, of.body))
+        proof = self._recall(of, partial(self._prove_implementation, of, body))
         self._busy.discard(of.key)
         self.proofs[of.key] = proof
         assert proof.interface is not None, "an implementation has one"
         return proof.interface
+
+    def _read_by_callers(self, of: Implementation) -> Interface | CalledPrimitive:
+        if isinstance(of.body, TypedNode):
+            return self._interface(of, of.body)
+        return self.memo.primitives.same(of.key, CalledPrimitive(of))
 
     def _prove_task(self, task: Task, body: TypedNode) -> Proof:
         run = self.new_exploration(task, body)
@@ -151,7 +153,7 @@ class Prover:
         """
         if isinstance(of, Implementation) and may_run_one_that_runs_it(self.program, of):
             return compute()
-        called = (self._interface(one) for one in called_by(self.program, of) if one.key != of.key)
+        called = (self._read_by_callers(one) for one in called_by(self.program, of) if one.key != of.key)
         follows = run_by(self.program, of) if isinstance(of, Implementation) and of.verify else ()
         kept = self.memo.proved.same(of.key, Proved(of))
         proof = self.memo.proofs.recall((kept, self.program.vocabulary, *called, *follows), compute)
@@ -181,11 +183,12 @@ class Prover:
         run = self.new_exploration(implementation, body)
         start = initial_state(run.types, implementation)
         ends = explore(run, body, {start: None}, EvalContext())
+        before = start, end_states.declared_state(run, implementation, start)
         end_findings = (
-            *end_states.end_findings(run, implementation, start, ends),
+            *end_states.end_findings(run, implementation, before, ends),
             *self._verify_findings(implementation, body, start),
         )
-        leaks = end_states.undeclared_writes(run, implementation, start, ends)
+        leaks = end_states.undeclared_writes(run, implementation, before, ends)
         interface = summarise(self.program, self.summaries, implementation, leaks)
         return Proof(implementation, self._all_findings(implementation, body, run, end_findings), interface)
 

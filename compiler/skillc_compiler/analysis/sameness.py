@@ -22,6 +22,23 @@ class Proved:
         return isinstance(other, Proved) and (self.of is other.of or _are_same(self.of, other.of))
 
 
+class CalledPrimitive(Proved):
+    """An implementation in Python as the proofs of its callers read it."""
+
+    __slots__ = ()
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, CalledPrimitive):
+            return False
+        return self.of is other.of or _view_of_primitive(self.of) == _view_of_primitive(other.of)
+
+
+def _view_of_primitive(of: Implementation | Task) -> tuple[object, ...]:
+    assert isinstance(of, Implementation), "only these run Python"
+    parameters = tuple(_parameter_view(each, named=False) for each in of.parameters)
+    return of.key, of.requirements, parameters, _proof_view(of.skill)
+
+
 def _are_same(one: Implementation | Task, other: Implementation | Task) -> bool:
     match one, other:
         case Implementation(), Implementation():
@@ -71,9 +88,9 @@ def _proof_view(skill: Skill) -> tuple[object, ...]:
     named = frozenset[str]().union(*map(free_variables, conditions))
     named |= {part.parameter for each in conditions for part in walk(each) if isinstance(part, Given)}
     plain = structs.replace(skill, doc="", duration=None, pause=None, parameters=())
-    return plain, tuple(_parameter_view(each, each.name in named) for each in skill.parameters)
+    return plain, tuple(_parameter_view(each, named=each.name in named) for each in skill.parameters)
 
 
-def _parameter_view(parameter: Parameter, named: bool) -> tuple[object, ...]:
+def _parameter_view(parameter: Parameter, *, named: bool) -> tuple[object, ...]:
     known = parameter.default.meaning if parameter.default is not None and named else None
     return structs.replace(parameter, default=None, low=None, high=None, doc=""), known

@@ -36,6 +36,7 @@ class WriteSummaries:
         self._axioms = axioms
         self._whole: dict[str, frozenset[Write]] = {}
         self._steps: dict[int, frozenset[Write]] = {}
+        self._kept: dict[str, bool] = {}
         self._holding: dict[str, bool] = {}
         self._names: dict[str, frozenset[str]] = {}
 
@@ -51,9 +52,11 @@ class WriteSummaries:
 
         A failed primitive has written what it measured, and its effects only if its own postconditions failed.
         """
-        if isinstance(implementation.body, TypedNode) or not self._keeps_promises(implementation):
+        if isinstance(implementation.body, TypedNode):
             return self.all_writes(implementation)
-        return NO_WRITES
+        if implementation.key not in self._kept:
+            self._kept[implementation.key] = self._keeps_promises(implementation)
+        return NO_WRITES if self._kept[implementation.key] else self.all_writes(implementation)
 
     def _keeps_promises(self, implementation: Implementation) -> bool:
         """Whether a primitive's posts hold once they are written, so that writing them is the last thing it does."""

@@ -34,7 +34,7 @@ class PlanningMemo:
 
 
 def report_unplannable(
-    library: SkillLibrary, program: Program, problems: Iterable[Diagnostic], memo: PlanningMemo
+    library: SkillLibrary, program: Program, problems: Iterable[Diagnostic], memo: PlanningMemo | None = None
 ) -> Iterator[Diagnostic]:
     """Yield a warning for each skill that no plan can contain, unless its description alone already shows why.
 
@@ -42,7 +42,7 @@ def report_unplannable(
     """
     if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
         return
-    for excluded in _find_excluded(library, memo):
+    for excluded in _find_excluded(library, memo) if memo else make_planning_domain(library).excluded:
         skill = program.skills[excluded.skill]
         if program.implementations_of[skill.name] and not any(check_skill(program, skill)):
             yield _problem(skill, excluded)

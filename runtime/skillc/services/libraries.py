@@ -49,7 +49,7 @@ def compile_library(
     `parsed_by` is the parser, which may cache its results; without it they are kept in memory. `memo` has what the last
     analysis of the library has found.
     """
-    memo = memo or AnalysisMemo()
+    kept, memo = memo, memo or AnalysisMemo()
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
         files = read_sources(library.sources, library.importable, library.name, parsed_by or _parse, library.namespaces)
@@ -58,7 +58,7 @@ def compile_library(
         if individuals:
             program = resolve_program(files.value, known.value, library.name, individuals, memo.resolve)
         checked = Outcome(program.value, find_problems(files, program, memo))
-        outcome = pipeline.lower_and_report(checked, library.sources)
+        outcome = pipeline.lower_and_report(checked, library.sources, kept)
 
         def check(texts: Sequence[Source]) -> tuple[Diagnostic, ...]:
             others = read_sources(texts, library.importable, library.name, parsed_by or _parse, library.namespaces)
