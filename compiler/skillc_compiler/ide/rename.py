@@ -130,7 +130,7 @@ def _is_parameter_of_call(analysis: Analysis, occurrence: Occurrence) -> bool:
 def _name_in(analysis: Analysis, span: Span) -> Span:
     """Return the place of a name without its prefix."""
     prefix, colon, _ = _text(analysis, span).rpartition(":")
-    return replace(span, column=span.column + len(prefix) + len(colon))
+    return span._replace(column=span.column + len(prefix) + len(colon))
 
 
 def _text(analysis: Analysis, span: Span) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 
 import msgspec
 
@@ -93,7 +92,7 @@ def _with_doc(span: Span, lines: Sequence[str]) -> Span:
     first = span.line
     while first > 1 and lines[first - 2].startswith("##"):
         first -= 1
-    return span if first == span.line else replace(span, line=first, column=1)
+    return span if first == span.line else span._replace(line=first, column=1)
 
 
 def _apart(declaration: s.Declaration, spans: dict[Span, Span]) -> list[Span]:

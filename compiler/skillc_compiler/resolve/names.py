@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Set
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from skillc_compiler.program.labels import label_declaration
@@ -80,7 +80,7 @@ class Names:
             UnknownName(
                 "prefix",
                 s.Name(
-                    prefix, replace(span, end_column=span.column + len(prefix)) if span.line == span.end_line else span
+                    prefix, span._replace(end_column=span.column + len(prefix)) if span.line == span.end_line else span
                 ),
                 f"the prefix `{prefix}` is not declared",
                 tuple(self.prefixes),

@@ -69,6 +69,11 @@ class Parser(Generic[V]):
         parts: list[Any] = []
         depth, size = 0, rule.size
         if size == 1:
+            last = values[-1]
+            if rule.is_list and rule.spread and isinstance(last, Tree):  # a list of nothing but a list
+                last.data = rule.origin
+                states[-1] = self._tables.states[states[-2]][rule.origin]
+                return
             states.pop()
             parts, depth = [values.pop()], depths.pop()
         elif size:

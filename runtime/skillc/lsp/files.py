@@ -95,7 +95,7 @@ def read_surroundings(root: Root) -> Outcome[LibraryFiles]:
 
 
 def _absolute(span: Span) -> Span:
-    return replace(span, path=str(Path(span.path).absolute()))
+    return span._replace(path=str(Path(span.path).absolute()))
 
 
 @cache

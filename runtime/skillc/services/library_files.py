@@ -54,7 +54,7 @@ class LibraryFiles:
         """Return a diagnostic with paths as they are displayed."""
 
         def shown(span: Span) -> Span:
-            return replace(span, path=self.display_path(span.path))
+            return span._replace(path=self.display_path(span.path))
 
         return replace(
             problem,

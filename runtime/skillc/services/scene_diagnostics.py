@@ -27,7 +27,7 @@ def with_shown_path(span: Span) -> Span:
     shipped, here = catalogue.ROOT / span.path, Path.cwd()
     if Path(span.path).exists() or not shipped.is_file():
         return span
-    return replace(span, path=str(shipped.relative_to(here) if shipped.is_relative_to(here) else shipped))
+    return span._replace(path=str(shipped.relative_to(here) if shipped.is_relative_to(here) else shipped))
 
 
 def _shown_label(label: Label) -> Label:

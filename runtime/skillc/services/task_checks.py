@@ -177,7 +177,7 @@ class _TaskDiagnostics:
             if written is None:
                 yield replace(at_call, help=did_you_mean(wrong.text, wrong.known))
                 continue
-            span = replace(written, path=self._display_path(written.path))
+            span = written._replace(path=self._display_path(written.path))
             labels = (*([Label(at_call.span, "in this task")] if refusal.within else ()), *at_call.labels)
             yield value_checks.unknown_value(wrong, message, span, "error", labels)
 

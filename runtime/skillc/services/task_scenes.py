@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
@@ -141,7 +141,7 @@ def _missing(scene: s.Text, texts: SceneTexts) -> Diagnostic:
     """Return the diagnostic of a scene that does not exist or is not a file."""
     beside = texts.place(scene.span.path).parent
     message = f'the scene "{scene.value}" {why_missing(scene.value, beside)}'
-    span = replace(scene.span, path=texts.shown(scene.span.path))
+    span = scene.span._replace(path=texts.shown(scene.span.path))
     if inspect_path(beside / scene.value).kind != "missing":
         return Diagnostic("unreadable-scene", span, message)
     return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, catalogue.scene_names()))

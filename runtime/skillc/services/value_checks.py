@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -83,7 +83,7 @@ def check_values(
             sheets = read_scene(Path("sheets.ttl"), program.vocabulary, "").value
             states = [sheets.state] if sheets else []
         known = {name for state in states for iri in properties for name in list_names(iri, state.individuals, state)}
-        span = replace(each.span, path=display_path(each.span.path))
+        span = each.span._replace(path=display_path(each.span.path))
         if known and each.text not in known and span not in errors:
             wrong = UnknownName(each.text, min(properties), None, tuple(sorted(known)))
             yield unknown_value(wrong, wrong.message(program.vocabulary), span, "warning")
