@@ -36,18 +36,23 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.traversal import free_variables, walk
+from skillc_model.traversal import compound_fields, free_variables, walk
 from skillc_model.tree import Node
 
 S = TypeVar("S", bound=msgspec.Struct)
 T = TypeVar("T", bound=Condition | Effect | Expression | Term | Node)
 ALWAYS, NEVER = And(()), Or(())
+_PLACES_OF_INDIVIDUALS: Mapping[type, tuple[str, ...]] = {
+    **dict.fromkeys((Holds, Assert, Retract), ("subject", "object")),
+    Same: ("left", "right"),
+    **dict.fromkeys((HasProperty, IsA, Assign), ("subject",)),
+}
 
 
 def map_children(item: S, change: Callable[[Any], msgspec.Struct]) -> S:
     """Return the struct with `change` applied to each struct directly inside it; the same object if nothing changes."""
     changes: dict[str, object] = {}
-    for name in item.__struct_fields__:
+    for name in compound_fields(type(item)):
         value = getattr(item, name)
         new = _map_value(value, change)
         if new is not value:
@@ -85,24 +90,12 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
         values = {name: value for name, value in values.items() if name != item.variable}
         item = _without_capture(item, values)
     changed = map_children(item, lambda part: substitute(part, values))
-    for name in _places_of_individuals(item):
+    for name in _PLACES_OF_INDIVIDUALS.get(type(item), ()):
         if not isinstance(getattr(changed, name), Variable | Individual | Anything):
             was = getattr(item, name)
             unknown = Variable(f"{was.name}?" if isinstance(was, Variable) else "?")
             changed = msgspec.structs.replace(changed, **{name: unknown})
     return changed
-
-
-def _places_of_individuals(item: msgspec.Struct) -> tuple[str, ...]:
-    match item:
-        case Holds() | Assert() | Retract():
-            return ("subject", "object")
-        case Same():
-            return ("left", "right")
-        case HasProperty() | IsA() | Assign():
-            return ("subject",)
-        case _:
-            return ()
 
 
 def _without_capture(item: T, values: Mapping[str, Expression]) -> T:

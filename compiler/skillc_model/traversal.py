@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import msgspec
 
 from skillc_model.conditions import And, Condition, Effect, Exists, Expression, Forall, Variable
 from skillc_model.tree import Call
+
+_PLAIN = (str, int, float, bool)
+"""The types of values that hold no structs."""
 
 
 def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
@@ -23,7 +26,7 @@ def walk(item: msgspec.Struct) -> Iterator[msgspec.Struct]:
 def children(item: msgspec.Struct) -> list[msgspec.Struct]:
     """Return the structs directly inside a struct (conditions, expressions, nodes, ..), in order."""
     found: list[msgspec.Struct] = []
-    for name in item.__struct_fields__:
+    for name in compound_fields(type(item)):
         value = getattr(item, name)
         if isinstance(value, msgspec.Struct):
             found.append(value)
@@ -31,6 +34,12 @@ def children(item: msgspec.Struct) -> list[msgspec.Struct]:
             parts = value if isinstance(value, tuple) else value.values()
             found += [part for part in parts if isinstance(part, msgspec.Struct)]
     return found
+
+
+@cache
+def compound_fields(kind: type[msgspec.Struct]) -> tuple[str, ...]:
+    """Return the fields of a type of structs that may hold structs."""
+    return tuple(each.name for each in msgspec.structs.fields(kind) if each.type not in _PLAIN)
 
 
 def conjuncts(condition: Condition) -> Iterator[Condition]:
