@@ -8,7 +8,6 @@ scenes is not the compiler's work.
 
 from __future__ import annotations
 
-import math
 import os
 import re
 import resource
@@ -17,6 +16,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
+from statistics import median
 from time import process_time
 from typing import TypeVar
 
@@ -37,7 +37,7 @@ from skillc_dsl.parsing.tables import grammar_text
 from skillc_dsl.source import Source
 
 Result = TypeVar("Result")
-ROUNDS = 5
+ROUNDS = 9
 EDITS = {
     "one line of a body": re.compile(r"(?<=socket\.depth \+ )25 mm"),
     "one signature": re.compile(r"(?<=radius:  Length = )9 mm"),
@@ -75,26 +75,32 @@ def main() -> None:
     parser = make_parser(grammar_text())
     lines = sum(source.text.count("\n") for source in sources)
     print(f"{lines} lines in {len(sources)} files")
-    bare = whole = math.inf
-    for _ in range(ROUNDS):  # one after the other: the machine may be slower for a while
-        bare = min(bare, _seconds(lambda: _parse(parser, sources))[0])
+    pairs = []
+    for _ in range(ROUNDS):
+        bare = _seconds(lambda: _parse(parser, sources))[0]
         seconds, outcome = _seconds(lambda: compile(sources, terms, {}, "generated"))
-        whole = min(whole, seconds)
+        pairs.append((bare, seconds))
+    bare = median(bare for bare, _ in pairs)
     print(f"{'stage':28} {'seconds':>8} {'ratio':>6}")
     print(f"{'lark parse alone':28} {bare:8.2f} {1.0:6.2f}")
-    for stage, seconds in (*_stages(sources), ("whole", whole)):
+    for stage, seconds in _stages(sources):
         print(f"{stage:28} {seconds:8.2f} {seconds / bare:6.2f}")
-    print(f"\n{'process':45} {'seconds':>8} {'ratio':>6}")
-    least = 0.0
-    for name, seconds in _processes(sources):
-        least = least or seconds
-        print(f"{name:45} {seconds:8.2f} {seconds / least:6.2f}")
+    _print_pairs(f"{'whole':28}", pairs)
+    print(f"\n{'process, beside one that imports click':45} {'seconds':>8} {'ratio':>6}")
+    for name, pairs in _processes(sources):
+        _print_pairs(f"{name:45}", pairs)
     for problem in outcome.diagnostics[:5]:
         print(f"{problem.span.path}:{problem.span.line}: {problem.name}: {problem.message}", file=sys.stderr)
 
 
-def _processes(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
-    """Yield the processor seconds of whole processes: the least there can be, then checks of these sources."""
+def _print_pairs(name: str, pairs: Sequence[tuple[float, float]]) -> None:
+    """Print the median seconds of what was measured, and of the ratios to what was measured right before it."""
+    seconds, ratio = median(long for _, long in pairs), median(long / short for short, long in pairs)
+    print(f"{name} {seconds:8.2f} {ratio:6.2f}")
+
+
+def _processes(sources: Sequence[Source]) -> Iterator[tuple[str, list[tuple[float, float]]]]:
+    """Yield the processor seconds of checks of these sources as whole processes, each after the least there can be."""
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder, "generated")
         library.mkdir()
@@ -106,12 +112,12 @@ def _processes(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
         shipped = [*check[:-1], "wiping"]
         bare = [sys.executable, "-c", "import click"]
         _process(check), _process(shipped)
-        yield "import click", min(_process(bare) for _ in range(ROUNDS))
-        yield "check of the shipped library, unchanged", min(_process(shipped) for _ in range(ROUNDS))
-        yield "check of these files, unchanged", min(_process(check) for _ in range(ROUNDS))
+        for name, command in (("the shipped library", shipped), ("these files", check)):
+            yield f"check of {name}, unchanged", [(_process(bare), _process(command)) for _ in range(ROUNDS)]
         for name, edited in EDITS.items():
             source = next(each for each in sources if edited.search(each.text) and "_1." in each.path)
-            yield f"check of these files, {name} changed", min(_after_edits(check, library / source.path, edited))
+            pairs = [(_process(bare), seconds) for seconds in _after_edits(check, library / source.path, edited)]
+            yield f"check of these files, {name} changed", pairs
 
 
 def _after_edits(check: Sequence[str], file: Path, edited: re.Pattern[str]) -> Iterator[float]:

@@ -18,7 +18,7 @@ from skillc_compiler.analysis.proof import ProofMemo, prove
 from skillc_compiler.program.causes import group_by_cause
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.memo import Memo
-from skillc_compiler.program.parts import Part, Reads, families_of, only_in, parts_of
+from skillc_compiler.program.parts import Part, Reads, families_of, only_in, resolved_parts, written_parts
 from skillc_compiler.program.typed import Program
 from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_dsl.diagnostics import Diagnostic
@@ -106,9 +106,10 @@ def _find_in_files(program: Program, memo: CheckMemo, paths: Collection[str]) ->
     """Return what the checks of declarations, of Python and of proofs find in some files, by path."""
     found: dict[str, dict[str, list[Diagnostic]]] = {path: defaultdict(list) for path in paths}
     memo.parts.begin()
-    for part in parts_of(program, paths):
-        for name, problems in memo.parts.recall(part.of, partial(_check_part, part, Reads.DECLARATION)).items():
-            found[part.path][name] += problems
+    for reads, parts in ((Reads.WRITTEN, written_parts), (Reads.DECLARATION, resolved_parts)):
+        for part in parts(program, paths):
+            for name, problems in memo.parts.recall(part.of, partial(_check_part, part, reads)).items():
+                found[part.path][name] += problems
     memo.targets.refresh()
     proofs, chosen = prove(program, memo.proofs, paths), NamedPython(only_in(program, paths), memo.targets)
     for check in load_checks():

@@ -13,7 +13,7 @@ from skillc_dsl.diagnostics import Diagnostic
 
 NAMES = ("bad-python-target",)
 NEEDS = Need.TEXT
-READS = Reads.DECLARATION
+READS = Reads.WRITTEN
 _TARGET = re.compile(r"([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*):([A-Za-z_]\w*)")
 
 
@@ -32,8 +32,11 @@ def split_target(text: str) -> tuple[str, str] | None:
 
 
 def _targets(program: Program) -> Iterator[s.Text]:
-    for implementation in program.implementations:
-        if isinstance(implementation.body, s.RunPython):
-            yield implementation.body.target
-    for unit in program.files:
-        yield from (d.python for d in unit.file.declarations if isinstance(d, s.FunctionDeclaration))
+    for declaration in (each for unit in program.files for each in unit.file.declarations):
+        match declaration:
+            case s.ImplementationDeclaration(members=members):
+                yield from (member.target for member in members if isinstance(member, s.RunPython))
+            case s.FunctionDeclaration(python=target):
+                yield target
+            case _:
+                pass

@@ -37,10 +37,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
     yield from _times(program)
     for value in all_values(program):
         yield from _number(value)
-    for unit in program.files:
-        for declaration in unit.file.declarations:
-            if isinstance(declaration, s.ImplementationDeclaration):
-                yield from _preferences(declaration)
 
 
 def _count(count: s.Number) -> Iterator[Diagnostic]:
@@ -110,9 +106,3 @@ def _number(value: TypedExpression) -> Iterator[Diagnostic]:
 
 def _is_finite(found: float | None) -> bool:
     return found is None or abs(found) <= MOST
-
-
-def _preferences(declaration: s.ImplementationDeclaration) -> Iterator[Diagnostic]:
-    for member in declaration.members:
-        if isinstance(member, s.Prefer) and abs(member.value.value) > MOST:
-            yield Diagnostic("bad-number", member.value.span, "this number is too large", "write a smaller number")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum, auto
+from functools import partial
 
 from msgspec import structs
 
@@ -16,12 +17,14 @@ from skillc_dsl import syntax as s
 class Reads(Enum):
     """What a check reads.
 
-    DECLARATION: one declaration, the skills that it names and the vocabulary. FAMILY: a skill with its implementations,
+    WRITTEN: one declaration as it is written. DECLARATION: one declaration as it is resolved, with the skills that it
+    names and the vocabulary. FAMILY: a skill with its implementations,
     or a task, and the implementations of the skills that these call. PYTHON: also files of Python. PROOFS: the proofs
     of bodies. NEIGHBOURS: also the skills and implementations that a declaration names or may run, the rest of its file
     and what it imports. LIBRARY: everything, but of bodies only which skills they call.
     """
 
+    WRITTEN = auto()
     DECLARATION = auto()
     FAMILY = auto()
     PYTHON = auto()
@@ -39,18 +42,18 @@ class Part:
     program: Callable[[], Program]
 
 
-def parts_of(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
-    """Yield every declaration of a program, resolved, and as it is written; with `paths`, only those in these files."""
+def resolved_parts(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
+    """Yield every declaration of a program as it is resolved; with `paths`, only those in these files."""
     resolved: list[Skill | Implementation | Task] = [*program.skills.values(), *program.implementations, *program.tasks]
     for each in (one for one in resolved if paths is None or one.span.path in paths):
-        yield Part(each.span.path, (each, program.vocabulary), lambda each=each: _alone(program, each))  # type: ignore[misc]
+        yield Part(each.span.path, (each, program.vocabulary), partial(_alone, program, each))
+
+
+def written_parts(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
+    """Yield every declaration of a program as it is written; with `paths`, only those in these files."""
     for unit in (one for one in program.files if paths is None or one.file.path in paths):
         for declaration in unit.file.declarations:
-            yield Part(
-                unit.file.path,
-                (declaration, program.vocabulary),
-                lambda unit=unit, declaration=declaration: _written_alone(program, unit, declaration),  # type: ignore[misc]
-            )
+            yield Part(unit.file.path, (declaration,), partial(_written_alone, program, unit, declaration))
 
 
 def families_of(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
