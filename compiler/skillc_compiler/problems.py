@@ -9,8 +9,7 @@ from skillc_compiler.checks import CheckMemo, run_checks
 from skillc_compiler.diagnostics.prefixes import with_prefix
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
 from skillc_compiler.diagnostics.unknown_names import report_unknown_names
-from skillc_compiler.diagnostics.unplannable import PlanningMemo
-from skillc_compiler.lower.library import LowerMemo
+from skillc_compiler.lower.memo import LowerMemo, PlanningMemo
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.resolve.memo import ResolveMemo

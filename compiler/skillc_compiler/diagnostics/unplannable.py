@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 from functools import partial
 
 from skillc_compiler.checks.planning import UNPLANNABLE, check_skill
+from skillc_compiler.lower.memo import PlanningMemo
 from skillc_compiler.program import typed
-from skillc_compiler.program.memo import Latest, Memo
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.pddl.devices import passed_on
@@ -17,20 +16,6 @@ from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.planning_view import encode_view
 from skillc_model.skills import Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
-
-
-@dataclass
-class PlanningMemo:
-    """What planners read of each skill in the last analysis, of all of them, and which they leave out."""
-
-    views: Memo[tuple[object, ...]] = field(default_factory=Memo)
-    read: Latest[tuple[object, ...]] = field(default_factory=Latest)
-    excluded: Memo[tuple[Excluded, ...]] = field(default_factory=Memo)
-
-    def begin(self) -> None:
-        """Begin the next analysis."""
-        for each in vars(self).values():
-            each.begin()
 
 
 def report_unplannable(

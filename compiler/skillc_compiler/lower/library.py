@@ -5,14 +5,13 @@ from __future__ import annotations
 import hashlib
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 from functools import partial
 
 import msgspec
 
 from skillc_compiler.logic.selection import rank_implementations
 from skillc_compiler.lower import declarations as flattening
-from skillc_compiler.program.memo import Latest, Memo
+from skillc_compiler.lower.memo import LowerMemo
 from skillc_compiler.program.spans import SpanIndex
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, TypedNode
 from skillc_compiler.program.walk import calls_in
@@ -22,22 +21,6 @@ from skillc_model import skills as library
 from skillc_model.pddl.constants import mentions_of
 from skillc_model.pddl.names import assign_names
 from skillc_model.skills import SkillLibrary
-
-
-@dataclass
-class LowerMemo:
-    """The declarations of the last analysis, as lowered, and their names for planners."""
-
-    skills: Memo[library.Skill] = field(default_factory=Memo)
-    implementations: Memo[library.Implementation] = field(default_factory=Memo)
-    individuals: Memo[frozenset[str]] = field(default_factory=Memo)
-    named: Latest[tuple[object, ...]] = field(default_factory=Latest)
-    names: Memo[dict[str, str]] = field(default_factory=Memo)
-
-    def begin(self) -> None:
-        """Begin the next analysis."""
-        for each in vars(self).values():
-            each.begin()
 
 
 def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerMemo | None = None) -> SkillLibrary:
