@@ -9,21 +9,24 @@ export const bounds = signal<{ operation: string; points: readonly BoundPoint[] 
   points: [],
 });
 let began = 0;
+let planning = false;
 
-/** Note how far the planner is whenever that is news; the function that is returned ends that. */
+/** Note how far the planner is whenever that is news, from the beginning whenever it begins; the function that is returned ends that. */
 export function followBounds(): () => void {
   return effect(() => {
     const current = status.value;
     if (current?.state !== "planning") {
+      planning = false;
       if (current?.id !== bounds.peek().operation)
         bounds.value = { operation: current?.id ?? "", points: [] };
       return;
     }
-    let known = bounds.peek();
-    if (known.operation !== current.id || known.points.length === 0) began = performance.now();
-    if (known.operation !== current.id) known = { operation: current.id, points: [] };
+    const begins = !planning || bounds.peek().operation !== current.id;
+    planning = true;
+    if (begins) began = performance.now();
+    const known = begins ? [] : bounds.peek().points;
     const { best_s: best = null, at_least_s: least = 0 } = current.planning ?? {};
     const at = (performance.now() - began) / 1000;
-    bounds.value = { ...known, points: addBound(known.points, { at, best, least }) };
+    bounds.value = { operation: current.id, points: addBound(known, { at, best, least }) };
   });
 }
