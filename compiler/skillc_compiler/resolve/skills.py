@@ -16,6 +16,7 @@ from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.type_names import resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
+from skillc_dsl.tokens import KEYWORDS
 from skillc_dsl.units import TIME
 
 
@@ -31,7 +32,7 @@ def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
         duration=resolve_duration(context, before, written.members),
         devices=tuple(_devices(context, written, parameters)),
         pause=_pause(context, written),
-        flags=frozenset(m.flag for m in written.members if isinstance(m, s.Flag)),
+        flags=frozenset(_flags(written)),
         name_span=written.name.span,
         span=written.span,
     )
@@ -87,6 +88,23 @@ def _pause(context: FileContext, written: s.SkillDeclaration) -> Pause | None:
     return Pause(found.where, resolve_constant(context, found.keep, Measure(TIME)), found.span) if found else None
 
 
+def _flags(written: s.SkillDeclaration) -> Iterator[str]:
+    """Yield the flags, also one that stands on the line after a `uses` or `shares` without a name."""
+    for member in written.members:
+        match member:
+            case s.Flag(flag=flag):
+                yield flag
+            case s.DeviceUse() if _is_flag_taken(member):
+                yield member.parameter.text
+            case _:
+                pass
+
+
+def _is_flag_taken(use: s.DeviceUse) -> bool:
+    """Whether a `uses` or `shares` has no name, so that the flag on the next line is taken for it."""
+    return use.parameter.text in KEYWORDS["flag"] and use.parameter.span.line > use.span.line
+
+
 def _devices(
     context: FileContext, written: s.SkillDeclaration, parameters: tuple[Parameter, ...]
 ) -> Iterator[s.DeviceUse]:
@@ -95,6 +113,11 @@ def _devices(
         if isinstance(member, s.DeviceUse):
             if member.parameter.text in names:
                 yield member
+                continue
+            if _is_flag_taken(member):
+                message = f"`{member.kind}` needs a parameter, and takes `{member.parameter.text}` for its name"
+                such = f", such as `{member.kind} {names[0]}`" if names else ""
+                context.report("unknown-parameter", member.span, message, f"write which device it is{such}")
                 continue
             message = f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`"
             context.report_unknown("parameter", member.parameter, message, names, owner=written.name.text)
