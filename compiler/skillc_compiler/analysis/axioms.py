@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_rdf.vocabulary.closure import Directed
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
-@dataclass(frozen=True)
-class CanonicalAxioms:
+class CanonicalAxioms(msgspec.Struct, frozen=True):
     """The axioms of all relations, by canonical IRI.
 
     `canonical[r]` is the canonical name of `r`, and whether `r` reads it backwards. `implied[r]` are the relations that

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.evaluate import canonical_condition
@@ -29,8 +30,7 @@ from skillc_model.traversal import conjuncts
 from skillc_rdf.vocabulary.types import THING, ClassType
 
 
-@dataclass(frozen=True)
-class Binding:
+class Binding(msgspec.Struct, frozen=True):
     """The values of a called skill's parameters at its start and after it.
 
     `open_` are the fresh names for what the skill infers at run time. `given` maps each parameter to whether it is

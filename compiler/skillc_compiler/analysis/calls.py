@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+
+from msgspec import structs
 
 from skillc_compiler.analysis.apply_effects import apply_effects
 from skillc_compiler.analysis.assume import assume, unify
@@ -124,7 +125,7 @@ def _monitored_ends(
         if breaks:
             yield "broken", after[1], trails[1]
         return
-    name, started = call.skill.name, replace(trails[0], event=f"`{call.skill.name}` starts")
+    name, started = call.skill.name, structs.replace(trails[0], event=f"`{call.skill.name}` starts")
     begun = run.monitor.on_start(run, before, started, name)
     for outcome, monitors in run.monitor.after_body(call, before, begun, started).items():
         good = outcome == "success"

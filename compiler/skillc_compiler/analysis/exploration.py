@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Protocol, TypeAlias
+
+import msgspec
+from msgspec import structs
 
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.evaluate import evaluate
@@ -33,8 +36,7 @@ Explore: TypeAlias = Callable[["Exploration", TypedNode, StatePaths, "EvalContex
 FindUndeclared: TypeAlias = Callable[[Implementation], frozenset[Write]]
 
 
-@dataclass(frozen=True)
-class EvalContext:
+class EvalContext(msgspec.Struct, frozen=True):
     """The context of a node: whether its failure is caught, and what others may write while it runs."""
 
     caught: bool = False
@@ -42,11 +44,11 @@ class EvalContext:
 
     def with_failure_caught(self) -> EvalContext:
         """Return the same context with failures caught."""
-        return replace(self, caught=True)
+        return structs.replace(self, caught=True)
 
     def with_concurrent_writes(self, writes: frozenset[Write]) -> EvalContext:
         """Return the same context with more writes by others."""
-        return replace(self, concurrent_writes=self.concurrent_writes | writes)
+        return structs.replace(self, concurrent_writes=self.concurrent_writes | writes)
 
 
 class PropertyMonitor(Protocol):
@@ -94,8 +96,7 @@ class PreconditionStats:
     open_way: Path = None
 
 
-@dataclass(frozen=True, slots=True)
-class CallEffect:
+class CallEffect(msgspec.Struct, frozen=True):
     """An effect that a call had, in the caller's terms."""
 
     call: Call

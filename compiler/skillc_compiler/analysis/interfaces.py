@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_compiler.analysis.parallel_conflicts import devices_inside
 from skillc_compiler.analysis.summaries import WriteSummaries
@@ -10,8 +10,7 @@ from skillc_compiler.analysis.writes import Write
 from skillc_compiler.program.typed import Implementation, Program, Requirement
 
 
-@dataclass(frozen=True, slots=True)
-class Interface:
+class Interface(msgspec.Struct, frozen=True):
     """What the proofs of its callers read of an implementation with a body.
 
     `leaks` are its changes that its description does not declare; `writes`, `writes_on_failure` and `scoped_writes` are

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+import msgspec
+
 from skillc_compiler.analysis.alias_types import AliasTypes
 from skillc_compiler.analysis.havoc import havoc
 from skillc_compiler.analysis.state import State, join
@@ -19,8 +21,7 @@ MAX_LABELS = 7
 """The number of steps of a path that are shown."""
 
 
-@dataclass(frozen=True, slots=True)
-class PathStep:
+class PathStep(msgspec.Struct, frozen=True):
     """The last step of a path, and the path before it."""
 
     before: PathStep | None

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeAlias, TypeVar
+
+import msgspec
+from msgspec import structs
 
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.alias_types import AliasTypes
@@ -40,8 +43,7 @@ from skillc_dsl import syntax as s
 F = TypeVar("F", bound=Finding)
 
 
-@dataclass(frozen=True)
-class Proof:
+class Proof(msgspec.Struct, frozen=True):
     """The findings in one body; an implementation has an interface, which its callers read."""
 
     of: Implementation | Task
@@ -157,7 +159,7 @@ class Prover:
         follows = run_by(self.program, of) if isinstance(of, Implementation) and of.verify else ()
         kept = self.memo.proved.same(of.key, Proved(of))
         proof = self.memo.proofs.recall((kept, self.program.vocabulary, *called, *follows), compute)
-        return proof if proof.of is of else replace(proof, of=of)
+        return proof if proof.of is of else structs.replace(proof, of=of)
 
     def new_exploration(self, of: Implementation | Task, body: TypedNode) -> Exploration:
         """Return a new exploration of a body."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from itertools import chain
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
@@ -145,8 +146,7 @@ def _suggest_property(vocabulary: Vocabulary, place: TypeConstraint) -> str:
 SECONDS = Measure(TIME)
 
 
-@dataclass(frozen=True, slots=True)
-class TypeConstraint:
+class TypeConstraint(msgspec.Struct, frozen=True):
     """A value and the type expected of it.
 
     `by` continues "is expected"; `cause` is the place that states the type.

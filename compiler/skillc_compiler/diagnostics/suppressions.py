@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.manual import load_page, page_names
 from skillc_compiler.resolve.spelling import suggest_fix
@@ -17,8 +18,7 @@ from skillc_dsl.spelling import did_you_mean
 _SUPPRESSION = re.compile(r"#\s*allow\s+(?P<name>[\w-]+)\s*(?P<colon>:?)\s*(?P<reason>.*)")
 
 
-@dataclass(frozen=True, slots=True)
-class Suppression:
+class Suppression(msgspec.Struct, frozen=True):
     """A comment that suppresses the warnings called `name` on `line`; `reason` may be empty."""
 
     name: s.Name

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
@@ -15,16 +16,14 @@ COMPARING = frozenset(("<", "<=", ">", ">=", "="))
 _TOKEN = re.compile(r"[()]|[^\s()]+")
 
 
-@dataclass(frozen=True, slots=True)
-class PddlWord:
+class PddlWord(msgspec.Struct, frozen=True):
     """A name, variable, keyword or `-`."""
 
     text: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class PddlGroup:
+class PddlGroup(msgspec.Struct, frozen=True):
     """`( .. )`"""
 
     parts: tuple[Expression, ...]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import assert_never
+
+import msgspec
 
 from skillc_compiler.ide.symbols import (
     ImplementationSymbol,
@@ -20,8 +21,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class BodyContext:
+class BodyContext(msgspec.Struct, frozen=True):
     """The declaration that a body belongs to: its place, and the skill and implementation unless it is a task."""
 
     span: Span
@@ -29,8 +29,7 @@ class BodyContext:
     implementation: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class BodyOccurrences(ValueOccurrences):
+class BodyOccurrences(ValueOccurrences, frozen=True):
     """Finds the occurrences in bodies. A name bound by a node is visible in the nodes after it."""
 
     def node(self, home: BodyContext, known: dict[str, Symbol], written: s.Node) -> Iterator[Occurrence]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode, locate_cursor
@@ -15,8 +16,7 @@ from skillc_dsl.parsing.tokens import Token
 _CLOSING = {")": "(", "]": "[", "}": "{"}
 
 
-@dataclass(frozen=True, slots=True)
-class OpenCall:
+class OpenCall(msgspec.Struct, frozen=True):
     """The call at the cursor: the callee, the labels passed so far, and the current argument.
 
     `position` is the index of the current argument; `label` is its parameter name, if it is already written.
@@ -28,8 +28,7 @@ class OpenCall:
     label: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class CallSignature:
+class CallSignature(msgspec.Struct, frozen=True):
     """The signature of a call: its head and documentation, and each parameter with its documentation."""
 
     head: str

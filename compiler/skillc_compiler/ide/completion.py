@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
+
+import msgspec
 
 from skillc_compiler.ide import offers
 from skillc_compiler.ide.analysis import Analysis
@@ -28,8 +29,7 @@ _VALUES = frozenset(("true", "false"))
 _CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA"), "PROPERTY": ("LPAR",)}
 
 
-@dataclass(frozen=True, slots=True)
-class Completion:
+class Completion(msgspec.Struct, frozen=True):
     """The offered words, and the place that the chosen one replaces."""
 
     replaced: Span

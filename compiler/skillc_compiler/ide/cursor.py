@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_dsl.parsing.grammar import END, can_continue, shift
 from skillc_dsl.parsing.lexer import tokenize
@@ -19,24 +20,21 @@ _WORD = re.compile(r"(?:[^\W\d]\w*:)?[^\W\d][\w-]*$|[^\W\d]\w*:$|[^\W\d]\w*$")
 _BARE = re.compile(r"[^\W\d]\w*$")
 
 
-@dataclass(frozen=True, slots=True)
-class InComment:
+class InComment(msgspec.Struct, frozen=True):
     """In a comment; `text` is the comment from the `#` to the cursor."""
 
     text: str
     word: Span
 
 
-@dataclass(frozen=True, slots=True)
-class InText:
+class InText(msgspec.Struct, frozen=True):
     """In a string; `opener` is the word before the string (`import`, `scene`, `python`)."""
 
     opener: str
     word: Span
 
 
-@dataclass(frozen=True, slots=True)
-class InCode:
+class InCode(msgspec.Struct, frozen=True):
     """In code, at the word `word`.
 
     `before` are the tokens of the declaration before the word; the first one is the keyword of the declaration, if

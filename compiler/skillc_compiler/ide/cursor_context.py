@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode
@@ -17,8 +18,7 @@ from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class CursorContext:
+class CursorContext(msgspec.Struct, frozen=True):
     """The declaration around the cursor, as far as it was resolved, and the names visible in it."""
 
     visible: VisibleNames

@@ -25,10 +25,8 @@ from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 
 
-class FileOccurrences(BodyOccurrences):
+class FileOccurrences(BodyOccurrences, frozen=True):
     """Finds all occurrences in one file."""
-
-    __slots__ = ()
 
     def file(self, unit: ParsedFile) -> Iterator[Occurrence]:
         """Yield the occurrences in a file, in no particular order."""

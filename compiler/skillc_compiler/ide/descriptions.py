@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import assert_never
+
+import msgspec
 
 from skillc_compiler.ide import term_pages
 from skillc_compiler.ide.analysis import Analysis
@@ -140,8 +141,7 @@ def _individual(analysis: Analysis, iri: str) -> str:
     return f"the individual `{local_name(iri)}`{kinds}\n\n`{iri}`"
 
 
-@dataclass(frozen=True, slots=True)
-class Hover:
+class Hover(msgspec.Struct, frozen=True):
     """The Markdown shown when hovering over a place."""
 
     span: Span

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal, TypeAlias, assert_never
+
+import msgspec
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.symbols import (
@@ -47,8 +48,7 @@ _PLAIN: dict[str, WordKind] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class HighlightedWord:
+class HighlightedWord(msgspec.Struct, frozen=True):
     """A coloured word on a single line."""
 
     span: Span

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.ide.declarations import FileOccurrences
 from skillc_compiler.ide.symbols import Occurrence, Symbol
@@ -12,8 +13,7 @@ from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Program
 
 
-@dataclass(frozen=True, slots=True)
-class Index:
+class Index(msgspec.Struct, frozen=True):
     """Occurrences by file, in order of their places, and by symbol."""
 
     by_path: Mapping[str, tuple[Occurrence, ...]]

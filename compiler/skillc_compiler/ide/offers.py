@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor_context import CursorContext
@@ -26,8 +27,7 @@ OfferKind: TypeAlias = Literal[
 ]  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class Offer:
+class Offer(msgspec.Struct, frozen=True):
     """A candidate: the text to show and, if it differs, the text to insert. Lower ranks are shown first.
 
     `imports` is the file that must be imported for it, empty if none.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal, TypeAlias, assert_never
+
+import msgspec
 
 from skillc_dsl import syntax as s
 from skillc_dsl.comments import find_comments
@@ -16,8 +17,7 @@ EntryKind: TypeAlias = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class OutlineEntry:
+class OutlineEntry(msgspec.Struct, frozen=True):
     """A declaration: its name, detail and kind, its place and that of its name, and nested declarations."""
 
     name: str
@@ -28,8 +28,7 @@ class OutlineEntry:
     children: tuple[OutlineEntry, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Fold:
+class Fold(msgspec.Struct, frozen=True):
     """A range of lines that an editor can fold to the first one."""
 
     first: int

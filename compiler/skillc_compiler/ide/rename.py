@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import groupby
+
+import msgspec
 
 from skillc_compiler.ide.analysis import Analysis, analyse
 from skillc_compiler.ide.places import find_symbols
@@ -34,16 +36,14 @@ _RENAMED = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Renaming:
+class Renaming(msgspec.Struct, frozen=True):
     """The edits that rename a symbol; `span` is the place of the old name under the cursor."""
 
     span: Span
     edits: tuple[Fix, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class NotRenamable:
+class NotRenamable(msgspec.Struct, frozen=True):
     """The reason why a symbol cannot be renamed."""
 
     reason: str

@@ -2,67 +2,60 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_compiler.resolve.names import Kind
 from skillc_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class TermSymbol:
+class TermSymbol(msgspec.Struct, frozen=True):
     """A class, relation or property, by IRI."""
 
     kind: Kind
     iri: str
 
 
-@dataclass(frozen=True, slots=True)
-class TypeSymbol:
+class TypeSymbol(msgspec.Struct, frozen=True):
     """A type that is not a class: a dimension, `Bool`, `Pose`, .."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class FunctionSymbol:
+class FunctionSymbol(msgspec.Struct, frozen=True):
     """A declared function."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class SkillSymbol:
+class SkillSymbol(msgspec.Struct, frozen=True):
     """A skill."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class ImplementationSymbol:
+class ImplementationSymbol(msgspec.Struct, frozen=True):
     """An implementation of a skill."""
 
     skill: str
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class TaskSymbol:
+class TaskSymbol(msgspec.Struct, frozen=True):
     """A task."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterSymbol:
+class ParameterSymbol(msgspec.Struct, frozen=True):
     """A parameter of a skill, the same in its implementations and in every call."""
 
     skill: str
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class LocalSymbol:
+class LocalSymbol(msgspec.Struct, frozen=True):
     """A let, loop variable, output, quantified variable or parameter of a head; `owner` is the place of its scope."""
 
     origin: Literal["let", "loop variable", "output", "variable", "function parameter", "task parameter"]
@@ -70,52 +63,45 @@ class LocalSymbol:
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class LabelSymbol:
+class LabelSymbol(msgspec.Struct, frozen=True):
     """The label of a condition; `owner` is its skill, or `skill.implementation`."""
 
     owner: str
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class PrefixSymbol:
+class PrefixSymbol(msgspec.Struct, frozen=True):
     """A vocabulary in a `use` line, or a declared prefix."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class IndividualSymbol:
+class IndividualSymbol(msgspec.Struct, frozen=True):
     """An individual of a scene."""
 
     iri: str
 
 
-@dataclass(frozen=True, slots=True)
-class ChoiceSymbol:
+class ChoiceSymbol(msgspec.Struct, frozen=True):
     """One of the allowed values of a text property."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class QuantitySymbol:
+class QuantitySymbol(msgspec.Struct, frozen=True):
     """A number with a unit."""
 
     value: float
     unit: str
 
 
-@dataclass(frozen=True, slots=True)
-class FileSymbol:
+class FileSymbol(msgspec.Struct, frozen=True):
     """An imported file, by path."""
 
     path: str
 
 
-@dataclass(frozen=True, slots=True)
-class SceneSymbol:
+class SceneSymbol(msgspec.Struct, frozen=True):
     """The scene of a task, as written."""
 
     name: str
@@ -140,8 +126,7 @@ Symbol: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Occurrence:
+class Occurrence(msgspec.Struct, frozen=True):
     """A place where a symbol is named.
 
     An argument `speed`, which is short for `speed: speed`, has two occurrences at the same place, both marked

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_compiler.ide.symbols import (
     ChoiceSymbol,
@@ -27,8 +28,7 @@ from skillc_dsl.source import Span
 Locals: TypeAlias = Mapping[str, Symbol]
 
 
-@dataclass(frozen=True, slots=True)
-class ValueOccurrences:
+class ValueOccurrences(msgspec.Struct, frozen=True):
     """Finds the occurrences in types, values and conditions of one file."""
 
     visible: VisibleNames

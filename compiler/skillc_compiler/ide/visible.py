@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.typed import ParsedFile, Program
@@ -19,8 +20,7 @@ from skillc_compiler.resolve.names import Kind
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
-@dataclass(frozen=True, slots=True)
-class VisibleNames:
+class VisibleNames(msgspec.Struct, frozen=True):
     """The names visible in a file: bare names of terms with their IRIs, prefixes with namespaces, functions, skills."""
 
     bare: Bare

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.conditions import Compare, Condition, Expression, Literal, Operator
 from skillc_model.rewriting import fold
@@ -14,8 +15,7 @@ MIRRORED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<": ">", "<=": ">
 _OPPOSITE: dict[Operator, Operator] = {"==": "!=", "!=": "==", "<": ">=", "<=": ">", ">": "<=", ">=": "<"}
 
 
-@dataclass(frozen=True, slots=True)
-class Bound:
+class Bound(msgspec.Struct, frozen=True):
     """`of operator value`"""
 
     of: Expression

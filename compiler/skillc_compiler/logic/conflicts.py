@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.logic.bounds import Bound, are_disjoint, constant_bound
 from skillc_compiler.logic.conjunctions import TypedFact
@@ -11,8 +12,7 @@ from skillc_model.conditions import Anything, HasProperty, Holds, Individual, Is
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
-@dataclass(frozen=True, slots=True)
-class Link:
+class Link(msgspec.Struct, frozen=True):
     """A relation from its subject to its object."""
 
     subject: Term
@@ -20,8 +20,7 @@ class Link:
     object: Term
 
 
-@dataclass(frozen=True)
-class Conflicts:
+class Conflicts(msgspec.Struct, frozen=True):
     """The facts that exclude each other under the axioms of a vocabulary."""
 
     vocabulary: Vocabulary

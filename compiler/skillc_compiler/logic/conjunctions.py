@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 
+import msgspec
 from msgspec import structs
 
 from skillc_compiler.program.typed import Implementation, Program, Requirement, Skill, TypedCondition
@@ -13,8 +13,7 @@ from skillc_model.conditions import And, Condition, Expression, Individual, Not,
 from skillc_model.rewriting import substitute
 
 
-@dataclass(frozen=True, slots=True)
-class TypedFact:
+class TypedFact(msgspec.Struct, frozen=True):
     """A condition without `and` and `not`, and whether it holds; `source` is the condition as written."""
 
     condition: TypedCondition
@@ -27,8 +26,7 @@ class TypedFact:
         return self.condition.meaning
 
 
-@dataclass(frozen=True, slots=True)
-class ConjunctionGroup:
+class ConjunctionGroup(msgspec.Struct, frozen=True):
     """Facts that have to be true at the same time; problems among those `given` are not reported again."""
 
     own: tuple[TypedFact, ...]
@@ -75,7 +73,7 @@ def rename_fact(fact: TypedFact, names: Mapping[str, Expression]) -> TypedFact:
     """Return the fact with equal names replaced by their representative."""
     if not names:
         return fact
-    return replace(fact, condition=structs.replace(fact.condition, meaning=substitute(fact.meaning, names)))
+    return structs.replace(fact, condition=structs.replace(fact.condition, meaning=substitute(fact.meaning, names)))
 
 
 def conjunction_groups(program: Program) -> Iterator[ConjunctionGroup]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_compiler.program.typed import TypedCondition
 from skillc_dsl.source import Span
@@ -24,8 +24,7 @@ from skillc_model.conditions import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class NoEffect:
+class NoEffect(msgspec.Struct, frozen=True):
     """A part of a postcondition that does not determine the world afterwards, and why."""
 
     span: Span

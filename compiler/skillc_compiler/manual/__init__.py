@@ -26,10 +26,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
+
+import msgspec
 
 FAMILIES = (
     *("text", "quantities", "scenes", "properties", "implementations", "data flow", "planning", "ontology", "names"),
@@ -45,8 +46,7 @@ _PAGE = re.compile(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Page:
+class Page(msgspec.Struct, frozen=True):
     """The explanation of a diagnostic.
 
     `family` is the heading under which it is listed; `found_by` is the part that reports it: the compiler, the loaders

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum, auto
 from functools import partial
 
+import msgspec
 from msgspec import structs
 
 from skillc_compiler.program.called import called_by
@@ -33,8 +34,7 @@ class Reads(Enum):
     LIBRARY = auto()
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(msgspec.Struct, frozen=True):
     """A declaration in the file `path`, as written or resolved, and a program of it alone; it depends on `of` only."""
 
     path: str
@@ -106,4 +106,4 @@ def _alone(program: Program, each: Skill | Implementation | Task) -> Program:
 
 def _written_alone(program: Program, unit: ParsedFile, declaration: s.Declaration) -> Program:
     file = structs.replace(unit.file, declarations=(declaration,))
-    return Program(program.name, program.vocabulary, (replace(unit, file=file),), {}, (), (), {})
+    return Program(program.name, program.vocabulary, (structs.replace(unit, file=file),), {}, (), (), {})

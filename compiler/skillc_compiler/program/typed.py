@@ -219,8 +219,7 @@ class Task(msgspec.Struct, frozen=True):
         return f"task {self.name}"
 
 
-@dataclass(frozen=True, slots=True)
-class ParsedFile:
+class ParsedFile(msgspec.Struct, frozen=True):
     """A parsed file, the library it belongs to with the namespace of its terms, and the files it imports.
 
     `imports` pairs each import that was found with the path of its file.

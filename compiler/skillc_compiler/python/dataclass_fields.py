@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.python.info import PythonSignature
 from skillc_compiler.python.modules import Defined, dotted_name
@@ -12,8 +13,7 @@ from skillc_compiler.python.modules import Defined, dotted_name
 DATACLASS = "dataclasses.dataclass"
 
 
-@dataclass(frozen=True, slots=True)
-class _Field:
+class _Field(msgspec.Struct, frozen=True):
     name: str
     needed: bool
     by_name: bool

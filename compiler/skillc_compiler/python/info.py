@@ -3,44 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class NoModule:
+
+class NoModule(msgspec.Struct, frozen=True):
     """There is no such module; `installed` if its top-level package exists."""
 
     installed: bool
 
 
-@dataclass(frozen=True, slots=True)
-class BrokenModule:
+class BrokenModule(msgspec.Struct, frozen=True):
     """The file of the module is not valid Python."""
 
     line: int
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class NoName:
+class NoName(msgspec.Struct, frozen=True):
     """The module does not define the name; `there` are the classes and functions that it defines."""
 
     there: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Unclear:
+class Unclear(msgspec.Struct, frozen=True):
     """The source text does not determine it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Other:
+class Other(msgspec.Struct, frozen=True):
     """A value that is neither a class nor a function."""
 
 
-@dataclass(frozen=True, slots=True)
-class PythonSignature:
+class PythonSignature(msgspec.Struct, frozen=True):
     """The parameters of a callable.
 
     `by_position` are in order; the first `unnamed` of them cannot be passed by name; `by_name` only by name. `needed`
@@ -61,24 +56,21 @@ class PythonSignature:
         return PythonSignature(rest, max(0, self.unnamed - count), self.by_name, needed, self.args, self.named)
 
 
-@dataclass(frozen=True, slots=True)
-class FunctionInfo:
+class FunctionInfo(msgspec.Struct, frozen=True):
     """A function; `signature` is None if the text does not determine it."""
 
     signature: PythonSignature | None
     asynchronous: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
+class Method(msgspec.Struct, frozen=True):
     """A method without `self`, and the class "module:Class" that defines it."""
 
     owner: str
     function: FunctionInfo
 
 
-@dataclass(frozen=True, slots=True)
-class ClassInfo:
+class ClassInfo(msgspec.Struct, frozen=True):
     """A class.
 
     `ancestors` are its own "module:Class" and its base classes; if `complete`, there are no others. `constructor` is

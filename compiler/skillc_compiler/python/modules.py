@@ -11,6 +11,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TypeAlias
 
+import msgspec
+
 from skillc_compiler.python.info import UNCLEAR, BrokenModule, NoModule, NoName, Other, Unclear
 
 Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
@@ -18,8 +20,7 @@ QualifiedName: TypeAlias = tuple[str, str]
 """A module and a name in it."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Names:
+class _Names(msgspec.Struct, frozen=True):
     """The names that a module binds at its top level, and its `import *` lines."""
 
     bound: Mapping[str, ast.stmt | ast.expr | Unclear]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import assert_never
 
 from msgspec import structs
@@ -33,7 +32,7 @@ def remove_duplicates(
     kept = []
     for unit in files:
         declarations = tuple(_first_declarations(unit.file, declared[unit.file.path], first, problems))
-        kept.append(replace(unit, file=structs.replace(unit.file, declarations=declarations)))
+        kept.append(structs.replace(unit, file=structs.replace(unit.file, declarations=declarations)))
     whole = (each for each in problems if broken.isdisjoint({each.span, *(label.span for label in each.labels)}))
     return Outcome(tuple(kept), tuple(whole))
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
+import msgspec
 from msgspec import structs
 
 from skillc_compiler.program.memo import Latest, LookUps, Memo
@@ -22,8 +23,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 Typed = TypeVar("Typed", Skill, Implementation, Task)
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(msgspec.Struct, frozen=True):
     """What resolving a part of a file has found besides its meaning: problems, unknown names, the names looked up."""
 
     problems: tuple[Diagnostic, ...]
@@ -39,8 +39,7 @@ class Found:
 NOTHING = Found((), (), frozenset())
 
 
-@dataclass(frozen=True, slots=True)
-class Resolved:
+class Resolved(msgspec.Struct, frozen=True):
     """A resolved declaration, with the skills and the implementations' names that were looked up for it."""
 
     value: object
@@ -72,7 +71,7 @@ class ResolveMemo:
 
     def keep_declarations(self, files: Sequence[ParsedFile]) -> tuple[ParsedFile, ...]:
         """Return the files; declarations that have not changed are those of the analysis before."""
-        return tuple(replace(unit, file=self._keep(unit)) for unit in files)
+        return tuple(structs.replace(unit, file=self._keep(unit)) for unit in files)
 
     def _keep(self, unit: ParsedFile) -> s.File:
         lines = unit.text.split("\n")

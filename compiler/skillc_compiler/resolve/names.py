@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+import msgspec
+
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
 from skillc_dsl import syntax as s
@@ -24,8 +26,7 @@ Kind: TypeAlias = Literal["class", "relation", "property"]
 KINDS: tuple[Kind, ...] = ("class", "relation", "property")
 
 
-@dataclass(frozen=True, slots=True)
-class Homes:
+class Homes(msgspec.Struct, frozen=True):
     """The file that declares a name, for each name of the library that is not `visible` in a file."""
 
     of: Mapping[str, str]

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import assert_never
 
+from msgspec import structs
+
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.types import UNKNOWN, ListOf, Measure
 from skillc_compiler.resolve.calls import resolve_call
@@ -94,7 +96,7 @@ def _for(context: FileContext, scope: Scope, written: s.For) -> tuple[TypedNode,
 
 def assume_outputs_assigned(scope: Scope) -> Scope:
     """Return the scope of a body, in which outputs may be read; the analysis proves whether they have a value."""
-    return replace(scope, variables={name: replace(v, is_assigned=True) for name, v in scope.variables.items()})
+    return replace(scope, variables={name: structs.replace(v, is_assigned=True) for name, v in scope.variables.items()})
 
 
 def _merge_scopes(*scopes: Scope) -> Scope:

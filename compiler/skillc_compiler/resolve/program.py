@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+from msgspec import structs
+
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost
 from skillc_compiler.resolve.declarations import (
@@ -98,7 +100,7 @@ def _without_skills(unit: ParsedFile) -> ParsedFile:
     """Return what of a file the vocabulary depends on."""
     kinds = s.SkillDeclaration | s.ImplementationDeclaration | s.TaskDeclaration
     terms = tuple(each for each in unit.file.declarations if not isinstance(each, kinds))
-    return replace(unit, file=s.File(unit.file.path, unit.file.header, terms), text="")
+    return structs.replace(unit, file=s.File(unit.file.path, unit.file.header, terms), text="")
 
 
 def _changes_terms(file: s.File) -> bool:

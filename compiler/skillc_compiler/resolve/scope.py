@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
+import msgspec
+from msgspec import structs
+
 from skillc_compiler.program.memo import NameTable
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
@@ -19,8 +22,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 Origin: TypeAlias = Literal["parameter", "out", "let", "output", "loop variable", "variable"]
 
 
-@dataclass(frozen=True, slots=True)
-class LocalName:
+class LocalName(msgspec.Struct, frozen=True):
     """A local name; `is_assigned` unless it is an output that has no value yet on some path."""
 
     type: Type
@@ -89,5 +91,5 @@ class FileContext:
                 "choose another name",
                 Label(former.span, "declared here"),
             )
-            return scope.with_name(name.text, replace(former, type=UNKNOWN, is_assigned=True))
+            return scope.with_name(name.text, structs.replace(former, type=UNKNOWN, is_assigned=True))
         return scope.with_name(name.text, variable)

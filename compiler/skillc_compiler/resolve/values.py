@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isfinite
 from typing import assert_never
+
+import msgspec
 
 from skillc_compiler.program.labels import declaration_place
 from skillc_compiler.program.typed import TypedExpression
@@ -27,8 +28,7 @@ from skillc_dsl.units import NUMBER, dimension_of, to_si
 from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, PropertyOf, Variable
 
 
-@dataclass(frozen=True, slots=True)
-class ExpectedType:
+class ExpectedType(msgspec.Struct, frozen=True):
     """The type expected of an expression: suggestions fit it, and a bare name may be one of `values`."""
 
     type: Type = UNKNOWN

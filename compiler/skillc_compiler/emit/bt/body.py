@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from xml.etree.ElementTree import Element
 
+import msgspec
+
 from skillc_compiler.emit.bt.model import Kind, Model, Port
 from skillc_compiler.emit.bt.names import NodeIds, entry_name, port_name
 from skillc_compiler.emit.bt.ports import format_plain_value, port_type
@@ -16,8 +18,7 @@ from skillc_model.traversal import free_variables_in_order
 from skillc_rdf.vocabulary.types import Position, ValueType
 
 
-@dataclass(frozen=True)
-class ParameterBinding:
+class ParameterBinding(msgspec.Struct, frozen=True):
     """The blackboard entry that holds the value of a local name, and its C++ type (None: not known)."""
 
     entry: str

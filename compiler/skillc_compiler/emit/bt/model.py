@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
+import msgspec
+
 Kind = Literal["Action", "Condition", "Decorator", "SubTree"]
 Direction = Literal["input", "output"]
 
 
-@dataclass(frozen=True)
-class Port:
+class Port(msgspec.Struct, frozen=True):
     """A port: its name, direction, C++ type (None: any) and default, and the parameter that it stands for."""
 
     name: str
@@ -23,8 +24,7 @@ class Port:
     parameter: str = ""
 
 
-@dataclass(frozen=True)
-class _Declaration:
+class _Declaration(msgspec.Struct, frozen=True):
     kind: Kind
     path: tuple[str, ...]
     ports: tuple[Port, ...]

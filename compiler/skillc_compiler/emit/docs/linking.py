@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+import msgspec
 from markupsafe import Markup
 
 from skillc_model.format_type import format_type
@@ -14,8 +14,7 @@ from skillc_rdf.vocabulary.types import ClassType, ListType, Position, ValueType
 _NAME = re.compile(r"[A-Za-z_][\w-]*(?::[A-Za-z_][\w-]*)?")
 
 
-@dataclass(frozen=True, slots=True)
-class LinkWriter:
+class LinkWriter(msgspec.Struct, frozen=True):
     """Writes the links of one page; `root` is the relative path from it to the top: "", "../", "../../", ..
 
     `terms` are the IRIs and functions that are on the terms page, `sources` the files that have a page.

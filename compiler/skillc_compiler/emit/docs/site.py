@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
+import msgspec
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
@@ -31,8 +31,7 @@ MARK = "Made by skillc doc from the library"
 """The text of the first line of each page."""
 
 
-@dataclass(frozen=True, slots=True)
-class SiteContents:
+class SiteContents(msgspec.Struct, frozen=True):
     """Data shared by all pages: the library, its declarations, its own and imported skills, the terms shown."""
 
     library: SkillLibrary
@@ -58,8 +57,7 @@ class SiteContents:
         return f"{MARK} {self.library.name}, sha256 {self.library.hash}"
 
 
-@dataclass(frozen=True, slots=True)
-class ShownTask:
+class ShownTask(msgspec.Struct, frozen=True):
     """A task with its picture."""
 
     task: Task

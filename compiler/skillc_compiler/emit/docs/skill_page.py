@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
+import msgspec
 from markupsafe import Markup
 
 from skillc_compiler.emit.docs import prose
@@ -28,8 +28,7 @@ Row: TypeAlias = tuple[str, Markup, str, Markup]
 KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
 
 
-@dataclass(frozen=True, slots=True)
-class Way:
+class Way(msgspec.Struct, frozen=True):
     """An implementation: its name, documentation, reason for its rank, picture, text and called skills."""
 
     name: str
@@ -42,8 +41,7 @@ class Way:
     calls: tuple[Markup, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class SkillPage:
+class SkillPage(msgspec.Struct, frozen=True):
     """A skill; `columns` are the headings of the rows in `parameters`."""
 
     name: str

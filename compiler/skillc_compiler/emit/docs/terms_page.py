@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias, assert_never
 
 import msgspec
@@ -18,8 +17,7 @@ from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, R
 Term: TypeAlias = ClassTerm | RelationTerm | PropertyTerm | FunctionTerm
 
 
-@dataclass(frozen=True, slots=True)
-class TermEntry:
+class TermEntry(msgspec.Struct, frozen=True):
     """A term: its anchor, name, facts, documentation, place of declaration, and the skills that use it."""
 
     anchor: str

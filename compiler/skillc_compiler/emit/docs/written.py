@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
@@ -11,8 +12,7 @@ from skillc_dsl.parsing.building.places import TreeBuilder
 from skillc_dsl.source import Source, Span
 
 
-@dataclass(frozen=True, slots=True)
-class WrittenDeclarations:
+class WrittenDeclarations(msgspec.Struct, frozen=True):
     """The declarations of a library's files; implementations are keyed `Skill.name`."""
 
     sources: Mapping[str, Source]

@@ -7,30 +7,28 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 RDF_TYPE = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type"
 ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 LOCAL = re.compile(r"[A-Za-z_]([A-Za-z0-9_.-]*[A-Za-z0-9_-])?")
 
 
-@dataclass(frozen=True)
-class IriNode:
+class IriNode(msgspec.Struct, frozen=True):
     """A named node."""
 
     iri: str
 
 
-@dataclass(frozen=True)
-class AnonymousNode:
+class AnonymousNode(msgspec.Struct, frozen=True):
     """`[ predicate object ; .. ]`, in the order given."""
 
     pairs: tuple[tuple[str, Object], ...]
 
 
-@dataclass(frozen=True)
-class ListNode:
+class ListNode(msgspec.Struct, frozen=True):
     """`( item .. )`, in the order given."""
 
     items: tuple[Object, ...]

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 Look: TypeAlias = Literal["heading", "flow", "guard", "call", "time", "code"]
 """Kinds of boxes: a declaration, control flow, a condition, a skill, a wait, Python code."""
 
 
-@dataclass(frozen=True, slots=True)
-class PictureBox:
+class PictureBox(msgspec.Struct, frozen=True):
     """A box: its symbol (one character), title, further lines, child boxes, and the skill it calls, if any."""
 
     look: Look

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_compiler.emit.picture.boxes import Look, PictureBox
 from skillc_compiler.emit.picture.wrapping import count_cells, wrap_text
@@ -22,8 +23,7 @@ WIDEST = 58
 """Maximum width of a line, in cells."""
 
 
-@dataclass(frozen=True, slots=True)
-class PlacedBox:
+class PlacedBox(msgspec.Struct, frozen=True):
     """A box with its position in pixels from the upper left corner; `parent` is where its connecting line starts."""
 
     look: Look

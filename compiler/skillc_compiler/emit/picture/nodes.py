@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import assert_never
+
+import msgspec
 
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_dsl import syntax as s
@@ -12,8 +13,7 @@ from skillc_dsl.parsing.building.places import TreeBuilder
 SYMBOLS = {"seq": "→", "sel": "?", "par": "⇉", "try": "~", "invert": "!", "once": "1"}
 
 
-@dataclass(frozen=True, slots=True)
-class NodeDrawer:
+class NodeDrawer(msgspec.Struct, frozen=True):
     """Converts the nodes of one file; `places` has its text."""
 
     places: TreeBuilder

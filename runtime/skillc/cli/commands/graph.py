@@ -7,10 +7,10 @@ Exit code 1 if the library has errors, 3 if no plan is found.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import click
+from msgspec import structs
 
 from skillc.cli.command import Command
 from skillc.cli.console import print_error
@@ -43,7 +43,7 @@ def command(path: Path, name: str, with_plan: bool, form: str | None, output: Pa
         if not isinstance(plan, PictureBox):
             print_error(plan.message)
             return 3
-        box = replace(box, children=(*box.children, plan))
+        box = structs.replace(box, children=(*box.children, plan))
     wanted = form or ("mermaid" if output and output.suffix in {".mmd", ".mermaid"} else "svg")
     text = mermaid.draw(box) if wanted == "mermaid" else svg.draw_document(box)
     if output is None:
