@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import assert_never
 
 import msgspec
@@ -28,8 +27,7 @@ from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
-@dataclass(frozen=True, slots=True)
-class FactPattern:
+class FactPattern(msgspec.Struct, frozen=True):
     """A pattern that matches facts by the IRIs of term, subject and object; None matches any."""
 
     term: str | None
@@ -47,8 +45,7 @@ class FactPattern:
 EVERYTHING = FactPattern(None)
 
 
-@dataclass(frozen=True, slots=True)
-class ReadWriteSet:
+class ReadWriteSet(msgspec.Struct, frozen=True):
     """The facts that a step reads, writes and settles, and the devices that it locks.
 
     Settled facts include those that a functional relation loses. Two steps that settle the same fact must be ordered.
@@ -80,8 +77,7 @@ class ReadWriteSet:
         return "both settle the same facts" if _meet(self.settles, other.settles) else None
 
 
-@dataclass(frozen=True, slots=True)
-class UniqueSide:
+class UniqueSide(msgspec.Struct, frozen=True):
     """A relation implied by an asserted one that allows one partner only for the individual on `side`.
 
     `side` is 0 for the subject and 1 for the object; `flipped` if the implied relation has the two exchanged.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_dsl.source import Source, Span
 from skillc_dsl.tokens import PATTERNS
@@ -11,8 +12,7 @@ from skillc_dsl.tokens import PATTERNS
 _COMMENT_OR_LIKE = re.compile(rf'"[^"\n]*"?|{PATTERNS["address"]}|(?P<comment>{PATTERNS["comment"]})')
 
 
-@dataclass(frozen=True, slots=True)
-class Comment:
+class Comment(msgspec.Struct, frozen=True):
     """A comment as written, from its `#` to the end of its line without the white space there.
 
     `alone` distinguishes one with a line of its own from one after something else.

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import difflib
 import math
-from dataclasses import dataclass
 from types import MappingProxyType
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class Dimension:
+
+class Dimension(msgspec.Struct, frozen=True):
     """A dimension, as exponents of length, mass, time and angle."""
 
     length: int = 0
@@ -75,8 +75,7 @@ DIMENSIONS = MappingProxyType(
 _NAMES = MappingProxyType({dimension: name for name, dimension in DIMENSIONS.items()})
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(msgspec.Struct, frozen=True):
     """A unit: its dimension, and its value in SI units."""
 
     dimension: Dimension

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import groupby
+
+import msgspec
 
 from skillc_model.conditions import Effect, Expression, Individual
 from skillc_model.pddl.consistency import Consistency
@@ -32,8 +33,7 @@ from skillc_model.traversal import free_variables_in_order
 from skillc_rdf.vocabulary.types import ClassType
 
 
-@dataclass(frozen=True)
-class PlannedSkill:
+class PlannedSkill(msgspec.Struct, frozen=True):
     """The actions of a skill with the static predicates and functions that only they use."""
 
     actions: tuple[Action, ...]
@@ -47,8 +47,7 @@ class PlannedSkill:
         return frozenset(each.name for each in named)
 
 
-@dataclass(frozen=True)
-class _Case:
+class _Case(msgspec.Struct, frozen=True):
     """Implementations of equal duration, adjacent in rank order, and the condition under which one of them runs."""
 
     first: str
@@ -75,8 +74,7 @@ def make_actions(
     return _Builder(name, skill, tuple(implementations), symbols, objects, guards, taken, locks).planned()
 
 
-@dataclass(frozen=True)
-class _Builder:
+class _Builder(msgspec.Struct, frozen=True):
     name: str
     skill: Skill
     implementations: tuple[Implementation, ...]

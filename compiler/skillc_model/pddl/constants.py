@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 import msgspec
 
@@ -14,8 +13,7 @@ from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary
 
 
-@dataclass(frozen=True)
-class Mention:
+class Mention(msgspec.Struct, frozen=True):
     """An individual that a skill names, with the place in the source and the class required there (None: any)."""
 
     individual: str
@@ -56,8 +54,7 @@ def most_specific(classes: Iterable[str], vocabulary: Vocabulary) -> frozenset[s
     return frozenset(cls for cls in known if not any(each != cls and vocabulary.is_a(each, cls) for each in known))
 
 
-@dataclass(frozen=True)
-class _Mentions:
+class _Mentions(msgspec.Struct, frozen=True):
     vocabulary: Vocabulary
 
     def of(self, skill: Skill, implementations: Iterable[Implementation]) -> Iterator[Mention]:

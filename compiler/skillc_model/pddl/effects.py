@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import assert_never
+
+from msgspec import structs
 
 from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
 from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, Typed, conjunction, conjuncts
@@ -83,7 +85,7 @@ class Effects:
         if apart or Atom(change.atom.predicate, tuple(terms)) == added:
             yield change
         elif former != kept.name:
-            yield replace(change, condition=conjunction((change.condition, Negation(Equal(former, kept.name)))))
+            yield structs.replace(change, condition=conjunction((change.condition, Negation(Equal(former, kept.name)))))
 
     def _known_partner(self, unique: UniqueSide, fixed: Typed) -> Typed | None:
         """Return the partner of the fixed term that the precondition names, None if it names none."""

@@ -6,65 +6,58 @@ A term is a PDDL name: a variable with its leading `?`, or the name of an object
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias, assert_never
 
+import msgspec
 
-@dataclass(frozen=True)
-class Typed:
+
+class Typed(msgspec.Struct, frozen=True):
     """A variable (with its `?`) or an object, and its PDDL type."""
 
     name: str
     type: str
 
 
-@dataclass(frozen=True)
-class Atom:
+class Atom(msgspec.Struct, frozen=True):
     """`(predicate term ..)`"""
 
     predicate: str
     terms: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Equal:
+class Equal(msgspec.Struct, frozen=True):
     """`(= left right)`"""
 
     left: str
     right: str
 
 
-@dataclass(frozen=True)
-class Negation:
+class Negation(msgspec.Struct, frozen=True):
     """`(not body)`"""
 
     body: Atom | Equal
 
 
-@dataclass(frozen=True)
-class Conjunction:
+class Conjunction(msgspec.Struct, frozen=True):
     """All parts hold; true when empty."""
 
     parts: tuple[Formula, ...]
 
 
-@dataclass(frozen=True)
-class Disjunction:
+class Disjunction(msgspec.Struct, frozen=True):
     """Some part holds; false when empty."""
 
     parts: tuple[Formula, ...]
 
 
-@dataclass(frozen=True)
-class Existential:
+class Existential(msgspec.Struct, frozen=True):
     """The body holds for some object of the variable's type."""
 
     variable: Typed
     body: Formula
 
 
-@dataclass(frozen=True)
-class Universal:
+class Universal(msgspec.Struct, frozen=True):
     """The body holds for every object of the variable's type."""
 
     variable: Typed
@@ -77,8 +70,7 @@ TRUE = Conjunction(())
 FALSE = Disjunction(())
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(msgspec.Struct, frozen=True):
     """The atom becomes true (or false): for all values of the variables, where the condition held before.
 
     An atom that one action both deletes and adds is true afterwards.

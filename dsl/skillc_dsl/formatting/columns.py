@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.layout import one_line
@@ -11,8 +12,7 @@ from skillc_dsl.formatting.layout import one_line
 KEYWORD = "keyword"
 
 
-@dataclass(frozen=True, slots=True)
-class ColumnCell:
+class ColumnCell(msgspec.Struct, frozen=True):
     """A piece of a line in the column of the given name, followed by `gap` spaces.
 
     A `loose` cell does not widen its column.
@@ -24,8 +24,7 @@ class ColumnCell:
     loose: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class MemberLine:
+class MemberLine(msgspec.Struct, frozen=True):
     """A member: the comments above it, its cells, and the rest, which is not aligned."""
 
     above: d.Document

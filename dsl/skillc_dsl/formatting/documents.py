@@ -3,83 +3,72 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TypeAlias
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class Fragment:
+
+class Fragment(msgspec.Struct, frozen=True):
     """Text that is never broken."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Gap:
+class Gap(msgspec.Struct, frozen=True):
     """A space between two texts of one line."""
 
 
-@dataclass(frozen=True, slots=True)
-class SoftBreak:
+class SoftBreak(msgspec.Struct, frozen=True):
     """A line break if the enclosing group does not fit its line; otherwise the text `flat`."""
 
     flat: str = " "
 
 
-@dataclass(frozen=True, slots=True)
-class HardBreak:
+class HardBreak(msgspec.Struct, frozen=True):
     """A line break."""
 
 
-@dataclass(frozen=True, slots=True)
-class BlankLine:
+class BlankLine(msgspec.Struct, frozen=True):
     """One blank line before the next text, where a blank line is allowed."""
 
 
-@dataclass(frozen=True, slots=True)
-class TrailingComment:
+class TrailingComment(msgspec.Struct, frozen=True):
     """A comment at the end of its line."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class CommentLine:
+class CommentLine(msgspec.Struct, frozen=True):
     """A comment on a line of its own."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Punctuation:
+class Punctuation(msgspec.Struct, frozen=True):
     """A comma or an opening brace: it stays on the line of the preceding text, before any comment."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class WhenBroken:
+class WhenBroken(msgspec.Struct, frozen=True):
     """Text that is only written if the enclosing group breaks."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Indent:
+class Indent(msgspec.Struct, frozen=True):
     """A document whose lines after the first are indented by one step."""
 
     body: Document
 
 
-@dataclass(frozen=True, slots=True)
-class DocumentGroup:
+class DocumentGroup(msgspec.Struct, frozen=True):
     """A document on one line if it fits; otherwise each `SoftBreak` that is not in an inner group breaks."""
 
     body: Document
 
 
-@dataclass(frozen=True, slots=True)
-class Concatenation:
+class Concatenation(msgspec.Struct, frozen=True):
     """A sequence of documents."""
 
     parts: tuple[Document, ...]

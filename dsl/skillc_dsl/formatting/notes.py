@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_dsl.comments import Comment, find_comments
 from skillc_dsl.formatting.documents import NOTHING, BlankLine, CommentLine, Concatenation, Document, TrailingComment
@@ -14,8 +15,7 @@ from skillc_dsl.source import Source
 _MARKS = ("COMMA", "LBRACE")
 
 
-@dataclass(frozen=True, slots=True)
-class Notes:
+class Notes(msgspec.Struct, frozen=True):
     """The comments and blank lines around each token, by the start position of the token; `last` ends the file."""
 
     before: Mapping[int, Document]

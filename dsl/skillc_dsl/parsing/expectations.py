@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
-from dataclasses import dataclass
 from types import MappingProxyType
+
+import msgspec
 
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_following_terminals
 from skillc_dsl.parsing.tokens import Token
 
 
-@dataclass(frozen=True, slots=True)
-class Phrase:
+class Phrase(msgspec.Struct, frozen=True):
     """A description of the terminals in `covers`, used if all terminals in `signs` fit."""
 
     text: str

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, fixed_texts, list_fitting_terminals
@@ -23,16 +24,14 @@ _SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
 _KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", "LESS", END}
 
 
-@dataclass(frozen=True, slots=True)
-class Repair:
+class Repair(msgspec.Struct, frozen=True):
     """The problem, and the tokens that replace the faulty one."""
 
     problem: Diagnostic
     tokens: tuple[Token, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(msgspec.Struct, frozen=True):
     """A token that does not fit after the input that led to the parser's `states`."""
 
     states: Sequence[int]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
+
+import msgspec
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.parsing.lexer import token_span
@@ -28,8 +29,7 @@ class Spanned(Protocol):
 Child = Token | Spanned
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(msgspec.Struct, frozen=True):
     """A piece of a member that has no type of its own in the syntax tree, such as `= value` or `{ nodes }`."""
 
     rule: str
