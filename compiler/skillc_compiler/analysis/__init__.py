@@ -22,6 +22,10 @@ are the caller's. It is not reported if the skill infers the individual at run t
 it is false on every path. Holds of called skills, which depend on the outside world, are only reported if they are
 false.
 
+A proof is found again only if its body, or what it reads of the skills that the body calls, has changed
+(`sameness`): of a body that is called, callers read the `interfaces`, so that an edit in it that changes none of these
+concerns no caller.
+
 A proof is valid for executions in which only the body changes the facts it uses, and in which no primitive fails by a
 program error. The checks report its `findings`; `verify_monitor` decides `verify` lines.
 """

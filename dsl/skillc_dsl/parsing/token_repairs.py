@@ -22,6 +22,9 @@ MEANT: Mapping[str, tuple[str, str]] = MappingProxyType(
 """Comparisons of other languages, with the terminal and text to use instead."""
 
 
+_NO_VALUES = frozenset(("COLON", "COMMA", "RPAR", "RBRACE", "RSQB"))
+
+
 def repair_tokens(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
     """Return the tokens with unknown units, foreign operators, doubled braces and split labels repaired."""
     repaired: list[Token] = []
@@ -119,11 +122,12 @@ def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
     return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line
 
 
-def _label(word: Token, colon: Token, value: Token, path: str) -> tuple[Token, Diagnostic]:
+def _label(word: Token, colon: Token, value: Token, path: str) -> tuple[Token, Diagnostic | None]:
     label = join_tokens("LABEL", word, colon, f"{word}:")
     before, after = token_span(word, path), token_span(colon, path)
-    if _touch(word, colon):
-        return label, report_missing_space(before.to(after), value)
+    if _touch(word, colon):  # what is no value is the parser's to report
+        is_value = value.type not in _NO_VALUES and value.line == colon.line
+        return label, report_missing_space(before.to(after), value) if is_value else None
     gap = Span(path, before.end_line, before.end_column, after.line, after.column)
     fix = Fix(gap, "", "delete the space")
     return label, Diagnostic("syntax", gap.to(after), f"the `:` stands right after `{word}`", f"`{word}:`", fix=fix)
