@@ -62,8 +62,12 @@ def _by_declaration(errors: Mapping[Line, Diagnostic], program: Program) -> Iter
 
 
 def _uses(program: Program) -> Mapping[Span, list[Span]]:
-    """Return where each declared name is used: read, called, or given a value by an argument."""
+    """Return where each declared name is used: read, or called.
+
+    For a parameter that calls give values to these count, whatever its own skill does with it.
+    """
     found: dict[Span, list[Span]] = defaultdict(list)
+    passed: dict[Span, list[Span]] = defaultdict(list)
     for value in all_values(program):
         if value.declared is not None:
             found[value.declared].append(value.span)
@@ -73,12 +77,12 @@ def _uses(program: Program) -> Mapping[Span, list[Span]]:
         for argument in call.arguments:
             parameter = call.skill.parameter(argument.name.text) if call.skill else None
             if parameter is not None:
-                found[parameter.span].append(argument.value.span)
+                passed[parameter.span].append(argument.value.span)
     for skill in program.skills.values():
         for device in skill.devices:
             if (place := _class_place(program, skill, device.parameter.text)) is not None:
                 found[place].append(device.parameter.span)
-    return found
+    return {**found, **passed}
 
 
 def _class_place(program: Program, skill: Skill, name: str) -> Span | None:
