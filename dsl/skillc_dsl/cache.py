@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
-import tempfile
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -38,6 +37,8 @@ def load(path: Path) -> bytes | None:
 
 def store(path: Path, body: bytes) -> None:
     """Write a file atomically, also if others write it; a folder that cannot be written only costs time."""
+    import tempfile  # what is only read needs none
+
     name = None
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)

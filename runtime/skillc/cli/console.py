@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TextIO
@@ -156,6 +155,8 @@ def page_width(stream: TextIO) -> int | None:
     """Return the width of the terminal in cells, or COLUMNS if it is set; None if the output has no width."""
     if not stream.isatty() and not os.environ.get("COLUMNS", "").isdigit():
         return None
+    import shutil
+
     return max(shutil.get_terminal_size().columns, LEAST_WIDTH)
 
 

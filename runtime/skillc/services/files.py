@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import stat
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -89,6 +88,8 @@ def _encode(text: str, before: bytes) -> bytes:
 
 
 def _replace(target: Path, content: bytes) -> None:
+    import tempfile  # most commands write nothing
+
     descriptor, name = tempfile.mkstemp(prefix=".skillc-", dir=target.parent)
     try:
         with os.fdopen(descriptor, "wb") as file:
@@ -118,6 +119,8 @@ def check_writable(folder: Path | None) -> None:
     with writing_to(folder):
         missing = [each for each in (folder, *folder.parents) if not each.exists()]
         folder.mkdir(parents=True, exist_ok=True)
+        import tempfile
+
         with tempfile.TemporaryFile(dir=folder):
             pass
         for each in missing:
