@@ -5,7 +5,7 @@ A skill that a planner cannot handle is excluded with the reason; no skill is dr
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from skillc_model.pddl.actions import PlannedSkill, make_actions
@@ -60,17 +60,39 @@ def make_planning_domain(
     excluded = tuple(_unnamed(library, named, objects))
     out = {each.skill for each in excluded}
     skills = [skill for name, skill in sorted(library.skills.items()) if skill.planned and name not in out]
-    locked, changing = locked_parameters(library), frozenset[str]()
-    while True:
+    locked = locked_parameters(library)
+
+    def attempt(chosen: Sequence[Skill], changing: frozenset[str]) -> _Attempt:
         symbols = Symbols(library.vocabulary, names, hierarchy, changing, settled)
-        tried = _try(skills, library, symbols, objects, locked)
+        return _try(chosen, library, symbols, objects, locked)
+
+    tried = attempt(skills, _terms_written(skills, library))
+    if tried.excluded:  # else fewer changing terms exclude nothing either
+        tried, excluded = _find_fixed_point(skills, excluded, library, attempt)
+    return replace(_domain(library.name, tried, excluded), combined=frozenset(combined))
+
+
+def _find_fixed_point(
+    skills: Sequence[Skill],
+    excluded: tuple[Excluded, ...],
+    library: SkillLibrary,
+    attempt: Callable[[Sequence[Skill], frozenset[str]], _Attempt],
+) -> tuple[_Attempt, tuple[Excluded, ...]]:
+    """Return the attempt with the skills that remain when only these change terms, and all that are excluded."""
+    changing = frozenset[str]()
+    while True:
+        tried = attempt(skills, changing)
         left_out = {each.skill for each in tried.excluded}
         skills = [skill for skill in skills if skill.name not in left_out]
         excluded += tried.excluded
-        now = terms_written((post for skill in skills for post in skill.post), library.vocabulary)
+        now = _terms_written(skills, library)
         if now == changing and not left_out:
-            return replace(_domain(library.name, tried, excluded), combined=frozenset(combined))
+            return tried, excluded
         changing = now
+
+
+def _terms_written(skills: Iterable[Skill], library: SkillLibrary) -> frozenset[str]:
+    return terms_written((post for skill in skills for post in skill.post), library.vocabulary)
 
 
 def _unnamed(
