@@ -81,6 +81,13 @@ def test_goals_and_calls_of_the_manifest_are_tasks(project: Path) -> None:
     assert call(project, "run", "bad").exit_code == 1
 
 
+def test_a_task_of_steps_is_listed_with_the_skills_that_it_calls(project: Path) -> None:
+    steps = "Second(arm: lab:A)\n retry 2 { First(arm: lab:A) }\n Second(arm: lab:A)"
+    (project / "steps.skill").write_text(f'task steps {{ scene "iiwa_table.ttl" do seq {{ {steps} }} }}\n', "utf-8")
+    listed = json.loads(call(project, "tasks", "--json").stdout)
+    assert [each["aim"] for each in listed if each["name"] == "steps"] == ["Second, First"]
+
+
 def test_tasks_are_listed_here_and_shipped(project: Path) -> None:
     listed = json.loads(call(project / "notes", "tasks", "--json").stdout)
     own = [each for each in listed if each["origin"] == "project"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, assert_never
@@ -10,6 +10,7 @@ from typing import Literal, assert_never
 from skillc.services.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
 from skillc.services.project.project import find_project
+from skillc_compiler.program.written import calls_of
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.parser import parse
 
@@ -147,17 +148,8 @@ def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:
 
 def _calls_of(task: s.TaskDeclaration) -> str:
     """Return the skills that the body of a task calls, in order."""
-    return ", ".join(dict.fromkeys(_skills_in(task.body)))
-
-
-def _skills_in(node: object) -> Iterator[str]:
-    if isinstance(node, s.CallSkill):
-        yield node.skill.text
-    fields = getattr(node, "__dataclass_fields__", None) or {}
-    inner: Iterable[object] = (getattr(node, name) for name in fields)
-    for each in inner:
-        for part in each if isinstance(each, tuple) else (each,):
-            yield from _skills_in(part)
+    calls = sorted(calls_of(task), key=lambda call: call.span)
+    return ", ".join(dict.fromkeys(call.skill.text for call in calls))
 
 
 def _one_line(text: str) -> str:

@@ -6,9 +6,9 @@ Without a name, lists all diagnostics by family. Exit code 2 if there is no diag
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
 
 import click
+from msgspec import structs
 
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_diagnostic
@@ -27,7 +27,7 @@ def command(name: str | None, as_json: bool) -> None:
         hint = did_you_mean(name, page_names()) or "`skillc explain` lists all diagnostics"
         raise click.UsageError(f"there is no diagnostic `{name}`; {hint}")
     if as_json:
-        data = asdict(load_page(name)) if name else [asdict(each) for each in load_pages().values()]
+        data = structs.asdict(load_page(name)) if name else [structs.asdict(each) for each in load_pages().values()]
         click.echo(json.dumps(data, indent=2, ensure_ascii=False))
     else:
         click.echo(format_page(load_page(name)) if name else format_contents(load_pages()), nl=False, color=True)
