@@ -10,19 +10,29 @@ Found = TypeVar("Found", covariant=True)
 Result = TypeVar("Result")
 
 
+KEPT = 10
+"""For how many analyses something is kept that none of them has used: a word half typed is soon whole again."""
+RECENT = 4
+"""How many different values of a key are kept."""
+
+
 class Memo(Generic[Result]):
     """The results of one function, by the identity of its inputs, which it keeps alive.
 
-    What neither this analysis nor the one before it has used is dropped, so it does not grow with the edits.
+    What the last analyses have not used is dropped, so it does not grow with the edits.
     """
 
     def __init__(self) -> None:
-        self._now: dict[Hashable, tuple[tuple[object, ...], Result]] = {}
-        self._before = self._now
+        self._known: dict[Hashable, tuple[tuple[object, ...], Result]] = {}
+        self._used: dict[Hashable, int] = {}
+        self._number = 0
 
     def begin(self) -> None:
         """Begin the next analysis."""
-        self._before, self._now = self._now, {}
+        self._number += 1
+        if self._number % KEPT == 0:
+            for key in [key for key, used in self._used.items() if used < self._number - KEPT]:
+                del self._known[key], self._used[key]
 
     def recall(
         self,
@@ -33,29 +43,40 @@ class Memo(Generic[Result]):
     ) -> Result:
         """Return the result of that name for the inputs: computed if it is not known, or not valid any more."""
         key = (name, *map(id, inputs))
-        found = self._now.get(key) or self._before.get(key)
+        found = self._known.get(key)
         if found is None or not is_valid(found[1]):
-            found = (inputs, compute())
-        self._now[key] = found
+            found = self._known[key] = (inputs, compute())
+        self._used[key] = self._number
         return found[1]
 
 
 class Latest(Generic[Value]):
-    """The latest value of each key; one that is equal to the value before stays the same object."""
+    """The latest values of each key; one that is equal to one of them is the same object."""
 
     def __init__(self) -> None:
-        self._now: dict[Hashable, Value] = {}
-        self._before = self._now
+        self._known: dict[Hashable, list[Value]] = {}
+        self._used: dict[Hashable, int] = {}
+        self._number = 0
 
     def begin(self) -> None:
         """Begin the next analysis."""
-        self._before, self._now = self._now, {}
+        self._number += 1
+        if self._number % KEPT == 0:
+            for key in [key for key, used in self._used.items() if used < self._number - KEPT]:
+                del self._known[key], self._used[key]
 
     def same(self, key: Hashable, value: Value) -> Value:
-        """Return the value of the key in the analysis before if it is equal, else the value."""
-        before = self._before.get(key)
-        self._now[key] = before if before is not None and before == value else value
-        return self._now[key]
+        """Return a late value of the key that is equal, else the value."""
+        self._used[key] = self._number
+        known = self._known.setdefault(key, [])
+        for place, each in enumerate(known):
+            if each == value:
+                if place:
+                    known.insert(0, known.pop(place))
+                return each
+        known.insert(0, value)
+        del known[RECENT:]
+        return value
 
 
 class NameTable(Protocol[Found]):
