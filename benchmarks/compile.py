@@ -94,13 +94,13 @@ def main() -> None:
 
 
 def _print_pairs(name: str, pairs: Sequence[tuple[float, float]]) -> None:
-    """Print the median seconds of what was measured, and of the ratios to what was measured right before it."""
+    """Print the median seconds of what was measured, and of the ratios to what was measured right beside it."""
     seconds, ratio = median(long for _, long in pairs), median(long / short for short, long in pairs)
     print(f"{name} {seconds:8.2f} {ratio:6.2f}")
 
 
 def _processes(sources: Sequence[Source]) -> Iterator[tuple[str, list[tuple[float, float]]]]:
-    """Yield the processor seconds of checks of these sources as whole processes, each after the least there can be."""
+    """Yield the processor seconds of checks of these sources as whole processes, each beside the least there can be."""
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder, "generated")
         library.mkdir()

@@ -40,8 +40,9 @@ def test_an_incremental_analysis_equals_a_cold_one(seed: int) -> None:
     assert step == STEPS
 
 
-def test_the_edits_of_a_sequence_change_what_is_found() -> None:
-    found = {analyse(library).compiled.diagnostics for library in edited_libraries(0)}
+@pytest.mark.parametrize("seed", range(2))
+def test_the_edits_of_a_sequence_change_what_is_found(seed: int) -> None:
+    found = {analyse(library).compiled.diagnostics for library in edited_libraries(seed)}
     assert len(found) > 1
 
 

@@ -122,7 +122,7 @@ def test_signals_are_read_while_they_are_recorded(tmp_path: Path) -> None:
     with open_cell(settings, SilentReporter()) as host:
         assert isinstance(answer_run_job((ReadSignals(run, (), -1.0, 1e9, 0.0), b"")), JobRefused)
         refused = answer_run_job((CompareRuns(run, run), b""))
-        assert isinstance(refused, JobRefused) and "first has not begun its task" in str(refused)
+        assert isinstance(refused, JobRefused) and "first has no events of a task: it has not begun" in str(refused)
         host.submit("first", OperationRequest(task=TABLE[1]))
         (ended,) = run_all(host)
         assert ended.state == "succeeded"

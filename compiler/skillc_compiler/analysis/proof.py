@@ -35,7 +35,7 @@ from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.analysis.writes import NO_WRITES, Write
 from skillc_compiler.program.called import called_by, may_run_one_that_runs_it, run_by
-from skillc_compiler.program.memo import Latest, Memo
+from skillc_compiler.program.memo import Latest, Memo, Memos
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
@@ -56,18 +56,13 @@ Proofs: TypeAlias = Mapping[str, Proof]
 
 
 @dataclass
-class ProofMemo:
+class ProofMemo(Memos):
     """The proofs of the last analysis, of what they are, and what callers read of implementations."""
 
     proofs: Memo[Proof] = field(default_factory=Memo)
     primitives: Latest[CalledPrimitive] = field(default_factory=Latest)
     interfaces: Latest[Interface] = field(default_factory=Latest)
     proved: Latest[Proved] = field(default_factory=Latest)
-
-    def begin(self) -> None:
-        """Begin the next analysis."""
-        for each in vars(self).values():
-            each.begin()
 
 
 def prove(program: Program, memo: ProofMemo | None = None, paths: Collection[str] | None = None) -> Proofs:

@@ -38,14 +38,15 @@ def check(program: Program) -> Iterator[Diagnostic]:
         read = _names_read_in(implementation)
         for let in implementation.lets:
             if let.name.text not in read:
-                yield _unused("unused-let", let.name.span, f"the value `{let.name.text}` is never used")
+                yield report_unused("unused-let", let.name.span, f"the value `{let.name.text}` is never used")
     for skill in program.skills.values():
         yield from _parameters(program, skill)
     for task in program.tasks:
         yield from _task_parameters(task)
 
 
-def _unused(name: str, span: Span, message: str) -> Diagnostic:
+def report_unused(name: str, span: Span, message: str) -> Diagnostic:
+    """Return the warning about something at a place that can be removed."""
     return Diagnostic(name, span, message, help="remove it", severity="warning")
 
 
@@ -59,7 +60,7 @@ def _parameters(program: Program, skill: Skill) -> Iterator[Diagnostic]:
         read |= _names_read_in(implementation)
     for parameter in skill.parameters:
         if parameter.name not in read and parameter.direction != "out":
-            yield _unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
+            yield report_unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
 
 
 def _task_parameters(task: Task) -> Iterator[Diagnostic]:
@@ -69,7 +70,7 @@ def _task_parameters(task: Task) -> Iterator[Diagnostic]:
         read |= _names(node_values(node), node.conditions)
     for parameter in task.parameters:
         if parameter.name not in read:
-            yield _unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
+            yield report_unused("unused-parameter", parameter.span, f"the parameter `{parameter.name}` is never used")
 
 
 def _names_read_in(implementation: Implementation) -> set[str]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from functools import cache, partial
 
+from skillc_compiler.checks.unused import report_unused
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("unused-use", "unused-prefix", "unused-import")
@@ -25,10 +25,6 @@ def check(program: Program) -> Iterator[Diagnostic]:
         yield from _header(program, unit, terms)
 
 
-def _unused(name: str, span: Span, message: str) -> Diagnostic:
-    return Diagnostic(name, span, message, help="remove it", severity="warning")
-
-
 def _header(program: Program, unit: ParsedFile, terms: Callable[[str], Collection[str]]) -> Iterator[Diagnostic]:
     """Yield a warning for each vocabulary, prefix and import of a header that is not used."""
     used = program.used[unit.file.path]
@@ -40,10 +36,10 @@ def _header(program: Program, unit: ParsedFile, terms: Callable[[str], Collectio
                 yield from _vocabularies(program, line, used, terms)
             case s.Prefix(name=name):
                 if name.text not in prefixes:
-                    yield _unused("unused-prefix", name.span, f"the prefix `{name.text}` is never used")
+                    yield report_unused("unused-prefix", name.span, f"the prefix `{name.text}` is never used")
             case s.Import(path=path):
                 if path.span in found and not _import_used(program, unit, found[path.span]):
-                    yield _unused("unused-import", path.span, f'nothing of "{path.value}" is used here')
+                    yield report_unused("unused-import", path.span, f'nothing of "{path.value}" is used here')
 
 
 def _vocabularies(
@@ -51,7 +47,7 @@ def _vocabularies(
 ) -> Iterator[Diagnostic]:
     for name in line.vocabularies:
         if name.text in program.vocabulary.prefixes and used.isdisjoint(terms(name.text)):
-            yield _unused("unused-use", name.span, f"nothing of `{name.text}` is used by its bare name here")
+            yield report_unused("unused-use", name.span, f"nothing of `{name.text}` is used by its bare name here")
 
 
 def _terms(vocabulary: Vocabulary, prefix: str) -> set[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from skillc_compiler.program.memo import Latest, Memo
+from skillc_compiler.program.memo import Latest, Memo, Memos
 
 if TYPE_CHECKING:  # an analysis of an edit may need no planner
     from skillc_model import skills as library
@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # an analysis of an edit may need no planner
 
 
 @dataclass
-class LowerMemo:
+class LowerMemo(Memos):
     """The declarations of the last analysis, as lowered, and their names for planners."""
 
     skills: Memo[library.Skill] = field(default_factory=Memo)
@@ -22,21 +22,11 @@ class LowerMemo:
     named: Latest[tuple[object, ...]] = field(default_factory=Latest)
     names: Memo[dict[str, str]] = field(default_factory=Memo)
 
-    def begin(self) -> None:
-        """Begin the next analysis."""
-        for each in vars(self).values():
-            each.begin()
-
 
 @dataclass
-class PlanningMemo:
+class PlanningMemo(Memos):
     """What planners read of each skill in the last analysis, of all of them, and which they leave out."""
 
     views: Memo[tuple[object, ...]] = field(default_factory=Memo)
     read: Latest[tuple[object, ...]] = field(default_factory=Latest)
     excluded: Memo[tuple[Excluded, ...]] = field(default_factory=Memo)
-
-    def begin(self) -> None:
-        """Begin the next analysis."""
-        for each in vars(self).values():
-            each.begin()

@@ -16,14 +16,11 @@ RECENT = 4
 """How many different values of a key are kept."""
 
 
-class Memo(Generic[Result]):
-    """The results of one function, by the identity of its inputs, which it keeps alive.
-
-    What the last analyses have not used is dropped, so it does not grow with the edits.
-    """
+class Recent(Generic[Value]):
+    """Values by key; those that the last analyses have not used are dropped, so it does not grow with the edits."""
 
     def __init__(self) -> None:
-        self._known: dict[Hashable, tuple[tuple[object, ...], Result]] = {}
+        self._known: dict[Hashable, Value] = {}
         self._used: dict[Hashable, int] = {}
         self._number = 0
 
@@ -33,6 +30,10 @@ class Memo(Generic[Result]):
         if self._number % KEPT == 0:
             for key in [key for key, used in self._used.items() if used < self._number - KEPT]:
                 del self._known[key], self._used[key]
+
+
+class Memo(Recent[tuple[tuple[object, ...], Result]], Generic[Result]):
+    """The results of one function, by the identity of its inputs, which it keeps alive."""
 
     def recall(
         self,
@@ -50,23 +51,11 @@ class Memo(Generic[Result]):
         return found[1]
 
 
-class Latest(Generic[Value]):
-    """The latest values of each key; one that is equal to one of them is the same object."""
-
-    def __init__(self) -> None:
-        self._known: dict[Hashable, list[Value]] = {}
-        self._used: dict[Hashable, int] = {}
-        self._number = 0
-
-    def begin(self) -> None:
-        """Begin the next analysis."""
-        self._number += 1
-        if self._number % KEPT == 0:
-            for key in [key for key, used in self._used.items() if used < self._number - KEPT]:
-                del self._known[key], self._used[key]
+class Latest(Recent[list[Value]], Generic[Value]):
+    """The last values of each key, the latest one first; a value that is equal to one of them is the same object."""
 
     def same(self, key: Hashable, value: Value) -> Value:
-        """Return a late value of the key that is equal, else the value."""
+        """Return the one of the last values of the key that is equal, else the value."""
         self._used[key] = self._number
         known = self._known.setdefault(key, [])
         for place, each in enumerate(known):
@@ -77,6 +66,15 @@ class Latest(Generic[Value]):
         known.insert(0, value)
         del known[RECENT:]
         return value
+
+
+class Memos:
+    """The base of dataclasses whose fields all keep something from one analysis to the next."""
+
+    def begin(self) -> None:
+        """Begin the next analysis."""
+        for each in vars(self).values():
+            each.begin()
 
 
 class NameTable(Protocol[Found]):

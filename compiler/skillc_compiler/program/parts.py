@@ -19,10 +19,10 @@ class Reads(Enum):
     """What a check reads.
 
     WRITTEN: one declaration as it is written. DECLARATION: one declaration as it is resolved, with the skills that it
-    names and the vocabulary. FAMILY: a skill with its implementations,
-    or a task, and the implementations of the skills that these call. PYTHON: also files of Python. PROOFS: the proofs
-    of bodies. NEIGHBOURS: also the skills and implementations that a declaration names or may run, the rest of its file
-    and what it imports. LIBRARY: everything, but of bodies only which skills they call.
+    names and the vocabulary. FAMILY: a skill with its implementations, or a task, and the implementations of the skills
+    that these call. PYTHON: also files of Python. PROOFS: the proofs of bodies. NEIGHBOURS: also the skills and
+    implementations that a declaration names or may run, the rest of its file and what it imports. LIBRARY: everything,
+    but of bodies only which skills they call.
     """
 
     WRITTEN = auto()

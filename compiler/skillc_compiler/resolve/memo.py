@@ -9,7 +9,7 @@ from typing import TypeVar
 import msgspec
 from msgspec import structs
 
-from skillc_compiler.program.memo import Latest, LookUps, Memo
+from skillc_compiler.program.memo import Latest, LookUps, Memo, Memos
 from skillc_compiler.program.typed import Implementation, ParsedFile, Skill, Task
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.declarations import Bare
@@ -49,7 +49,7 @@ class Resolved(msgspec.Struct, frozen=True):
 
 
 @dataclass
-class ResolveMemo:
+class ResolveMemo(Memos):
     """The declarations of the last analysis, their names and what they were resolved to."""
 
     declarations: Latest[tuple[s.Declaration, list[str]]] = field(default_factory=Latest)
@@ -63,11 +63,6 @@ class ResolveMemo:
     terms: Memo[tuple[Vocabulary, Mapping[str, Found]]] = field(default_factory=Memo)
     typed: Latest[object] = field(default_factory=Latest)
     resolved: Memo[Resolved] = field(default_factory=Memo)
-
-    def begin(self) -> None:
-        """Begin the next analysis."""
-        for each in vars(self).values():
-            each.begin()
 
     def keep_declarations(self, files: Sequence[ParsedFile]) -> tuple[ParsedFile, ...]:
         """Return the files; declarations that have not changed are those of the analysis before."""

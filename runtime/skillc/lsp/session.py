@@ -20,7 +20,6 @@ from skillc.lsp.positions import PositionConverter
 from skillc.services import crash_reports
 from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.garbage import exempt_from_gc
 
 log = logging.getLogger(__name__)
 SHORT_PAUSE_S = 0.01
@@ -105,13 +104,10 @@ class Session:
     def publish(self) -> None:
         """Publish the diagnostics of each library that has changed, and clear those of closed libraries."""
         roots = self.libraries.roots()
-        opened = set(roots) - self._published.keys()
         for root in self._published.keys() - set(roots):
             self._send_changes(self._published.pop(root).by_uri, {})
         for root in roots:
             self._publish(root)
-        if opened:
-            exempt_from_gc()
 
     def _publish_texts(self) -> None:
         """Publish the diagnostics of the texts of known libraries; those of scenes stay as they are for a moment."""

@@ -140,7 +140,7 @@ def _explaining(path: Path) -> Iterator[None]:
 
 def _require_history(history: RunHistory | None, name: str) -> RunHistory:
     if history is None:
-        raise ServiceError(f"{name} has no events of a task: the run ended before the task began")
+        raise ServiceError(f"{name} has no events of a task: it has not begun, or the run ended before it")
     return history
 
 

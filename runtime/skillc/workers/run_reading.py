@@ -159,7 +159,6 @@ def _read_signals(job: ReadSignals) -> SignalRows:
 def _read_run(run: RunFiles) -> RecordedRunData:
     """Read a run, also while it goes on: the journal has its events before the recording does."""
     envelopes, recording = _read_events(run), Path(run.recording)
-    if read_history(each.event for each in envelopes) is None:
-        raise ServiceError(f"{run.operation} has not begun its task")
+    result = make_result(envelopes, run.operation)
     signals = read_mcap_columns(recording) if recording.exists() and recording.stat().st_size else None
-    return make_run_data(run.operation, envelopes, make_result(envelopes, run.operation), signals)
+    return make_run_data(run.operation, envelopes, result, signals)
