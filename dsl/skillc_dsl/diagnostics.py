@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Generic, Literal, TypeVar
+from typing import Generic, Literal, NamedTuple, TypeVar
 
 from skillc_dsl.source import Span
 
@@ -11,16 +11,14 @@ T_co = TypeVar("T_co", covariant=True)
 Severity = Literal["error", "warning"]
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+class Label(NamedTuple):
     """A second place that explains the first, such as the contradicted declaration."""
 
     span: Span
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Fix:
+class Fix(NamedTuple):
     """An edit that fixes a problem: replace `span` by `text`; `message` describes it, as in `write `..``.
 
     `safe` if the edit is certainly what is meant, so that `check --fix` may apply it unasked; a guessed name or a
@@ -61,8 +59,7 @@ class Misfit(Diagnostic):
     could_end: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome(Generic[T_co]):
+class Outcome(NamedTuple, Generic[T_co]):
     """The result of a pass, with the diagnostics about what it had to leave out."""
 
     value: T_co

@@ -43,7 +43,7 @@ def keep_useful_fixes(
 
 def _apply(fix: Fix, sources: Sequence[Source]) -> tuple[Source, ...]:
     return tuple(
-        replace(each, text=apply_fixes(each.text, [fix])) if each.path == fix.span.path else each for each in sources
+        each._replace(text=apply_fixes(each.text, [fix])) if each.path == fix.span.path else each for each in sources
     )
 
 

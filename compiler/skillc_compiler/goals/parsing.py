@@ -195,7 +195,7 @@ def _in_text(outcome: Outcome[Task | None], text: str, path: str) -> Outcome[Tas
         return Span(path, next(lines), span.column, next(lines), span.end_column)
 
     moved = (
-        replace(d, span=place(d.span), labels=tuple(replace(label, span=place(label.span)) for label in d.labels))
+        replace(d, span=place(d.span), labels=tuple(label._replace(span=place(label.span)) for label in d.labels))
         for d in outcome.diagnostics
     )
     return Outcome(outcome.value, tuple(moved))

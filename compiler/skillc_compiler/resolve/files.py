@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -106,7 +106,7 @@ class _Reader:
                 help=did_you_mean(wrong, candidates)
                 or did_you_mean(wrong, own)
                 or "correct its name, or write the file",
-                fix=near and replace(near, text=f'"{near.text}"'),
+                fix=near and near._replace(text=f'"{near.text}"'),
             )
         )
         return self._find(file.path, near.text, library) if near else None

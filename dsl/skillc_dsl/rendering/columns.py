@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import unicodedata
 from bisect import bisect_left, bisect_right
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 from skillc_dsl.rendering.printable import printable
 
@@ -15,8 +15,7 @@ _REMEMBERED_LINES = 16
 """The size of the cache: a long line may have thousands of problems and is laid out once."""
 
 
-@dataclass(frozen=True, slots=True)
-class DisplayLine:
+class DisplayLine(NamedTuple):
     """A line as shown in a terminal: `pieces` has the text for each character, `edges` the cell where each begins.
 
     The last edge is the end of the line.
@@ -31,8 +30,7 @@ class DisplayLine:
         return self.edges[index] if index < len(self.edges) else self.edges[-1] + index - len(self.pieces)
 
 
-@dataclass(frozen=True, slots=True)
-class Window:
+class Window(NamedTuple):
     """The visible part of a line: its text, the number of cells cut off on the left, and the cell where it ends."""
 
     text: str

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import groupby
+from typing import NamedTuple
 
 from skillc_dsl.rendering.columns import DisplayLine, Window, clip_line, lay_out
 from skillc_dsl.rendering.paint import Kind, Paint
@@ -19,8 +19,7 @@ _NARROWEST = 24
 """The minimum room in cells for a message beside its carets; with less room it is put below them."""
 
 
-@dataclass(frozen=True, slots=True)
-class Underline:
+class Underline(NamedTuple):
     """A place to underline, with its message."""
 
     span: Span
@@ -28,8 +27,7 @@ class Underline:
     kind: Kind
 
 
-@dataclass(frozen=True, slots=True)
-class ExcerptLayout:
+class ExcerptLayout(NamedTuple):
     """The layout of excerpts: colours, width in cells (None if unlimited), digits of line numbers."""
 
     paint: Paint

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 Kind = Literal["error", "warning", "place", "label", "help"]
 _COLOURS: dict[Kind, str] = {"error": "31", "warning": "33", "place": "36", "label": "34", "help": "32"}
 
 
-@dataclass(frozen=True, slots=True)
-class Paint:
+class Paint(NamedTuple):
     """Colours text for a terminal, or leaves it plain."""
 
     on: bool

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 from skillc_dsl.rendering.columns import count_cells
 from skillc_dsl.rendering.printable import printable
@@ -23,8 +22,7 @@ LEAST_CELLS = 24
 _WORD = re.compile(r"\s*\S+")
 
 
-@dataclass(frozen=True, slots=True)
-class TableCell:
+class TableCell(NamedTuple):
     """A text in a column, and how it looks."""
 
     text: str
@@ -34,8 +32,7 @@ class TableCell:
 Row: TypeAlias = Sequence[TableCell | str]
 
 
-@dataclass(frozen=True, slots=True)
-class TerminalPage:
+class TerminalPage(NamedTuple):
     """Where text is printed: its width in cells, None if nothing is to be wrapped, and whether it has colours."""
 
     width: int | None = None

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import click
 
@@ -11,8 +10,7 @@ Color = Literal["auto", "always", "never"]
 _KEY = "skillc.cli.settings"
 
 
-@dataclass(frozen=True, slots=True)
-class OutputSettings:
+class OutputSettings(NamedTuple):
     """How much a command prints, and whether in colours."""
 
     quiet: bool = False
@@ -32,7 +30,7 @@ def _set(context: click.Context, option: click.Parameter, value: Any) -> None:
     if not value:
         return
     assert option.name is not None
-    settings: OutputSettings = replace(context.meta.get(_KEY, OutputSettings()), **{option.name: value})
+    settings: OutputSettings = context.meta.get(_KEY, OutputSettings())._replace(**{option.name: value})
     if settings.quiet and settings.verbose:
         raise click.UsageError("--quiet and --verbose cannot be combined")
     context.meta[_KEY] = settings

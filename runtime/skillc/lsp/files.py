@@ -88,9 +88,9 @@ def read_surroundings(root: Root) -> Outcome[LibraryFiles]:
         project = projects.find_project(root.folder)
     except DiagnosticsError as error:
         found = [replace(each, span=_absolute(each.span)) for each in error.diagnostics]
-        return Outcome(replace(_shipped(), name=root.folder.name), tuple(found))
+        return Outcome(_shipped()._replace(name=root.folder.name), tuple(found))
     if project is None:
-        return Outcome(replace(_shipped(), name=root.folder.name))
+        return Outcome(_shipped()._replace(name=root.folder.name))
     return Outcome(library_files.read_surroundings(project))
 
 

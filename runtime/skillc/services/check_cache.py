@@ -10,10 +10,10 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from typing import NamedTuple
 
 from skillc.services.library_files import LibraryFiles
 from skillc_dsl import cache as files
@@ -33,8 +33,7 @@ _MOST = 500
 """The most entries in the cache; beyond it the older half is deleted."""
 
 
-@dataclass(frozen=True, slots=True)
-class CheckCacheEntry:
+class CheckCacheEntry(NamedTuple):
     """The cache entry of a library, checked with `scene` or without; `digest` is its key.
 
     `around` is the digest of everything but the texts of the library's own files.

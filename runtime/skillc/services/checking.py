@@ -6,7 +6,6 @@ Nothing heavy is imported unless something has to be checked.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -33,8 +32,7 @@ class StdinFile(NamedTuple):
     content: bytes
 
 
-@dataclass(frozen=True, slots=True)
-class CheckRequest:
+class CheckRequest(NamedTuple):
     """The paths to check, with `scene` or without; `-` among the paths is `stdin`.
 
     With `cache`, unchanged libraries are not checked again.

@@ -7,9 +7,8 @@ import os
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from skillc.services.errors import ServiceError
 from skillc_dsl.encoding import decode
@@ -17,8 +16,7 @@ from skillc_dsl.encoding import decode
 Kind = Literal["file", "folder", "missing", "unusable"]
 
 
-@dataclass(frozen=True, slots=True)
-class PathStatus:
+class PathStatus(NamedTuple):
     """What is at a path. `is_what` completes a sentence that begins with the path: `is a folder`."""
 
     kind: Kind

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.services.checking import STDIN, CheckRequest, check_with_cache, read_libraries
@@ -116,9 +116,9 @@ def _apply_once(library: LibraryFiles, found: Sequence[Diagnostic], unsafe: bool
     sources, count = [], 0
     for source in library.sources:
         fitting = _fitting(source, drop_overlapping(fixes[library.display_path(source.path)]))
-        sources.append(replace(source, text=apply_fixes(source.text, fitting)))
+        sources.append(source._replace(text=apply_fixes(source.text, fitting)))
         count += len(fitting)
-    return replace(library, sources=tuple(sources)), count
+    return library._replace(sources=tuple(sources)), count
 
 
 def _chosen(found: Iterable[Diagnostic], unsafe: bool) -> Iterator[Fix]:
@@ -140,7 +140,7 @@ def _fitting(source: Source, fixes: Sequence[Fix]) -> Sequence[Fix]:
 
 
 def _count_errors(source: Source, fixes: Sequence[Fix]) -> int:
-    problems = parse(replace(source, text=apply_fixes(source.text, fixes))).diagnostics
+    problems = parse(source._replace(text=apply_fixes(source.text, fixes))).diagnostics
     return sum(problem.severity == "error" for problem in problems)
 
 

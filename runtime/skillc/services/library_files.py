@@ -6,9 +6,10 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
+from typing import NamedTuple
 
 from skillc.services.errors import RequestError
 from skillc.services.files import inspect_path
@@ -27,8 +28,7 @@ _NOT_TURTLE = ("<?xml", "<!", "<rdf:", "{", "[")
 _ELSEWHERE = re.compile(r"(?:owl:|owl#|&owl;)Ontology[\"\s/>]")
 
 
-@dataclass(frozen=True, slots=True)
-class LibraryFiles:
+class LibraryFiles(NamedTuple):
     """The texts of a library: `sources` with paths relative to `root`; `importable`, other files to import, by name.
 
     `vocabularies` are the user's ontologies: those in the library's folder and those in the user's ontology folders.
@@ -41,9 +41,9 @@ class LibraryFiles:
     sources: tuple[Source, ...]
     importable: dict[str, Source]
     places: dict[str, Path]
-    vocabularies: tuple[Source, ...] = ()
-    namespaces: Mapping[str, str] = field(default_factory=dict)
-    project: Project | None = None
+    vocabularies: tuple[Source, ...]
+    namespaces: Mapping[str, str]
+    project: Project | None
 
     def display_path(self, path: str) -> str:
         """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""
@@ -59,8 +59,8 @@ class LibraryFiles:
         return replace(
             problem,
             span=shown(problem.span),
-            labels=tuple(replace(label, span=shown(label.span)) for label in problem.labels),
-            fix=replace(problem.fix, span=shown(problem.fix.span)) if problem.fix else None,
+            labels=tuple(label._replace(span=shown(label.span)) for label in problem.labels),
+            fix=problem.fix._replace(span=shown(problem.fix.span)) if problem.fix else None,
         )
 
 
@@ -181,8 +181,7 @@ def read_vocabularies(files: Iterable[tuple[str, Path]]) -> tuple[Source, ...]:
     return tuple(decode(shown, _bytes(path, most=-1)) for shown, path in files)
 
 
-@dataclass(frozen=True, slots=True)
-class Home:
+class Home(NamedTuple):
     """The name of a library, its folder, and its project if it has one."""
 
     name: str

@@ -31,11 +31,11 @@ def with_shown_path(span: Span) -> Span:
 
 
 def _shown_label(label: Label) -> Label:
-    return replace(label, span=with_shown_path(label.span))
+    return label._replace(span=with_shown_path(label.span))
 
 
 def _shown_fix(problem: Diagnostic) -> Fix | None:
-    return problem.fix and replace(problem.fix, span=with_shown_path(problem.fix.span))
+    return problem.fix and problem.fix._replace(span=with_shown_path(problem.fix.span))
 
 
 def read_scene_text(scene: Path) -> dict[str, Source]:

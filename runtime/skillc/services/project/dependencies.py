@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from importlib.metadata import entry_points
 from importlib.util import find_spec
 from pathlib import Path
@@ -47,7 +46,7 @@ def _resolve(project: Project, chain: tuple[Project, ...], roots: dict[str, Path
         found.append(_resolve(opened, (*chain, opened), roots))
     if problems:
         raise DiagnosticsError(problems, {project.source.path: project.source})
-    return replace(project, dependencies=tuple(found))
+    return project._replace(dependencies=tuple(found))
 
 
 def _check(name: str, opened: Project, chain: tuple[Project, ...], roots: dict[str, Path]) -> None:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import skillc_skills
 from skillc.services.errors import DiagnosticsError, RequestError
@@ -22,8 +21,7 @@ VIRTUAL_ENVIRONMENT = "pyvenv.cfg"
 SHIPPED = Path(skillc_skills.__path__[0])
 
 
-@dataclass(frozen=True, slots=True)
-class Project:
+class Project(NamedTuple):
     """A library with a manifest. `root` is its folder, `source` the manifest's text with a displayable path."""
 
     root: Path
