@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import stat
 from pathlib import Path
 
 from skillc_dsl.diagnostics import Diagnostic
@@ -44,11 +45,11 @@ def split_lines(text: str) -> list[str]:
 
 def read_file(path: Path, most: int = -1) -> bytes:
     """Return the content of a file, `most` bytes of it at most; OSError for a pipe, a device or a folder."""
-    if not path.is_file():
-        path.stat()
+    status = path.stat()
+    if not stat.S_ISREG(status.st_mode):
         raise OSError(errno.EINVAL, "it is not a regular file", str(path))
-    with path.open("rb") as file:
-        return file.read(most)
+    with path.open("rb", buffering=0) as file:
+        return file.read(most if 0 <= most < status.st_size else -1)
 
 
 def report_not_text(source: Source) -> Diagnostic | None:

@@ -10,7 +10,6 @@ import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from difflib import get_close_matches
 from pathlib import Path
 
 ROOT = Path(__file__).parent
@@ -90,6 +89,8 @@ def scene_path(name: str) -> Path:
     """Return the path of a shipped scene, with or without `.ttl`; FileNotFoundError names the nearest ones."""
     file = name if name.endswith(".ttl") else f"{name}.ttl"
     if file not in scene_names():
+        from difflib import get_close_matches
+
         near = get_close_matches(file, scene_names())
         hint = f"did you mean {' or '.join(near)}?" if near else f"those are {', '.join(scene_names())}"
         raise FileNotFoundError(f"no shipped scene {name}; {hint}")

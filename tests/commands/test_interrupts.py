@@ -155,7 +155,8 @@ def test_a_second_signal_ends_it_at_once(depot: Path) -> None:
         os.kill(pid, signal.SIGINT)
 
     code, out, err, _ = interrupted(depot, "plan", twice)
-    assert code in (130, 143) and out == "" and "Traceback" not in err
+    ended_already = -signal.SIGINT  # Python handles no signals any more once it has cleaned up
+    assert code in (130, 143, ended_already) and out == "" and "Traceback" not in err
 
 
 def test_a_command_that_is_killed_leaves_nothing_either(depot: Path) -> None:

@@ -41,9 +41,12 @@ class Window(NamedTuple):
 @lru_cache(_REMEMBERED_LINES)
 def lay_out(text: str) -> DisplayLine:
     """Return a line with tabs expanded to spaces and control characters replaced."""
+    shown = printable(text)
+    if _is_plain(shown):
+        return DisplayLine(tuple(shown), tuple(range(len(shown) + 1)))
     pieces: list[str] = []
     edges = [0]
-    for character in printable(text):
+    for character in shown:
         piece = " " * (TAB - edges[-1] % TAB) if character == "\t" else character
         pieces.append(piece)
         edges.append(edges[-1] + (len(piece) if character == "\t" else count_cells(character)))
@@ -52,7 +55,7 @@ def lay_out(text: str) -> DisplayLine:
 
 def count_cells(text: str) -> int:
     """Return the number of cells that a text takes in a terminal."""
-    return sum(_cells(character) for character in text)
+    return len(text) if _is_plain(text) else sum(map(_cells, text))
 
 
 def clip_line(line: DisplayLine, start: int, end: int, width: int) -> Window:
@@ -75,6 +78,11 @@ def _part(piece: str, at: int, to: int, low: int, high: int) -> str:
     if to > at and (at < low or to > high):
         return " " * max(0, min(to, high) - max(at, low))
     return piece if low <= at <= high else ""
+
+
+def _is_plain(text: str) -> bool:
+    """Whether each character takes one cell, certainly."""
+    return text.isascii() and text.isprintable()
 
 
 def _cells(character: str) -> int:

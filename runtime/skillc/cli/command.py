@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from difflib import get_close_matches
 from typing import Any
 
 import click
@@ -76,6 +75,8 @@ class Group(click.Group):
         """Find the command; for an unknown name, fail with the nearest one, or with the names of all commands."""
         names = self.list_commands(ctx)
         if args and not args[0].startswith("-") and args[0] not in names:
+            from difflib import get_close_matches
+
             near = get_close_matches(args[0], names, n=1)
             hint = f"did you mean `{near[0]}`?" if near else f"the commands are {', '.join(names)}"
             ctx.fail(f"there is no command `{args[0]}`; {hint}")

@@ -35,7 +35,8 @@ class Interrupted(KeyboardInterrupt):
 def raising_on_signals() -> Iterator[None]:
     """Raise Interrupted in the main thread at the first signal that asks the program to end; exit at the second one.
 
-    Signals that are ignored stay ignored, as `nohup` wants it. In other threads this does nothing.
+    That holds until the program has ended. Signals that are ignored stay ignored, as `nohup` wants it. In other
+    threads this does nothing.
     """
     received = False
 
@@ -46,7 +47,7 @@ def raising_on_signals() -> Iterator[None]:
         received = True
         raise Interrupted(number)
 
-    with _handling(handle):
+    with _handling(handle, lambda: received):
         yield
 
 
@@ -70,8 +71,13 @@ def noting_signals() -> Iterator[Callable[[], Interrupted | None]]:
 
 
 @contextmanager
-def _handling(handle: Callable[[int, FrameType | None], None]) -> Iterator[None]:
-    """Handle the signals that are not ignored, as they are with `nohup`; nothing changes in other threads."""
+def _handling(
+    handle: Callable[[int, FrameType | None], None], stays: Callable[[], bool] = lambda: False
+) -> Iterator[None]:
+    """Handle the signals that are not ignored, as they are with `nohup`; nothing changes in other threads.
+
+    The handlers of before are back at the end unless this one `stays`.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -82,5 +88,5 @@ def _handling(handle: Callable[[int, FrameType | None], None]) -> Iterator[None]
                 signal.signal(number, handle)
         yield
     finally:
-        for number, former in before.items():
+        for number, former in () if stays() else before.items():
             signal.signal(number, former)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import importlib
 import os
-import pkgutil
 import signal
 import sys
 from pathlib import Path
@@ -112,7 +111,7 @@ class Commands(Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of all commands, without importing them."""
-        return sorted(module.name for module in pkgutil.iter_modules([str(COMMANDS)]))
+        return sorted(file.stem for file in COMMANDS.glob("[!_]*.py"))
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Import one command; None for an unknown name."""

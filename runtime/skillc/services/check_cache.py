@@ -110,7 +110,7 @@ def describe_installation() -> Iterator[str]:
     for folder in filter(os.path.isdir, sys.path):
         yield f"{folder} {os.stat(folder).st_mtime_ns}"  # noqa: PTH116
     for package in PACKAGES:
-        yield from sorted(_states(import_module(package).__path__[0]))
+        yield from _states(import_module(package).__path__[0])
 
 
 def named_scenes(library: LibraryFiles) -> Iterator[Path]:
@@ -164,14 +164,15 @@ def _python(sources: Iterable[Source]) -> Iterator[str]:
         )
 
 
-def _states(folder: str) -> Iterator[str]:
-    """Yield path, size and modification time of every file below a folder, without compiled Python."""
-    with os.scandir(folder) as entries:
-        for entry in entries:
-            if entry.name == "__pycache__":
-                continue
-            if entry.is_dir():
-                yield from _states(entry.path)
-            else:
-                state = entry.stat()
-                yield f"{entry.path} {state.st_size} {state.st_mtime_ns}"
+def _states(folder: str) -> list[str]:
+    """Return path, size and modification time of every file below a folder, without compiled Python, in order."""
+    found, folders = [], [folder]
+    while folders:
+        with os.scandir(folders.pop()) as entries:
+            for entry in entries:
+                if not entry.is_dir():
+                    state = entry.stat()
+                    found.append(f"{entry.path} {state.st_size} {state.st_mtime_ns}")
+                elif entry.name != "__pycache__":
+                    folders.append(entry.path)
+    return sorted(found)

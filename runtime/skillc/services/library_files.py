@@ -5,9 +5,8 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
 
@@ -90,6 +89,8 @@ def _find_by_name(name: Path) -> Path:
     libraries = {each.name: each.root for each in (here.others() if here else ())}
     root = libraries.get(str(name), SHIPPED / name)
     if inspect_path(root).kind == "missing":
+        from difflib import get_close_matches
+
         shipped = (each.name for each in SHIPPED.iterdir() if each.is_dir())
         near = get_close_matches(str(name), sorted({*libraries, *shipped}), n=1)
         hint = f"; did you mean the library `{near[0]}`?" if near else ""
@@ -100,7 +101,7 @@ def _find_by_name(name: Path) -> Path:
 def _read_folder(folder: Path) -> LibraryFiles:
     project = projects.find_project(folder)
     root = project.root if project else folder
-    files = {file.relative_to(root).as_posix(): file for file in sorted(_files_below(root, whole=project is None))}
+    files = _files_below(root, whole=project is None)
     sources = {shown: file for shown, file in files.items() if shown.endswith(".skill")}
     if not sources:
         raise RequestError(f"there is no .skill file in {root}")
@@ -117,9 +118,8 @@ def read_single_file(path: Path | None, content: bytes) -> LibraryFiles:
     neighbours = {file.name: (file.name, file) for file in others}
     source = decode(path.name, content)
     project = projects.find_project(path.parent)
-    files = _files_below(project.root, whole=False) if project else path.parent.glob("*")
-    above = project.root if project else path.parent
-    beside = {_below(file, above): file for file in sorted(files) if is_vocabulary_beside(file, project)}
+    files = _files_below(project.root, whole=False) if project else _files_in(path.parent)
+    beside = {shown: file for shown, file in files.items() if is_vocabulary_beside(file, project)}
     home = Home(project.name if project else path.resolve().parent.name, path.parent, project)
     return _library(home, (source,), {path.name: path}, neighbours, beside)
 
@@ -132,7 +132,8 @@ def read_surroundings(project: Project) -> LibraryFiles:
 def source_texts(library: LibraryFiles) -> dict[str, Source]:
     """Return every text of the library and of its possible imports, by displayed path."""
     every = (*library.sources, *library.importable.values(), *library.vocabularies)
-    return {library.display_path(s.path): Source(library.display_path(s.path), s.text) for s in every}
+    shown = (Source(library.display_path(each.path), each.text) for each in every)
+    return {each.path: each for each in shown}
 
 
 def find_scene(scene: Path) -> Path:
@@ -230,21 +231,20 @@ def use_modules(project: Project) -> None:
 
 def _of_dependencies(others: Iterable[Project]) -> dict[str, tuple[str, Path]]:
     """Return the skill files of other libraries by the name that imports them, with their displayed paths."""
-    found = {}
-    for each in others:
-        for file in sorted(_files_below(each.root, whole=False)):
-            if file.suffix == ".skill":
-                shown = f"{each.name}/{_below(file, each.root)}"
-                found[shown] = (shown, file)
-    return found
+    every = (
+        (f"{each.name}/{shown}", file)
+        for each in others
+        for shown, file in _files_below(each.root, whole=False).items()
+    )
+    return {shown: (shown, file) for shown, file in every if shown.endswith(".skill")}
 
 
 def _vocabularies_of(others: Iterable[Project]) -> dict[str, Path]:
     """Return the vocabularies beside the skill files of other libraries, by displayed path."""
     return {
-        f"{each.name}/{_below(file, each.root)}": file
+        f"{each.name}/{shown}": file
         for each in others
-        for file in sorted(_files_below(each.root, whole=False))
+        for shown, file in _files_below(each.root, whole=False).items()
         if is_vocabulary_beside(file, each)
     }
 
@@ -255,10 +255,6 @@ def is_vocabulary_beside(file: Path, project: Project | None) -> bool:
     return is_vocabulary(file) and not any(file.is_relative_to(folder) for folder in folders)
 
 
-def _below(file: Path, folder: Path) -> str:
-    return file.relative_to(folder).as_posix()
-
-
 def _shipped() -> dict[str, tuple[str, Path]]:
     """Return the shipped files by the name that imports them, with their displayed paths."""
     files = sorted(SHIPPED.glob("*/*.skill"))
@@ -266,15 +262,24 @@ def _shipped() -> dict[str, tuple[str, Path]]:
     return {file.name if file.parent.name == "std" else shown: (shown, file) for file, shown in named}
 
 
-def _files_below(folder: Path, whole: bool = True) -> Iterator[Path]:
-    """Yield the files below a folder; hidden folders and links to folders are not entered.
+def _files_below(folder: Path, whole: bool) -> dict[str, Path]:
+    """Return the files below a folder, in order, by their paths from there; hidden folders and links are not entered.
 
     Unless `whole`, other projects and virtual environments below it are not entered either.
     """
-    for place, folders, names in os.walk(folder, onerror=_unreadable):
-        inner = (name for name in folders if not name.startswith("."))
-        folders[:] = [name for name in inner if whole or not projects.is_nested_project(Path(place, name))]
-        yield from (Path(place, name) for name in names)
+    found: dict[str, Path] = {}
+    for name, folders, names in os.walk(folder, onerror=_unreadable):
+        place = Path(name)
+        visible = (each for each in folders if not each.startswith("."))
+        folders[:] = [each for each in visible if whole or not projects.is_nested_project(place / each)]
+        above = "" if place == folder else f"{place.relative_to(folder).as_posix()}/"
+        found |= {f"{above}{each}": place / each for each in names}
+    return dict(sorted(found.items(), key=lambda item: item[0].split("/")))
+
+
+def _files_in(folder: Path) -> dict[str, Path]:
+    """Return what is in a folder, in order, by name."""
+    return {file.name: file for file in sorted(folder.glob("*"))}
 
 
 def _unreadable(error: OSError) -> None:
