@@ -12,7 +12,7 @@ from shipped import library, shelf, vocabulary
 from single_edits import apply_edits, single_edit
 from test_libraries import LIBRARIES, text_of
 
-from skillc_compiler.ide.analysis import Library
+from skillc_compiler.ide.analysis import AnalysisInput
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -28,21 +28,21 @@ def beginnings() -> tuple[Mapping[str, Source], ...]:
     return tuple({each.path: each for each in sources} for sources in (shipped, shipped[-4:], *others))
 
 
-def edited_libraries(seed: int) -> Iterator[Library]:
+def edited_libraries(seed: int) -> Iterator[AnalysisInput]:
     """Yield the states of a library between the edits of a random sequence."""
     chance = random.Random(seed)
-    now = Library("mine", dict(chance.choice(beginnings())), shelf(), vocabulary())
+    now = AnalysisInput("mine", dict(chance.choice(beginnings())), shelf(), vocabulary())
     yield now
     for _ in range(STEPS):
         now = chance.choices(list(_STEPS), list(_STEPS.values()))[0](now, chance)
         yield now
 
 
-def _write(now: Library, path: str, text: str) -> Library:
+def _write(now: AnalysisInput, path: str, text: str) -> AnalysisInput:
     return replace(now, sources={**now.sources, path: Source(path, text)})
 
 
-def _edit(now: Library, chance: random.Random) -> Library:
+def _edit(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     """Make a mistake, or a change, somewhere."""
     path = chance.choice(sorted(now.sources))
     text = now.sources[path].text
@@ -52,14 +52,14 @@ def _edit(now: Library, chance: random.Random) -> Library:
         return now
 
 
-def _correct(now: Library, chance: random.Random) -> Library:
+def _correct(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     """Write a file as it was at the beginning."""
     files = [source for each in beginnings() for source in each.values() if source.path in now.sources]
     source = chance.choice(files or list(shelf().values()))
     return _write(now, source.path, source.text)
 
 
-def _insert_line(now: Library, chance: random.Random) -> Library:
+def _insert_line(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     """Move everything below a line."""
     path = chance.choice(sorted(now.sources))
     lines = now.sources[path].text.split("\n")
@@ -67,7 +67,7 @@ def _insert_line(now: Library, chance: random.Random) -> Library:
     return _write(now, path, "\n".join(lines))
 
 
-def _change_header(now: Library, chance: random.Random) -> Library:
+def _change_header(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     """Remove, repeat or move a line `use`, `import` or `prefix`, take a vocabulary from one, or add one."""
     path = chance.choice(sorted(now.sources))
     lines = now.sources[path].text.split("\n")
@@ -90,7 +90,7 @@ def _change_header(now: Library, chance: random.Random) -> Library:
     return _write(now, path, "\n".join(lines))
 
 
-def _add(now: Library, chance: random.Random) -> Library:
+def _add(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     """Add a file, or a copy of one, whose declarations then exist twice."""
     files = [source for each in beginnings() for source in each.values()]
     source = chance.choice(
@@ -99,23 +99,23 @@ def _add(now: Library, chance: random.Random) -> Library:
     return _write(now, f"{chance.choice('abc')}_{source.path}" if chance.random() < 0.3 else source.path, source.text)
 
 
-def _remove(now: Library, chance: random.Random) -> Library:
+def _remove(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     gone = chance.choice(sorted(now.sources))
     rest = {path: source for path, source in now.sources.items() if path != gone}
     return replace(now, sources=rest) if rest else now
 
 
-def _rename(now: Library, chance: random.Random) -> Library:
+def _rename(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     old = chance.choice(sorted(now.sources))
     text = now.sources[old].text
     return _write(_remove_path(now, old), f"{chance.choice('az')}{old}", text)
 
 
-def _remove_path(now: Library, path: str) -> Library:
+def _remove_path(now: AnalysisInput, path: str) -> AnalysisInput:
     return replace(now, sources={other: source for other, source in now.sources.items() if other != path})
 
 
-def _change_terms(now: Library, chance: random.Random) -> Library:
+def _change_terms(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     """Take a term from the vocabulary, or change an axiom of one."""
     terms: Vocabulary = vocabulary()
     iri = chance.choice(sorted(terms.relations))
@@ -129,7 +129,7 @@ def _change_terms(now: Library, chance: random.Random) -> Library:
     return replace(now, vocabulary=chance.choice(changed))
 
 
-def _change_scenes(now: Library, chance: random.Random) -> Library:
+def _change_scenes(now: AnalysisInput, chance: random.Random) -> AnalysisInput:
     """Give the tasks other individuals, or none."""
     words = {word.strip("(),.") for source in now.sources.values() for word in source.text.split() if ":" in word}
     named = sorted(word for word in words if not word.endswith(":"))
@@ -150,7 +150,7 @@ def _is_task(line: str) -> bool:
     return line.startswith("task ") and len(line.split()) > 1
 
 
-_STEPS: Mapping[Callable[[Library, random.Random], Library], int] = {
+_STEPS: Mapping[Callable[[AnalysisInput, random.Random], AnalysisInput], int] = {
     _edit: 10,
     _correct: 5,
     _insert_line: 2,

@@ -13,7 +13,7 @@ import pytest
 from skillc.services.libraries import load_vocabulary
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.ide import highlighting, outline
-from skillc_compiler.ide.analysis import Analysis, Library, analyse
+from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_compiler.ide.calls import find_signature
 from skillc_compiler.ide.completion import complete
 from skillc_compiler.ide.descriptions import find_hover
@@ -36,10 +36,8 @@ def broken(text: str, chance: random.Random) -> str:
 
 def understood(text: str) -> Analysis:
     """Analyse a text as the only file of a library."""
-    return analyse(
-        Library("l", {"a.skill": Source("a.skill", text)}, find_library(SHIPPED / "std").importable, load_vocabulary()),
-        remembered,
-    )
+    around = find_library(SHIPPED / "std").importable
+    return analyse(AnalysisInput("l", {"a.skill": Source("a.skill", text)}, around, load_vocabulary()), remembered)
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -11,7 +11,7 @@ from lsprotocol import types
 
 from skillc.lsp import libraries
 from skillc.lsp.session import Session
-from skillc_compiler.ide.analysis import Analysis, Library, analyse
+from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing.parser import parse
 from skillc_model.skills import SkillLibrary
@@ -50,7 +50,7 @@ def uri(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 def test_a_failure_is_told_and_the_next_edit_is_analysed(
     uri: str, late: bool, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    def failing(library: Library, parsed_by: object, memo: object) -> Analysis:
+    def failing(library: AnalysisInput, parsed_by: object, memo: object) -> Analysis:
         found = analyse(library, parse)
         if "# it fails" in library.sources["a.skill"].text:
             if not late:

@@ -14,7 +14,7 @@ from skillc_runtime.execution.assignment import Assignment, ExecuteBody, NotStar
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.execution.task_state import Refusal
+from skillc_runtime.execution.task_state import RefusedCommand
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.search.astar import AStar
@@ -115,7 +115,7 @@ class Watched:
         """Return the events of a kind."""
         return [event for event in self.events if isinstance(event, kind)]
 
-    def request(self, command: Command) -> Refusal | None:
+    def request(self, command: Command) -> RefusedCommand | None:
         """Request something and do the tick in which it takes effect; return why it was refused."""
         request = self.loop.request(self.run, command)
         self.loop.tick()

@@ -17,7 +17,7 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody
 from skillc_runtime.execution.cell_loop import CellLoop
-from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, TRANSITIONS, Refusal
+from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, TRANSITIONS, RefusedCommand
 from skillc_runtime.execution.tree.gate import AtSkill, Gate
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
@@ -154,7 +154,7 @@ def check_requests(ran: Ran) -> None:
     def look() -> tuple[object, ...]:
         return task.state, task.reason, task.allowed, world.snapshot(), len(Acting.told), len(task.attempts)
 
-    def checked(command: Command, tick: int) -> Refusal | None:
+    def checked(command: Command, tick: int) -> RefusedCommand | None:
         before, allowed, told, over = look(), task.allowed, len(watched.events), task.ended
         refused = obey(command, tick)
         new = watched.events[told:]

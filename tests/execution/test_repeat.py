@@ -14,7 +14,7 @@ from execution.random_runs import DRAWN, Drawn
 from execution.yard import CRATE_TO_B, Yard
 from plans.depot import library
 from skillc_runtime.execution.repeat import Difference, NotRepeatable, Repetition, repeat_run
-from skillc_runtime.execution.task_state import Refusal
+from skillc_runtime.execution.task_state import RefusedCommand
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, NodeEnded, PlanArrived, Requested, TaskStarted
 from skillc_runtime.recording.run_settings import RunSettings
@@ -56,7 +56,7 @@ def recording() -> list[Event]:
     """Return the events of a run that was paused, stepped, replanned, failed, and was retried."""
     run = carried().submit(CRATE_TO_B, RunSettings(ask_after_failure=True, deadline_s=60.0), looks=(7, 3))
     run.until("running")
-    refusals: list[Refusal | None] = []
+    refusals: list[RefusedCommand | None] = []
     for command, state in (
         (commands.Pause("coffee"), "paused"),
         (commands.Resume(), "running"),

@@ -13,7 +13,7 @@ from shipped import SKILLS, library, shelf, vocabulary
 from single_edits import Edit, apply_edits, describe, edited_lines, independent_edits, single_edit
 from test_libraries import LIBRARIES, text_of
 
-from skillc_compiler.ide.analysis import Library, analyse
+from skillc_compiler.ide.analysis import AnalysisInput, analyse
 from skillc_compiler.pipeline import AnalysisMemo, compile, find_problems, lower_and_report
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.edits import apply_fixes
@@ -107,7 +107,7 @@ def _problems(sources: Sequence[Source], edited: Source, edits: Sequence[Edit]) 
 def _check(sources: Sequence[Source], changed: dict[str, Source]) -> tuple[Diagnostic, ...]:
     """Return what is reported; a library is lowered only if it has errors, to see that this does not crash."""
     parser, memo = _memory(sources)
-    analysis = analyse(Library("own", changed, shelf(), vocabulary()), parser, memo)
+    analysis = analyse(AnalysisInput("own", changed, shelf(), vocabulary()), parser, memo)
     found = find_problems(analysis.files, analysis.resolved, memo)
     if not _errors(found):
         return ()

@@ -26,7 +26,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
-class Library:
+class AnalysisInput:
     """The input of an analysis: the sources of a library, the importable files, the ontology, the scenes of its tasks.
 
     `sources` are keyed by path relative to the library, `importable` by the name written in the import, `namespaces` by
@@ -45,7 +45,7 @@ class Library:
 class Analysis:
     """A library with the result of parsing and resolving it; everything else is computed on first use."""
 
-    library: Library
+    library: AnalysisInput
     files: Outcome[tuple[ParsedFile, ...]]
     resolved: Outcome[Program]
     parsed_by: Parser = parse
@@ -111,7 +111,7 @@ class Analysis:
         return " ".join(line.strip() for line in lines)
 
 
-def analyse(library: Library, parsed_by: Parser = parse, memo: AnalysisMemo | None = None) -> Analysis:
+def analyse(library: AnalysisInput, parsed_by: Parser = parse, memo: AnalysisMemo | None = None) -> Analysis:
     """Parse and resolve a library; `parsed_by` is the parser, which may cache its results.
 
     `memo` has the analysis before, of which everything is reused that has not changed.
@@ -123,5 +123,5 @@ def analyse(library: Library, parsed_by: Parser = parse, memo: AnalysisMemo | No
     return Analysis(library, files, program, parsed_by, memo)
 
 
-def _ordered(library: Library) -> tuple[Source, ...]:
+def _ordered(library: AnalysisInput) -> tuple[Source, ...]:
     return tuple(library.sources[path] for path in sorted(library.sources))

@@ -23,7 +23,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 Typed = TypeVar("Typed", Skill, Implementation, Task)
 
 
-class Found(msgspec.Struct, frozen=True):
+class Findings(msgspec.Struct, frozen=True):
     """What resolving a part of a file has found besides its meaning: problems, unknown names, the names looked up."""
 
     problems: tuple[Diagnostic, ...]
@@ -31,19 +31,19 @@ class Found(msgspec.Struct, frozen=True):
     used: frozenset[str]
 
     @staticmethod
-    def of(names: Names) -> Found:
+    def of(names: Names) -> Findings:
         """Return what was found with these names."""
-        return Found(tuple(names.problems), tuple(names.unknown), frozenset(names.used))
+        return Findings(tuple(names.problems), tuple(names.unknown), frozenset(names.used))
 
 
-NOTHING = Found((), (), frozenset())
+NOTHING = Findings((), (), frozenset())
 
 
 class Resolved(msgspec.Struct, frozen=True):
     """A resolved declaration, with the skills and the implementations' names that were looked up for it."""
 
     value: object
-    found: Found
+    found: Findings
     skills: Mapping[str, Skill | None]
     implementations: Mapping[str, Sequence[str] | None]
 
@@ -60,7 +60,7 @@ class ResolveMemo(Memos):
     individuals: Latest[Mapping[str, str | None]] = field(default_factory=Latest)
     declared_terms: Latest[tuple[object, ...]] = field(default_factory=Latest)
     vocabulary: Latest[Vocabulary] = field(default_factory=Latest)
-    terms: Memo[tuple[Vocabulary, Mapping[str, Found]]] = field(default_factory=Memo)
+    terms: Memo[tuple[Vocabulary, Mapping[str, Findings]]] = field(default_factory=Memo)
     typed: Latest[object] = field(default_factory=Latest)
     resolved: Memo[Resolved] = field(default_factory=Memo)
 
@@ -82,7 +82,7 @@ class Resolver:
     """Resolves the declarations of a program; `found` has what was found, by file."""
 
     memo: ResolveMemo
-    found: dict[str, list[Found]]
+    found: dict[str, list[Findings]]
 
     def resolve(
         self, context: FileContext, inputs: tuple[object, ...], resolve: Callable[[FileContext], Typed]
@@ -100,7 +100,7 @@ class Resolver:
             skills, implementations = LookUps(context.skills), LookUps(context.implementations)
             value = resolve(replace(context, names=names, skills=skills, implementations=implementations))
             kept = self.memo.typed.same(declaration.span, value)
-            return Resolved(kept, Found.of(names), skills.asked, implementations.asked)
+            return Resolved(kept, Findings.of(names), skills.asked, implementations.asked)
 
         def is_valid(known: Resolved) -> bool:
             return all(context.skills.get(name) is skill for name, skill in known.skills.items()) and all(
@@ -115,11 +115,11 @@ class Resolver:
     def look_up_skill(self, context: FileContext, name: s.Name) -> str | None:
         """Return the name if it is a visible skill's; else it is unknown in the file of the context."""
         if name.text in context.names.skills:
-            self.found[name.span.path].append(Found((), (), frozenset((name.text,))))
+            self.found[name.span.path].append(Findings((), (), frozenset((name.text,))))
             return name.text
         names = replace(context.names, problems=[], unknown=[], used=set())
         found = names.look_up_skill(name)
-        self.found[name.span.path].append(Found.of(names))
+        self.found[name.span.path].append(Findings.of(names))
         return found
 
     def individuals(self, task: str, context: FileContext, there: Individuals) -> Mapping[str, str | None]:

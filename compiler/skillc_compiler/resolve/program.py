@@ -21,7 +21,7 @@ from skillc_compiler.resolve.declarations import (
 from skillc_compiler.resolve.duplicates import find_twice, remove_duplicates
 from skillc_compiler.resolve.implementations import resolve_implementation
 from skillc_compiler.resolve.individuals import Individuals
-from skillc_compiler.resolve.memo import NOTHING, Found, ResolveMemo, Resolver
+from skillc_compiler.resolve.memo import NOTHING, Findings, ResolveMemo, Resolver
 from skillc_compiler.resolve.names import KINDS, Homes, Kind, Names
 from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import resolve_skill
@@ -82,15 +82,15 @@ def _terms(
     names: Mapping[str, Names],
     base: Vocabulary,
     memo: ResolveMemo,
-) -> tuple[Vocabulary, Mapping[str, Found]]:
+) -> tuple[Vocabulary, Mapping[str, Findings]]:
     """Return the vocabulary with the terms that the files declare, and what was found in each file on the way."""
     written = tuple((unit, names[unit.file.path]) for unit in map(_without_skills, files) if _changes_terms(unit.file))
     inputs = memo.declared_terms.same("terms", (base, written))
 
-    def extend() -> tuple[Vocabulary, Mapping[str, Found]]:
+    def extend() -> tuple[Vocabulary, Mapping[str, Findings]]:
         own = {path: replace(each, problems=[], unknown=[], used=set()) for path, each in names.items()}
         vocabulary = extend_vocabulary(base, files, declared, own)
-        return vocabulary, {path: Found.of(each) for path, each in own.items()}
+        return vocabulary, {path: Findings.of(each) for path, each in own.items()}
 
     vocabulary, found = memo.terms.recall((inputs,), extend)
     return memo.vocabulary.same("", vocabulary), {path: found.get(path, NOTHING) for path in names}

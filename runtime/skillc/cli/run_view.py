@@ -8,7 +8,7 @@ from skillc.cells.operation import OperationStatus
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.execution.tree.gate import Call
+from skillc_runtime.execution.tree.gate import GatedCall
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.progress import PlanningProgress, describe_progress
 from skillc_runtime.recording.events import (
@@ -119,7 +119,7 @@ def _join_reason(reason: str, planning: PlanningProgress | None) -> str:
     return ": ".join(filter(None, (reason, "" if planning is None else describe_progress(planning))))
 
 
-def _stack(call: Call) -> tuple[ShownCall, ...]:
+def _stack(call: GatedCall) -> tuple[ShownCall, ...]:
     return tuple(ShownCall(each.skill_name, each.source) for each in (call, *call.enclosing_calls()))
 
 

@@ -15,7 +15,7 @@ from skillc.lsp.files import Root
 from skillc.lsp.scenes import SceneCache, find_problems
 from skillc.services.libraries import load_vocabulary_with
 from skillc.services.library_files import LibraryFiles
-from skillc_compiler.ide.analysis import Analysis, Library, analyse
+from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
@@ -168,7 +168,7 @@ class Libraries:
         terms = load_vocabulary_with(self._vocabularies[root]).value
         around = self._around(root).value
         sources = dict(self._sources[root])
-        library = Library(around.name, sources, around.importable, terms, before, around.namespaces)
+        library = AnalysisInput(around.name, sources, around.importable, terms, before, around.namespaces)
         memo = self._memos.setdefault(root, AnalysisMemo())
         parse = self.parser(root)
         found = analyse(library, parse, memo)

@@ -21,7 +21,7 @@ from skillc_runtime.world.state.world_state import WorldState
 FORMS = "`SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`"
 
 
-class Edit(NamedTuple):
+class StatementEdit(NamedTuple):
     """A statement to add or remove, or an individual (without predicate) to remove."""
 
     added: bool
@@ -41,7 +41,7 @@ def edit_file(scene: Path, state: WorldState, edits: Sequence[str]) -> str:
     return f"{scene}: {len(edits)} edit{'s' * (len(edits) > 1)} applied"
 
 
-def _apply(editor: Editor, text: str, edit: Edit, state: WorldState) -> None:
+def _apply(editor: Editor, text: str, edit: StatementEdit, state: WorldState) -> None:
     """Apply an edit to the text; the value of a functional relation or property is replaced."""
     subject, predicate, object_ = edit.subject, edit.predicate, edit.object
     try:
@@ -62,7 +62,7 @@ def _has_one_value(predicate: str, vocabulary: Vocabulary) -> bool:
     return term is not None and term.functional
 
 
-def _not_written(text: str, edit: Edit, state: WorldState) -> str:
+def _not_written(text: str, edit: StatementEdit, state: WorldState) -> str:
     said = text.strip().removeprefix("not ")
     object_ = iri_of(edit.object) if edit.object is not None else ""
     if edit.predicate in state.vocabulary.relations and state.holds(edit.subject, edit.predicate, object_):
@@ -70,7 +70,7 @@ def _not_written(text: str, edit: Edit, state: WorldState) -> str:
     return f"the scene file does not state `{said}`"
 
 
-def parse_edit(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> Edit:
+def parse_edit(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> StatementEdit:
     """Parse an edit; ServiceError if it is not a valid one."""
     said = text.strip().removesuffix(".").strip()
     wanted = not said.startswith("not ")
@@ -86,6 +86,6 @@ def parse_edit(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> E
         raise ServiceError(f"`{text}` is not one statement; write {FORMS}")
     (statement,) = parsed.statements
     if alone:
-        return Edit(False, iri_of(statement.subject))
+        return StatementEdit(False, iri_of(statement.subject))
     named = vocabulary.aliases.get(statement.predicate, statement.predicate)
-    return Edit(wanted, iri_of(statement.subject), named, statement.object)
+    return StatementEdit(wanted, iri_of(statement.subject), named, statement.object)

@@ -19,7 +19,7 @@ from skillc_rdf.vocabulary.types import Position
 
 if TYPE_CHECKING:
     from skillc.services.task_scenes import TaskScenes
-    from skillc_runtime.execution.selection.text_names import UnknownName
+    from skillc_runtime.execution.selection.text_names import UnknownTextName
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ def check_values(
     # The world model is heavy to import.
     from skillc.services.task_scenes import read_scene
     from skillc_model.read_write import changing_terms
-    from skillc_runtime.execution.selection.text_names import UnknownName, is_fixed_path, list_names
+    from skillc_runtime.execution.selection.text_names import UnknownTextName, is_fixed_path, list_names
 
     changing = changing_terms(compiled.value)
     for each in given:
@@ -85,12 +85,12 @@ def check_values(
         known = {name for state in states for iri in properties for name in list_names(iri, state.individuals, state)}
         span = each.span._replace(path=display_path(each.span.path))
         if known and each.text not in known and span not in errors:
-            wrong = UnknownName(each.text, min(properties), None, tuple(sorted(known)))
+            wrong = UnknownTextName(each.text, min(properties), None, tuple(sorted(known)))
             yield unknown_value(wrong, wrong.message(program.vocabulary), span, "warning")
 
 
 def unknown_value(
-    wrong: UnknownName, message: str, span: Span, severity: Severity, labels: tuple[Label, ...] = ()
+    wrong: UnknownTextName, message: str, span: Span, severity: Severity, labels: tuple[Label, ...] = ()
 ) -> Diagnostic:
     """Return the diagnostic of a text that names nothing."""
     near = get_close_matches(wrong.text, wrong.known, n=2, cutoff=0.75)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import pyoxigraph as ox
 
 from skillc.services.errors import RequestError
-from skillc.services.scene_edit import FORMS, Edit, parse_edit
+from skillc.services.scene_edit import FORMS, StatementEdit, parse_edit
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.store.literals import LiteralError, read_literal
@@ -40,7 +40,7 @@ def read_edits(edits: Sequence[str], state: WorldState) -> tuple[Change, ...]:
     return tuple(changes)
 
 
-def _read(text: str, edit: Edit, state: WorldState) -> Iterator[Change]:
+def _read(text: str, edit: StatementEdit, state: WorldState) -> Iterator[Change]:
     if edit.predicate is None or edit.object is None:
         yield RemoveIndividual(resolve_individual(edit.subject, state))
     elif edit.predicate == RDF_TYPE:
@@ -55,7 +55,7 @@ def _read(text: str, edit: Edit, state: WorldState) -> Iterator[Change]:
         yield _read_property(text, edit, edit.predicate, edit.object, state)
 
 
-def _read_property(text: str, edit: Edit, name: str, value: object, state: WorldState) -> Change:
+def _read_property(text: str, edit: StatementEdit, name: str, value: object, state: WorldState) -> Change:
     individual = resolve_individual(edit.subject, state)
     term = state.vocabulary.properties[resolve_term(name, state.vocabulary)]
     if not edit.added:
@@ -65,5 +65,5 @@ def _read_property(text: str, edit: Edit, name: str, value: object, state: World
     return SetProperty(individual, name, read_literal(value, term))
 
 
-def _name(edit: Edit, state: WorldState) -> str:
+def _name(edit: StatementEdit, state: WorldState) -> str:
     return state.vocabulary.short(edit.subject)

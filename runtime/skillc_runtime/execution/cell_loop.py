@@ -16,7 +16,7 @@ from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import StartPreparation
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.execution.task_state import Refusal
+from skillc_runtime.execution.task_state import RefusedCommand
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.recording.commands import Abort, Command, Stop
 from skillc_runtime.recording.events import Listener
@@ -43,7 +43,7 @@ class Request:
     run: TaskRun
     command: Command
     answered: bool = False
-    refused: Refusal | None = None
+    refused: RefusedCommand | None = None
 
     def answer(self, tick: int) -> None:
         """Let the run obey or refuse."""

@@ -22,7 +22,7 @@ from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.run_status import RunStatus
-from skillc_runtime.execution.task_state import Ending, Refusal, refusal
+from skillc_runtime.execution.task_state import Ending, RefusedCommand, refusal
 from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoint
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
@@ -67,7 +67,7 @@ class TaskRun(RunStatus):
         """At which calls it pauses, each SKILL or FILE:LINE."""
         return format_breakpoints(self._context.gate.breakpoints)
 
-    def request(self, command: commands.Command, tick: int) -> Refusal | None:
+    def request(self, command: commands.Command, tick: int) -> RefusedCommand | None:
         """Do what is requested in a tick of the loop; return why not if it is refused, and nothing has changed."""
         if self.ended:
             return refusal(command, self.state, ())
@@ -133,14 +133,14 @@ class TaskRun(RunStatus):
                 assert self._attempt is not None, "a pause concerns what runs"
                 self._pause.obey(command, self._attempt.tree)
 
-    def _try(self, command: commands.Command) -> Refusal | None:
+    def _try(self, command: commands.Command) -> RefusedCommand | None:
         """Do the part of a command that may turn out to be impossible; return why, and then nothing has changed."""
         world = self._context.backend.cell.world
         try:
             with nullcontext() if self.tree_runs else recorded_changes(world, self._emit, self._now):
                 prepared = try_command(command, self.assignment, self.attempts, self._context, self.tree)
         except (PlanError, StoreError, ValueError) as error:  # refused by the plan, by the store, or by the world model
-            return Refusal(command.name, self.state, self.allowed, str(error))
+            return RefusedCommand(command.name, self.state, self.allowed, str(error))
         self._next.prepared = prepared or self._next.prepared
         return None
 

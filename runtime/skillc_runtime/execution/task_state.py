@@ -57,7 +57,7 @@ class Ending:
 
 
 @dataclass(frozen=True, slots=True)
-class Refusal:
+class RefusedCommand:
     """A request that a task run does not allow now; nothing has changed."""
 
     command: str
@@ -70,6 +70,7 @@ class Refusal:
         return f"`{self.command}` is not possible while the task is {self.state}; {self.why or allowed}"
 
 
-def refusal(command: Command, state: State, allowed: tuple[str, ...]) -> Refusal | None:
+def refusal(command: Command, state: State, allowed: tuple[str, ...]) -> RefusedCommand | None:
     """Return why a command is not allowed; None if it is."""
-    return None if isinstance(command, Abort) or command.name in allowed else Refusal(command.name, state, allowed)
+    fits = isinstance(command, Abort) or command.name in allowed
+    return None if fits else RefusedCommand(command.name, state, allowed)

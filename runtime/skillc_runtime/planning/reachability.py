@@ -15,7 +15,7 @@ from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable
-from skillc_runtime.world.eval.explain import Obstacle
+from skillc_runtime.world.eval.explain import RelationObstacle
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -28,7 +28,7 @@ class UnreachableGoal:
 
     why: str
     proved: bool = True
-    obstacles: tuple[Obstacle, ...] = ()
+    obstacles: tuple[RelationObstacle, ...] = ()
 
 
 def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> UnreachableGoal | None:

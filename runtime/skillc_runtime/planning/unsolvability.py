@@ -12,7 +12,7 @@ from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.grounding import Grounding
-from skillc_runtime.world.eval.explain import Obstacle, explain, find_obstacle
+from skillc_runtime.world.eval.explain import RelationObstacle, explain, find_obstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -33,13 +33,13 @@ class UnsolvabilityReason:
 
     why: str
     causes: tuple[str, ...] = ()
-    obstacles: tuple[Obstacle, ...] = ()
+    obstacles: tuple[RelationObstacle, ...] = ()
 
 
 def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) -> UnsolvabilityReason:
     """Return why a problem has no plan, as far as reachability without deletions shows."""
     causes: tuple[str, ...] = ()
-    obstacles: tuple[Obstacle, ...] = ()
+    obstacles: tuple[RelationObstacle, ...] = ()
     try:
         explanation = _Explanation(posed, state)
         reasons = tuple(explanation.explain_goal(goal))
@@ -69,7 +69,7 @@ class _Explanation:
         self._formatter = FormulaFormatter(posed.problem, posed.library)
         self._grounding = Grounding(posed.problem, CancelToken(EXPLANATION_S))
         self._grounding.explore()
-        self.obstacles: list[Obstacle] = []
+        self.obstacles: list[RelationObstacle] = []
         self.wrong: list[str] = []
         self.missing: list[str] = []
 

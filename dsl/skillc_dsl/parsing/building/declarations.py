@@ -8,7 +8,7 @@ from typing import Literal, TypeVar, cast
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.parsing.building.members import MemberBuilder
-from skillc_dsl.parsing.building.places import Child, Part, Spanned, children_of_type, find_part, keyword_at
+from skillc_dsl.parsing.building.places import Child, MemberPart, Spanned, children_of_type, find_part, keyword_at
 from skillc_dsl.parsing.tokens import Tree
 
 P = TypeVar("P", bound=Spanned)
@@ -55,11 +55,11 @@ class FileBuilder(MemberBuilder):
             span,
         )
 
-    def parents(self, children: list[Child]) -> Part:
+    def parents(self, children: list[Child]) -> MemberPart:
         """`< Parent, ..`"""
         return self.part("parents", children)
 
-    def disjoint(self, children: list[Child]) -> Part:
+    def disjoint(self, children: list[Child]) -> MemberPart:
         """`disjoint Other, ..`"""
         return self.part("disjoint", children)
 
@@ -112,8 +112,8 @@ class FileBuilder(MemberBuilder):
     def task(self, children: list[Child]) -> s.TaskDeclaration:
         """`task name(parameter, ..) { scene, goal or do }`"""
         name, span = self.as_name(children[1]), self.over(children)
-        scene = self._only(part for part in children_of_type(children, Part) if part.rule == "scene")
-        goal = self._only(part for part in children_of_type(children, Part) if part.rule == "goal")
+        scene = self._only(part for part in children_of_type(children, MemberPart) if part.rule == "scene")
+        goal = self._only(part for part in children_of_type(children, MemberPart) if part.rule == "goal")
         condition = self.condition(goal.children[1]) if goal else None
         return s.TaskDeclaration(
             name,
@@ -126,11 +126,11 @@ class FileBuilder(MemberBuilder):
             span,
         )
 
-    def scene(self, children: list[Child]) -> Part:
+    def scene(self, children: list[Child]) -> MemberPart:
         """`scene "file.ttl"`"""
         return self.part("scene", children)
 
-    def goal(self, children: list[Child]) -> Part:
+    def goal(self, children: list[Child]) -> MemberPart:
         """`goal condition`"""
         return self.part("goal", children)
 

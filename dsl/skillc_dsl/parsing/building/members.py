@@ -6,7 +6,7 @@ from typing import Literal, cast
 
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.nodes import NodeBuilder
-from skillc_dsl.parsing.building.places import Child, Part, find_part, first_of_type, keyword_at
+from skillc_dsl.parsing.building.places import Child, MemberPart, find_part, first_of_type, keyword_at
 from skillc_dsl.parsing.tokens import Token
 
 
@@ -34,7 +34,7 @@ class MemberBuilder(NodeBuilder):
         name, type_ = self.label(children[1]), self.type_at(children, 2)
         return s.Refinement(name, type_, self._default(children), first_of_type(children, s.Range), self.over(children))
 
-    def default(self, children: list[Child]) -> Part:
+    def default(self, children: list[Child]) -> MemberPart:
         """`= value`"""
         return self.part("default", children)
 
@@ -70,7 +70,7 @@ class MemberBuilder(NodeBuilder):
         value = self.value(keep.children[1]) if keep else None
         return s.Pause(cast(s.PausePlace, where), value, self.over(children))
 
-    def keep(self, children: list[Child]) -> Part:
+    def keep(self, children: list[Child]) -> MemberPart:
         """`keep value`"""
         return self.part("keep", children)
 

@@ -6,7 +6,7 @@ from typing import Literal, cast
 
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.conditions import ConditionBuilder
-from skillc_dsl.parsing.building.places import Child, Part, children_of_type, find_part, keyword_at
+from skillc_dsl.parsing.building.places import Child, MemberPart, children_of_type, find_part, keyword_at
 from skillc_dsl.parsing.tokens import Token
 
 BlockKind = Literal[
@@ -52,11 +52,11 @@ class NodeBuilder(ConditionBuilder):
             self.over(children),
         )
 
-    def then(self, children: list[Child]) -> Part:
+    def then(self, children: list[Child]) -> MemberPart:
         """`{ }` after the condition of an `if`"""
         return self.part("then", children)
 
-    def else_(self, children: list[Child]) -> Part:
+    def else_(self, children: list[Child]) -> MemberPart:
         """`else { }`, `else if ..`"""
         return self.part("else_", children)
 
@@ -91,11 +91,11 @@ class NodeBuilder(ConditionBuilder):
             self.over(children),
         )
 
-    def implementation(self, children: list[Child]) -> Part:
+    def implementation(self, children: list[Child]) -> MemberPart:
         """`[implementation]`"""
         return self.part("implementation", children)
 
-    def out(self, children: list[Child]) -> Part:
+    def out(self, children: list[Child]) -> MemberPart:
         """`-> out`"""
         return self.part("out", children)
 

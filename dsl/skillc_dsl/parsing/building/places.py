@@ -29,7 +29,7 @@ class Spanned(Protocol):
 Child = Token | Spanned
 
 
-class Part(msgspec.Struct, frozen=True):
+class MemberPart(msgspec.Struct, frozen=True):
     """A piece of a member that has no type of its own in the syntax tree, such as `= value` or `{ nodes }`."""
 
     rule: str
@@ -70,9 +70,9 @@ class TreeBuilder:
         first = self.place(children[0])
         return first if len(children) == 1 else first.to(self.place(children[-1]))
 
-    def part(self, rule: str, children: Sequence[Child]) -> Part:
+    def part(self, rule: str, children: Sequence[Child]) -> MemberPart:
         """Return `children` as a part with the name of their rule."""
-        return Part(rule, tuple(children), self.over(children))
+        return MemberPart(rule, tuple(children), self.over(children))
 
     def written(self, span: Span) -> str:
         """Return the text of `span` on one line, without comments."""
@@ -101,9 +101,9 @@ def first_of_type(children: Iterable[Child], kind: type[T]) -> T | None:
     return next((child for child in children if isinstance(child, kind)), None)
 
 
-def find_part(children: Iterable[Child], rule: str) -> Part | None:
+def find_part(children: Iterable[Child], rule: str) -> MemberPart | None:
     """Return the part of a rule, or None if it is not present."""
-    return next((child for child in children if isinstance(child, Part) and child.rule == rule), None)
+    return next((child for child in children if isinstance(child, MemberPart) and child.rule == rule), None)
 
 
 def keyword_at(children: Sequence[Child], index: int) -> str:

@@ -19,7 +19,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
-from skillc_runtime.world.eval.explain import Obstacle
+from skillc_runtime.world.eval.explain import RelationObstacle
 from skillc_runtime.world.state.world_state import WorldState
 
 CellJudge: TypeAlias = Callable[[Scene, Sequence[Condition]], Iterable[SceneViolation]]
@@ -63,7 +63,7 @@ class CellProblem:
     violation: SceneViolation
     diagnostic: Diagnostic
 
-    def explains(self, obstacle: Obstacle) -> bool:
+    def explains(self, obstacle: RelationObstacle) -> bool:
         """Whether it is why a computed relation does not hold."""
         return (self.violation.prevents, self.violation.individual) == (obstacle.relation, obstacle.object)
 

@@ -11,7 +11,7 @@ from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
-from skillc_runtime.world.eval.inference import Ambiguous, Binding, Found, NoneFound, infer
+from skillc_runtime.world.eval.inference import Ambiguous, Binding, Inferred, NoneFound, infer
 from skillc_runtime.world.eval.near_misses import NearMiss
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -35,7 +35,7 @@ def infer_parameters(
     """Infer the parameters that were not passed from all preconditions."""
     wanted = _parameters_to_infer(implementation, bindings.keys())
     match infer(wanted, implementation.pre, bindings, state):
-        case Found(bindings=found, others=others):
+        case Inferred(bindings=found, others=others):
             return InferredParameters(
                 found, _find_alternatives(found, others), _make_notes(found, others, state.vocabulary)
             )
@@ -71,7 +71,7 @@ def infer_fixed_parameters(
         return _reject(implementation, [], false, explain(false.condition, state, bindings, state.vocabulary))
     linked = [p for p in wanted if any(p.name in free_variables(r.condition) for r in usable)]
     match infer(linked, usable, bindings, state):
-        case Found(bindings=found, others=others):
+        case Inferred(bindings=found, others=others):
             return bindings | _common_bindings((found, *others))
         case Ambiguous(candidates=candidates):
             settled = _fully_decided_parameters(linked, implementation.pre, usable)

@@ -24,7 +24,7 @@ from skillc_runtime.execution.selection.python_targets import (
 from skillc_runtime.execution.selection.refusal import Origin, Refusal, join_refusals, track_origin, track_origins
 from skillc_runtime.execution.selection.select import explain_none_selected, ranked_implementations
 from skillc_runtime.execution.selection.static_values import StaticValues, check_functions, compute_static_values
-from skillc_runtime.execution.selection.text_names import UnknownName, find_unknown_names
+from skillc_runtime.execution.selection.text_names import UnknownTextName, find_unknown_names
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.values import Value
@@ -160,7 +160,7 @@ class _Preflight:
         passed = frozenset(call.arguments)
         foreseen = self._foresight.here.compute(call.arguments, scope.foreseen)
         rejected: list[Rejection] = []
-        unknown: dict[Origin, UnknownName] = {}
+        unknown: dict[Origin, UnknownTextName] = {}
         possible: list[Callable[[], tuple[Refusal, ...]]] = []
         for implementation in ranked_implementations(self._library, call.skill, call.implementation):
             bindings = self._bind(implementation, arguments.values, passed)
@@ -202,7 +202,7 @@ class _Preflight:
             return None
         return Rejection(implementation=implementation.name, stage="start", reason=reason, source=implementation.source)
 
-    def _reject_names(self, implementation: Implementation, texts: Mapping[str, UnknownName]) -> Rejection:
+    def _reject_names(self, implementation: Implementation, texts: Mapping[str, UnknownTextName]) -> Rejection:
         reason = "; ".join(
             f"`{name}` names nothing: {text.message(self._state.vocabulary)}" for name, text in texts.items()
         )

@@ -10,7 +10,7 @@ from skillc_model import tree
 from skillc_model.conditions import Expression, Variable
 from skillc_model.skills import Implementation
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.execution.selection.text_names import UnknownName
+from skillc_runtime.execution.selection.text_names import UnknownTextName
 from skillc_runtime.recording.failure import Rejection
 
 Origin: TypeAlias = tuple[Position, str]
@@ -29,7 +29,7 @@ class Refusal:
     source: Position
     within: tuple[str, ...] = ()
     rejected: tuple[Rejection, ...] = ()
-    unknown_names: Mapping[Origin, UnknownName] = field(default_factory=dict)
+    unknown_names: Mapping[Origin, UnknownTextName] = field(default_factory=dict)
 
     def __str__(self) -> str:
         within = f" (in {' > '.join(self.within)})" if self.within else ""

@@ -23,7 +23,7 @@ NamePath: TypeAlias = tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class UnknownName:
+class UnknownTextName:
     """A text that is none of the `known` values, sorted, of a property of `owner`, or of anything if that is None."""
 
     text: str
@@ -41,14 +41,14 @@ class UnknownName:
 
 def find_unknown_names(
     implementation: Implementation, bindings: Mapping[str, Value], state: WorldState, changing: frozenset[str]
-) -> dict[str, UnknownName]:
+) -> dict[str, UnknownTextName]:
     """Return by parameter the texts that name nothing for this primitive, if no skill changes the names.
 
     `bindings` are the known parameters. PrimitiveError if the primitive's class cannot be imported.
     """
     if not isinstance(implementation.body, Primitive):
         return {}
-    found: dict[str, UnknownName] = {}
+    found: dict[str, UnknownTextName] = {}
     for parameter, (start, *path) in import_primitive(implementation.body.python).text_names.items():
         text, owner = bindings.get(parameter), bindings.get(start)
         if not isinstance(text, str) or not is_fixed_path(tuple(path), state.vocabulary, changing):
@@ -58,7 +58,7 @@ def find_unknown_names(
         described = state.individuals if one is None else _follow_relations(one, relations, state)
         known = list_names(property_, described, state)
         if described and text not in known:
-            found[parameter] = UnknownName(text, property_, one, known)
+            found[parameter] = UnknownTextName(text, property_, one, known)
     return found
 
 

@@ -30,7 +30,7 @@ class AtLine:
 Breakpoint: TypeAlias = AtSkill | AtLine
 
 
-class Call(Protocol):
+class GatedCall(Protocol):
     """A call in a tree, as the gate sees it."""
 
     @property
@@ -48,7 +48,7 @@ class Call(Protocol):
         """Where the skill may be paused."""
         ...
 
-    def enclosing_calls(self) -> Iterator[Call]:
+    def enclosing_calls(self) -> Iterator[GatedCall]:
         """Yield the calls around it, the innermost first."""
         ...
 
@@ -62,8 +62,8 @@ class Gate:
     def __init__(self, breakpoints: Iterable[Breakpoint] = ()) -> None:
         self.breakpoints = frozenset(breakpoints)
         self.reason: str | None = None
-        self.waiting: list[Call] = []
-        self._step: Callable[[Call], bool] | None = None
+        self.waiting: list[GatedCall] = []
+        self._step: Callable[[GatedCall], bool] | None = None
 
     @property
     def stepping(self) -> bool:
@@ -83,13 +83,13 @@ class Gate:
         """Forget the calls of a tree that has ended; if the run is to pause, it still is."""
         self.waiting = []
 
-    def step(self, kind: StepKind, active: Iterable[Call]) -> None:
+    def step(self, kind: StepKind, active: Iterable[GatedCall]) -> None:
         """Open, and hold back the call after a step; `active` are the innermost active calls."""
         around = tuple(self._calls_to_finish(kind, tuple(active)))
         self.open()
         self._step = lambda call: not any(each is one for each in call.enclosing_calls() for one in around)
 
-    def stops(self, call: Call) -> bool:
+    def stops(self, call: GatedCall) -> bool:
         """Tell whether a call must wait before it starts; it is in `waiting` then."""
         if self.reason is None:
             self.reason = self._reason_to_stop(call)
@@ -98,11 +98,11 @@ class Gate:
         self.waiting.append(call)
         return True
 
-    def holds_back(self, call: Call) -> bool:
+    def holds_back(self, call: GatedCall) -> bool:
         """Tell whether a call still has to wait."""
         return any(each is call for each in self.waiting)
 
-    def find_hindrance(self, active: Iterable[Call]) -> Call | None:
+    def find_hindrance(self, active: Iterable[GatedCall]) -> GatedCall | None:
         """Return the skill that must not be paused now, outermost first, given the innermost active calls."""
         for call in active:
             around = (call, *call.enclosing_calls())
@@ -112,13 +112,13 @@ class Gate:
                     return hindrance
         return None
 
-    def _reason_to_stop(self, call: Call) -> str | None:
+    def _reason_to_stop(self, call: GatedCall) -> str | None:
         if self._step is not None and self._step(call):
             return f"step: {call.skill_name} is next"
         met = next((each for each in self.breakpoints if _is_at(each, call)), None)
         return None if met is None else f"breakpoint at {format_breakpoint(met)}"
 
-    def _calls_to_finish(self, kind: StepKind, active: tuple[Call, ...]) -> Iterator[Call]:
+    def _calls_to_finish(self, kind: StepKind, active: tuple[GatedCall, ...]) -> Iterator[GatedCall]:
         """Yield the calls inside which the step does not end."""
         match kind:
             case "into":
@@ -131,7 +131,7 @@ class Gate:
                 assert_never(kind)
 
 
-def is_pause_point(call: Call) -> bool:
+def is_pause_point(call: GatedCall) -> bool:
     """Tell whether the skills around a call may be paused before it starts."""
     for number, each in enumerate(call.enclosing_calls()):
         match each.pause_policy.where:
@@ -144,7 +144,7 @@ def is_pause_point(call: Call) -> bool:
     return True
 
 
-def keep_s(active: Iterable[Call]) -> float:
+def keep_s(active: Iterable[GatedCall]) -> float:
     """Return for how long a paused tool may go on pressing, in s: the shortest time that an active skill states."""
     policies = [each.pause_policy for call in active for each in (call, *call.enclosing_calls())]
     return min((policy.keep_s for policy in policies if policy.keep_s is not None), default=KEEP_S)
@@ -172,7 +172,7 @@ def read_breakpoint(text: str) -> Breakpoint:
     return AtLine(path, int(line)) if path else AtSkill(text)
 
 
-def _is_at(breakpoint_: Breakpoint, call: Call) -> bool:
+def _is_at(breakpoint_: Breakpoint, call: GatedCall) -> bool:
     match breakpoint_:
         case AtSkill(skill):
             return call.skill_name == skill

@@ -46,7 +46,7 @@ def explain(condition: Condition, state: WorldState, bindings: Bindings, vocabul
 
 
 @dataclass(frozen=True, slots=True)
-class Obstacle:
+class RelationObstacle:
     """What the reasoner of a computed relation says against it, for two individuals."""
 
     relation: str
@@ -58,7 +58,7 @@ class Obstacle:
         return self.reason
 
 
-def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -> Obstacle | None:
+def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -> RelationObstacle | None:
     """Return what the reasoner of a computed relation says against it; None for any other condition, or if it holds."""
     match condition:
         case Holds(subject, relation, object_) if relation in state.axioms.computed:
@@ -66,7 +66,7 @@ def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -
             if start is None or end is None:
                 return None
             reason = state.axioms.computed[relation].obstacle(state, start, end)
-            return None if reason is None else Obstacle(relation, start, end, reason)
+            return None if reason is None else RelationObstacle(relation, start, end, reason)
         case _:
             return None
 

@@ -22,7 +22,7 @@ Binding: TypeAlias = dict[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Inferred:
     """The inferred parameters; `others` are further solutions for `infer any`, in IRI order."""
 
     bindings: Binding
@@ -48,7 +48,7 @@ class Ambiguous:
     candidates: tuple[Binding, ...]
 
 
-Inference: TypeAlias = Found | NoneFound | Ambiguous
+Inference: TypeAlias = Inferred | NoneFound | Ambiguous
 
 
 def infer(
@@ -60,7 +60,7 @@ def infer(
     the parameters are ignored. EvaluationError when a requirement cannot be evaluated.
     """
     if not parameters:
-        return Found({})
+        return Inferred({})
     variables = {parameter.name: _class_of(parameter) for parameter in parameters}
     conditions = [requirement.condition for requirement in requirements]
     answers = sorted(
@@ -72,7 +72,7 @@ def infer(
     fixed = [parameter.name for parameter in parameters if not parameter.any_]
     if len({tuple(answer[name] for name in fixed) for answer in answers}) > 1:
         return Ambiguous(tuple(answers))
-    return Found(answers[0], tuple(answers[1:]))
+    return Inferred(answers[0], tuple(answers[1:]))
 
 
 def _class_of(parameter: Parameter) -> str:
