@@ -7,7 +7,7 @@ import re
 import msgspec
 
 from skillc_dsl.source import Source, Span
-from skillc_dsl.tokens import PATTERNS
+from skillc_dsl.token_table import PATTERNS
 
 _COMMENT_OR_LIKE = re.compile(rf'"[^"\n]*"?|{PATTERNS["address"]}|(?P<comment>{PATTERNS["comment"]})')
 

@@ -17,7 +17,7 @@ from pygments.token import (  # type: ignore[import-untyped]
     _TokenType,
 )
 
-from skillc_dsl.tokens import TYPES, TokenKind, keyword_group, scan_tokens
+from skillc_dsl.token_table import TYPES, TokenKind, keyword_group, scan_tokens
 
 _COLOURS: dict[TokenKind, _TokenType] = {
     "documentation": String.Doc,

@@ -10,7 +10,7 @@ import re
 from pathlib import Path
 from typing import TypeAlias
 
-from skillc_dsl.tokens import KEYWORDS, NAME, NUMBER, OPERATORS, PATTERNS, TYPES, UNIT, Group
+from skillc_dsl.token_table import KEYWORDS, NAME, NUMBER, OPERATORS, PATTERNS, TYPES, UNIT, Group
 
 FILE = Path(__file__).parent / "syntaxes" / "skill.tmLanguage.json"
 Rule: TypeAlias = dict[str, str | dict[str, dict[str, str]]]

@@ -7,7 +7,7 @@ import re
 import runpy
 from pathlib import Path
 
-from skillc_dsl.tokens import KEYWORDS
+from skillc_dsl.token_table import KEYWORDS
 
 EDITORS = Path(__file__).parents[2] / "editors"
 

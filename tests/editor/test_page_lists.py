@@ -6,7 +6,7 @@ import json
 import re
 
 from docs.pages import ROOT
-from skillc_dsl.tokens import KEYWORDS, TYPES
+from skillc_dsl.token_table import KEYWORDS, TYPES
 
 STUDIO = ROOT / "studio"
 

@@ -20,7 +20,7 @@ from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
-from skillc_dsl.tokens import KEYWORDS
+from skillc_dsl.token_table import KEYWORDS
 from skillc_dsl.units import UNITS
 
 _WITHIN_A_LINE = frozenset(("range", "any", "sensed", "of", "anywhere", "between", "steps", "keep"))

@@ -29,7 +29,7 @@ from skillc_compiler.ide.symbols import (
     TypeSymbol,
 )
 from skillc_dsl.source import Span
-from skillc_dsl.tokens import PATTERNS, keyword_group
+from skillc_dsl.token_table import PATTERNS, keyword_group
 
 WordKind: TypeAlias = Literal[
     "namespace", "class", "type", "method", "property", "function", "interface", "parameter", "variable",

@@ -28,7 +28,7 @@ from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import apply_fixes
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
-from skillc_dsl.tokens import KEYWORDS, NAME, NAMES_ELSEWHERE
+from skillc_dsl.token_table import KEYWORDS, NAME, NAMES_ELSEWHERE
 
 _RENAMED = (
     *(TermSymbol, FunctionSymbol, SkillSymbol, ImplementationSymbol),

@@ -16,7 +16,7 @@ from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.type_names import resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
-from skillc_dsl.tokens import KEYWORDS
+from skillc_dsl.token_table import KEYWORDS
 from skillc_dsl.units import TIME
 
 

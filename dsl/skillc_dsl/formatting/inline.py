@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.notes import Notes
 from skillc_dsl.parsing.tokens import Branch, Token, Tree
-from skillc_dsl.tokens import NUMBER
+from skillc_dsl.token_table import NUMBER
 
 _CHAINS = ("sum", "product", "or_", "and_", "implies")
 _TIGHT = ("member", "negative", "opposite", "list_of", "implementation")

@@ -9,7 +9,7 @@ from skillc_dsl.comments import find_comments
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_following_terminals
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
-from skillc_dsl.tokens import (
+from skillc_dsl.token_table import (
     KEYWORDS,
     NAMES_ELSEWHERE,
     OPERATORS,
