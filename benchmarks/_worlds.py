@@ -24,7 +24,7 @@ from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_scene, load_sheets, read_documents, sheet_documents
 from skillc_runtime.scene.saving import save_scene
 from skillc_runtime.world.eval.conditions import compile_condition
-from skillc_runtime.world.eval.inference import Found, infer
+from skillc_runtime.world.eval.inference import Inferred, infer
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.elements import find_element
 from skillc_runtime.world.state.model import WorldModel
@@ -95,7 +95,7 @@ def reading(state: WorldState) -> dict[str, float]:
         check = compile_condition(condition)
         assert check(state, BOUND)
         found[f"condition `{name}` us"] = microseconds(lambda check=check: check(state, BOUND), 20_000)  # type: ignore[misc]
-    assert isinstance(infer(WANTED, LINKED, BOUND, state), Found)
+    assert isinstance(infer(WANTED, LINKED, BOUND, state), Inferred)
     found["infer two parameters us"] = microseconds(lambda: infer(WANTED, LINKED, BOUND, state), 300)
     found["see an element us"] = microseconds(lambda: find_element(state, BOUND["b"]).properties, 300)
     return found

@@ -12,10 +12,14 @@ Severity = Literal["error", "warning"]
 
 
 class Label(NamedTuple):
-    """A second place that explains the first, such as the contradicted declaration."""
+    """A second place that explains the first, such as the contradicted declaration.
+
+    `is_cause` if the mistake is there, however many problems it makes, unless something else uses it rightly.
+    """
 
     span: Span
     message: str
+    is_cause: bool = False
 
 
 class Fix(NamedTuple):

@@ -14,6 +14,12 @@ from skillc_dsl.source import Source
 from skillc_dsl.units import UNITS
 
 NAMES = ("NAME", "QNAME")
+_ALIKE = (
+    *(("in", "opt", "infer", "out"), ("pre", "hold", "post"), ("skill", "impl", "task"), ("seq", "sel")),
+    *(("class", "relation", "property", "function"), ("and", "or"), ("exists", "forall"), ("uses", "shares")),
+    *(("true", "false"), ("==", "!=", "<", "<=", ">", ">="), ("if", "while"), ("let", "refine")),
+)
+"""Words that stand at the same places."""
 _QUANTITY = re.compile(r"(-?[\d.]+)( ?)([A-Za-z/]+)")
 _DECLARED = re.compile(r"^(?:class|relation|property|function|skill|impl|task)\s+([\w:]+)", re.MULTILINE)
 _BLOCK = re.compile(
@@ -44,13 +50,13 @@ def independent_edits(text: str, seed: int, count: int) -> tuple[Edit, ...]:
     """Return so many mistakes in declarations that have nothing to do with each other, or fewer if there are fewer.
 
     What is said of a skill depends on its description, and on those of the skills that it calls. So none of the
-    declarations describes, implements or names the skill of another.
+    declarations describes, implements or names the skill of another, and none names two of these skills.
     """
     chance = random.Random(seed)
     blocks = list(_BLOCK.finditer(text))
     chosen: list[re.Match[str]] = []
     for block in chance.sample(blocks, len(blocks)):
-        if len(chosen) < count and not any(_are_related(block, other) for other in chosen):
+        if len(chosen) < count and not any(_are_related(block, other, blocks) for other in chosen):
             chosen.append(block)
     return tuple(_within(text, *block.span(), chance) for block in sorted(chosen, key=lambda each: each.start()))
 
@@ -86,9 +92,15 @@ def misspell(word: str, chance: random.Random) -> str:
     return chance.choice(forms)
 
 
-def _are_related(one: re.Match[str], other: re.Match[str]) -> bool:
-    named = (re.search(rf"\b{re.escape(this['skill'])}\b", that.group()) for this, that in ((one, other), (other, one)))
-    return any(named)
+def _are_related(one: re.Match[str], other: re.Match[str], blocks: Sequence[re.Match[str]]) -> bool:
+    if _names(one, other) or _names(other, one):
+        return True
+    return any(_names(each, one) and _names(each, other) for each in blocks)
+
+
+def _names(block: re.Match[str], other: re.Match[str]) -> bool:
+    """Whether a block names the skill of another one."""
+    return bool(re.search(rf"\b{re.escape(other['skill'])}\b", block.group()))
 
 
 def _within(text: str, start: int, end: int, chance: random.Random) -> Edit:
@@ -145,6 +157,14 @@ def _exchange_name(text: str, chance: random.Random) -> Edit:
     return Edit(start, end, str(chance.choice(names)), "exchange name")
 
 
+def _exchange_keyword(text: str, chance: random.Random) -> Edit:
+    places = [(token, group) for token in _tokens(text) for group in _ALIKE if token.value in group]
+    if not places:
+        return _misspell_name(text, chance)
+    token, group = chance.choice(places)
+    return Edit(*_place(token), chance.choice([word for word in group if word != token.value]), "exchange keyword")
+
+
 def _delete_line(text: str, chance: random.Random) -> Edit:
     start, end = chance.choice(list(_lines(text)))
     return Edit(start, end, "", "delete line")
@@ -185,6 +205,7 @@ _KINDS: tuple[Callable[[str, random.Random], Edit], ...] = (
     _misspell_name,
     _misspell_declaration,
     _exchange_name,
+    _exchange_keyword,
     _delete_line,
     _double_line,
     _cut_line,

@@ -4,6 +4,7 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
 from shipped import shelf, vocabulary
 
 import skillc_compiler
@@ -42,6 +43,73 @@ def modules() -> Iterator[tuple[Path, ast.Module]]:
 def problems(text: str) -> list[Diagnostic]:
     """Compile a text; return its diagnostics."""
     return list(compile([Source("m.skill", text)], vocabulary(), shelf(), "own").diagnostics)
+
+
+WEIGHING = """\
+skill Weigh {
+    in  arm:   ArmDevice
+    opt limit: Mass
+    out mass:  Mass
+    uses arm
+    pre  arm.deviceState == Idle
+    pre  given limit implies limit > 1 g
+    noplan
+}
+impl at_once of Weigh { run python "skillc.primitives:StandIn" }
+impl twice of Weigh {
+    prefer 1
+    do seq { Weigh[at_once](arm) -> mass  Weigh[at_once](arm, limit: 2 g) -> mass }
+}
+skill Sort { in arm: ArmDevice  in least: Mass  in most: Mass  noplan }
+impl by_mass of Sort {
+    do seq {
+        Weigh(arm) -> one
+        check(one > least and one < most)
+        Weigh(arm, limit: most) -> other
+        check(other > least)
+    }
+}
+skill SortAll { in arm: ArmDevice  in most: Mass  noplan }
+impl once of SortAll { do Sort(arm, least: 1 g, most) }
+impl again of SortAll { prefer 1  do seq { Sort(arm, least: 2 g, most)  Sort(arm, least: 3 g, most) } }
+"""
+"""Skills whose parameters are read, passed, left out and taken at several places."""
+
+
+def test_parameters_that_are_declared_rightly_are_no_problem() -> None:
+    assert [each.name for each in problems(HEADER + WEIGHING) if each.severity == "error"] == []
+
+
+@pytest.mark.parametrize(
+    ("declared", "wrong", "found"),
+    [
+        ("in  arm:   ArmDevice", "out arm:   ArmDevice", "not-a-device"),
+        ("in  arm:   ArmDevice", "opt arm:   ArmDevice", "unset-optional"),
+        ("opt limit: Mass", "in  limit: Mass", "missing-argument"),
+        ("opt limit: Mass", "out limit: Mass", "out-unassigned"),
+        ("out mass:  Mass", "in  mass:  Mass", "no-output"),
+        ("out mass:  Mass", "opt mass:  Mass", "no-output"),
+        ("in least: Mass", "out least: Mass", "unknown-argument"),
+        ("in least: Mass", "opt least: Mass", "unset-optional"),
+    ],
+)
+def test_a_parameter_with_the_wrong_direction_is_one_error_that_shows_it(declared: str, wrong: str, found: str) -> None:
+    text = HEADER + WEIGHING.replace(declared, wrong)
+    error, *others = [each for each in problems(text) if each.severity == "error"]
+    assert (error.name, others) == (found, [])
+    shown = {label.span.line for label in error.labels if label.is_cause}
+    assert shown == {text[: text.index(wrong)].count("\n") + 1}
+
+
+def test_a_direction_that_something_relies_on_is_not_the_cause() -> None:
+    text = WEIGHING.replace("uses arm", "uses arm\n    pre limit < 1 kg\n    hold limit > 2 g")
+    errors = [each for each in problems(HEADER + text) if each.severity == "error"]
+    assert [each.name for each in errors] == ["unset-optional", "unset-optional"]
+
+
+def test_a_skill_that_is_declared_as_something_else_is_one_error() -> None:
+    text = HEADER + WEIGHING.replace("skill Weigh", "task Weigh")
+    assert [each.name for each in problems(text) if each.severity == "error"] == ["syntax"]
 
 
 def test_only_a_check_itself_lists_names_of_diagnostics() -> None:

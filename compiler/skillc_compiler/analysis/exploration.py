@@ -159,7 +159,8 @@ class Exploration:
             names = free_variables(value.meaning) & self.outputs if not value.parts else frozenset[str]()
             for name in sorted(names):
                 for path in [path for state, path in states.items() if name not in state.assigned]:
-                    self.add_finding((value.span, name), UnassignedRead(name, value.span, path), path)
+                    found = UnassignedRead(name, value.span, value.declared or value.span, path)
+                    self.add_finding((value.span, name), found, path)
 
     def check_holds(self, state: State, path: Path) -> None:
         """Record holds of the implementation that may not hold when a node that takes time begins."""
@@ -198,7 +199,8 @@ class Exploration:
         """Yield the preconditions that are false or open on some path; if failure is caught, false on all."""
         for count in self.precondition_stats.values():
             if count.false == count.seen or (count.false and not count.caught):
-                yield UnprovedPrecondition(count.call, count.requirement, True, count.false_way)
+                always = count.false == count.seen
+                yield UnprovedPrecondition(count.call, count.requirement, True, count.false_way, always)
             elif count.open_ and self.implementation is not None:
                 yield UnprovedPrecondition(count.call, count.requirement, False, count.open_way)
 

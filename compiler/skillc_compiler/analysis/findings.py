@@ -25,12 +25,16 @@ class UnprovedPost(msgspec.Struct, frozen=True):
 
 
 class UnprovedPrecondition(msgspec.Struct, frozen=True):
-    """A precondition or hold of a called skill that is not known to hold at its start; `false` if known not to hold."""
+    """A precondition or hold of a called skill that is not known to hold at its start; `false` if known not to hold.
+
+    `always` if it is false whenever the call begins, so that what comes after the call never runs.
+    """
 
     call: Call
     requirement: Requirement
     false: bool
     path: Path
+    always: bool = False
 
 
 class BrokenHold(msgspec.Struct, frozen=True):
@@ -62,10 +66,11 @@ class UnreachableNode(msgspec.Struct, frozen=True):
 
 
 class UnassignedRead(msgspec.Struct, frozen=True):
-    """An output that is read where it may have no value."""
+    """An output that is read where it may have no value; `declared` is its place, or that of its first call."""
 
     name: str
     span: Span
+    declared: Span
     path: Path
 
 

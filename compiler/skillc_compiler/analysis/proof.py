@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeAlias, TypeVar
@@ -21,6 +21,7 @@ from skillc_compiler.analysis.findings import (
     UnassignedOutput,
     UnassignedRead,
     UndecidedProperty,
+    UnprovedPrecondition,
     UnreachableNode,
     ViolatedProperty,
 )
@@ -28,6 +29,7 @@ from skillc_compiler.analysis.initial_state import can_start, declare_names, ini
 from skillc_compiler.analysis.interfaces import Interface, summarise
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
+from skillc_compiler.analysis.paths import Path
 from skillc_compiler.analysis.sameness import CalledPrimitive, Proved
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.state import State
@@ -216,7 +218,16 @@ class Prover:
             found.append(TooManyStates(run.widened_at))
         if isinstance(of, Implementation) and not can_start(run.types, of):
             return tuple(each for each in found if isinstance(each, UnassignedRead | UnassignedOutput))
-        return tuple(found)
+        return tuple(_without_consequences(found))
+
+
+def _without_consequences(found: Sequence[Finding]) -> Iterator[Finding]:
+    """Yield the findings that are not on a path through a call that never starts."""
+    stuck = {each.call.written.span for each in found if isinstance(each, UnprovedPrecondition) and each.always}
+    for each in found:
+        path: Path = getattr(each, "path", None)
+        if not stuck or path is None or stuck.isdisjoint(step.span for step in path):
+            yield each
 
 
 def unreachable_nodes(run: Exploration, node: TypedNode, start: State) -> Iterator[UnreachableNode]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
@@ -22,33 +22,36 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for implementation in program.implementations:
         if isinstance(implementation.body, TypedNode):
             requirements = (*implementation.skill.requirements, *implementation.requirements)
-            yield from _labels(implementation.body, [r for r in requirements if r.kind == "post"])
+            yield from _check_labels(implementation.body, requirements)
     for task in program.tasks:
         if task.body:
-            yield from _labels(task.body, [])
+            yield from _check_labels(task.body, [])
 
 
-def _labels(body: TypedNode, posts: Sequence[Requirement]) -> Iterator[Diagnostic]:
-    labelled = {post.label.text: post for post in posts if post.label}
+def _check_labels(body: TypedNode, requirements: Sequence[Requirement]) -> Iterator[Diagnostic]:
+    labelled = {each.label.text: each for each in requirements if each.label}
     for node in nodes_in(body):
         if isinstance(node.written, s.ApplyPosts):
             for name in node.written.labels:
-                yield from _label(name, labelled)
+                yield from _check_label(name, labelled)
 
 
-def _label(name: s.Name, labelled: dict[str, Requirement]) -> Iterator[Diagnostic]:
-    if name.text not in labelled:
+def _check_label(name: s.Name, labelled: Mapping[str, Requirement]) -> Iterator[Diagnostic]:
+    found = labelled.get(name.text)
+    if found is None or found.kind != "post":
+        posts = [label for label, each in labelled.items() if each.kind == "post"]
         yield Diagnostic(
             "unknown-label",
             name.span,
             f"no post has the label `{name.text}`",
-            help=did_you_mean(name.text, labelled) or f"label the post: `post {name.text}: ..`",
+            help=did_you_mean(name.text, posts) or f"label the post: `post {name.text}: ..`",
+            labels=(Label(found.span, f"this is a `{found.kind}`", is_cause=True),) if found else (),
         )
-    elif labelled[name.text].sensed:
+    elif found.sensed:
         yield Diagnostic(
             "sensed-post-applied",
             name.span,
             f"`{name.text}` is sensed: only a measurement can establish it",
             help="call a skill that measures it",
-            labels=(Label(labelled[name.text].span, "marked `sensed` here"),),
+            labels=(Label(found.span, "marked `sensed` here"),),
         )

@@ -56,7 +56,7 @@ def _check_missing(call: Call, skill: Skill) -> Iterator[Diagnostic]:
             call.written.skill.span,
             f"`{skill.name}` needs {names}",
             help=f"pass {', '.join(f'`{p.name}: ..`' for p in missing)}",
-            labels=tuple(Label(p.span, "declared here") for p in missing),
+            labels=tuple(Label(p.span, "declared here", is_cause=True) for p in missing),
             fix=_pass_own(call.written, missing),
         )
 

@@ -26,5 +26,5 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
             f"this {verb} the hold `{one.hold.text}` while the skill still runs",
             help="do it last, or remove the `hold`" if one.certain else "add a `pre` that rules this out",
             severity="error" if one.certain else "warning",
-            labels=(Label(one.hold.span, "must hold all the time"), *path_labels(one.path)),
+            labels=(Label(one.hold.span, "must hold all the time", is_cause=True), *path_labels(one.path)),
         )

@@ -47,7 +47,7 @@ def _report(parameters: Sequence[Parameter], read: Iterator[tuple[TypedExpressio
                 value.span,
                 f"`{name}` may be unset here",
                 help=f"give it a default, or read it only under `given {name}`",
-                labels=(Label(unset[name].span, "declared without a default"),),
+                labels=(Label(unset[name].span, "declared without a default", is_cause=True),),
             )
 
 

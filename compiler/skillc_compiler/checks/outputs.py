@@ -32,7 +32,7 @@ def _read(found: UnassignedRead) -> Diagnostic:
         found.span,
         f"`{found.name}` has no value here on every path",
         help=f"assign it before, with `-> {found.name}` on a call that always runs",
-        labels=path_labels(found.path),
+        labels=(Label(found.declared, "declared here", is_cause=True), *path_labels(found.path)),
     )
 
 
@@ -43,5 +43,5 @@ def _left(found: UnassignedOutput) -> Diagnostic:
         found.implementation.name_span,
         f"`{found.implementation.name}` does not give the output `{name}` a value on every path",
         help=f"take it from a call: `.. -> {name}`",
-        labels=(Label(found.parameter.span, "declared here"), *path_labels(found.path)),
+        labels=(Label(found.parameter.span, "declared here", is_cause=True), *path_labels(found.path)),
     )

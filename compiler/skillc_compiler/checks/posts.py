@@ -128,7 +128,7 @@ def _check_conflict(
 
 
 def _report_either(name: str, post: Requirement, earlier: Requirement, message: str) -> Diagnostic:
-    labels = (Label(earlier.condition.span, "the other one"),)
+    labels = (Label(earlier.condition.span, "the other one", is_cause=True),)
     return Diagnostic(name, post.condition.span, message, "keep one of the two", labels=labels)
 
 

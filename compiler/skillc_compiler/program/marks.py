@@ -49,11 +49,13 @@ class Marks:
         self._enclosing = DisjointSpans(d.span for d in self._declarations)
         self._syntax = [error.span for unit in program.files for error in unit.file.errors]
         self._places = [*self._syntax, *(unknown.written.span for unknown in program.unknown)]
-        self.add(errors)
+        self._places += [error.span for error in errors if error.severity == "error"]
 
     def add(self, errors: Iterable[Diagnostic]) -> None:
-        """Mark the places of further errors; warnings mark nothing."""
-        self._places += [error.span for error in errors if error.severity == "error"]
+        """Mark the places of further errors, and of their confirmed causes; warnings mark nothing."""
+        for error in errors:
+            if error.severity == "error":
+                self._places += (error.span, *(label.span for label in error.labels if label.is_cause))
         for name in ("_index", "_erroneous", "_terms", "_unsound", "_tainted"):
             self.__dict__.pop(name, None)
 
@@ -140,7 +142,7 @@ class Marks:
     @cached_property
     def _erroneous(self) -> frozenset[Span]:
         found = {d.span for d in self._declarations if self.is_erroneous(d.span)}
-        lacking = {unknown.owner for unknown in self._program.unknown if unknown.owner != LIBRARY}
+        lacking = {each.owner for each in self._program.unknown if each.owner != LIBRARY and not each.is_misspelt}
         found |= {span for span, skill in self._skills.items() if skill in lacking}
         return frozenset(found | self._incomplete)
 

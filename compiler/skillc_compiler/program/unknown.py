@@ -104,7 +104,10 @@ class LostNames:
 
 
 def find_lost(files: Sequence[s.File]) -> LostNames:
-    """Return what syntax errors of the files may have removed, and the implementations of skills that do not exist."""
+    """Return what syntax errors of the files may have removed, and the implementations of skills that do not exist.
+
+    A task with a syntax error may be meant as a skill.
+    """
     names: dict[str, set[str]] = defaultdict(set)
     declarations = [declaration for file in files for declaration in file.declarations]
     skills = {each.name.text for each in declarations if isinstance(each, s.SkillDeclaration)}
@@ -112,6 +115,7 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
     names[LIBRARY] |= {each.name.text for each in ways if each.skill.text not in skills}
     headers: set[str] = set()
     outside: set[str] = set()
+    broken: set[str] = set()
     for file in files:
         for error in file.errors:
             owner = next((d for d in file.declarations if is_within_lines(error.span, d.span)), None)
@@ -120,6 +124,7 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
                     names[name.text] |= error.names
                 case s.TaskDeclaration(name=name):
                     names[f"task {name.text}"] |= error.names
+                    broken.add(name.text)
                 case None if _is_in_header(error, file.declarations):
                     headers.add(file.path)
                 case _:
@@ -127,6 +132,7 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
             if owner is None:
                 outside.add(file.path)
                 names[LIBRARY] |= error.names
+    names[LIBRARY] = (names[LIBRARY] - skills) | broken
     return LostNames(
         {owner: frozenset(found) for owner, found in names.items()}, frozenset(headers), frozenset(outside)
     )

@@ -57,7 +57,7 @@ def _report_argument(
             argument.name.span,
             f"`{name}` is an output of `{skill.name}`, which cannot be passed in",
             f"read it with `{skill.name}(..) -> {name}`",
-            Label(out.span, "declared here"),
+            Label(out.span, "declared here", is_cause=True),
         )
         return
     context.report_unknown(
@@ -98,16 +98,28 @@ def _scope_after(context: FileContext, scope: Scope, written: s.CallSkill, skill
     if written.out is None:
         return scope
     outputs = [p for p in skill.parameters if p.direction == "out"] if skill else []
-    kind = outputs[0].type if outputs else UNKNOWN
+    kind = outputs[0].type if len(outputs) == 1 else UNKNOWN
     if skill and len(outputs) != 1:
         context.report(
             "no-output",
             written.out.span,
             f"the skill `{skill.name}` has {len(outputs) or 'no'} outputs, so `->` has nothing to name",
             "remove `->`, or declare one `out` parameter in the skill",
-            Label(skill.name_span, "declared here"),
+            *_label_output(skill, written, written.out.text),
         )
     return _assign_output(context, scope, written.out, kind)
+
+
+def _label_output(skill: Skill, written: s.CallSkill, name: str) -> tuple[Label, ...]:
+    """Return labels at the outputs, else at the parameters that may be meant to be the output, and at the skill."""
+    if outputs := [each for each in skill.parameters if each.direction == "out"]:
+        return tuple(Label(each.span, "an output") for each in outputs)
+    passed = {argument.name.text for argument in written.arguments}
+    left = [each for each in skill.parameters if each.name not in passed]
+    named, required = [each for each in left if each.name == name], [each for each in left if each.direction == "in"]
+    meant = named or required or left
+    shown = (Label(each.span, f"this is `{each.direction}`", is_cause=len(meant) == 1) for each in meant)
+    return (Label(skill.name_span, "declared here"), *shown)
 
 
 def _assign_output(context: FileContext, scope: Scope, name: s.Name, kind: Type) -> Scope:

@@ -11,7 +11,7 @@ from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
     And,
@@ -202,7 +202,11 @@ def _expected_type(context: FileContext, other: TypedExpression) -> ExpectedType
 
 def _resolve_given(context: FileContext, scope: Scope, name: s.Name, span: Span) -> TypedCondition:
     known = scope.variables.get(name.text)
-    if known is None or known.origin != "parameter":
+    if known is not None and known.origin == "out":
+        message = f"`{name.text}` is an output, which is never passed"
+        label = Label(known.span, "declared here", is_cause=True)
+        context.report("out-unassigned", name.span, message, "declare it with `opt`", label)
+    elif known is None or known.origin != "parameter":
         parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
         message = f"{scope.owner} has no parameter `{name.text}`"
         context.report_unknown("parameter", name, message, parameters, "declare it with `opt`", owner=scope.skill)

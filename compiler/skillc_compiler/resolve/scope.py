@@ -81,7 +81,10 @@ class FileContext:
         )
 
     def bind(self, scope: Scope, name: s.Name, variable: LocalName) -> Scope:
-        """Return the scope with a new name; a name that is taken is reported."""
+        """Return the scope with a new name; a name that is taken is reported.
+
+        What is an output of a call, and declared as something else, is probably declared wrongly.
+        """
         former = scope.variables.get(name.text)
         if former is not None:
             self.report(
@@ -89,7 +92,7 @@ class FileContext:
                 name.span,
                 f"`{name.text}` is already a {former.origin} here",
                 "choose another name",
-                Label(former.span, "declared here"),
+                Label(former.span, "declared here", is_cause=variable.origin == "output"),
             )
             return scope.with_name(name.text, structs.replace(former, type=UNKNOWN, is_assigned=True))
         return scope.with_name(name.text, variable)

@@ -24,6 +24,7 @@ from skillc_compiler.program.types import (
 )
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, PropertyOf, Variable
 
@@ -78,8 +79,9 @@ def _resolve_reference(
             context.report(
                 "out-unassigned",
                 span,
-                f"`{text}` has no value here on every path",
-                f"assign it before, with `-> {text}` on a call that always runs",
+                f"`{text}` is an output, which has no value before the skill has run",
+                "declare it with `in`, or read it in a `post`",
+                Label(known.span, "declared here", is_cause=True),
             )
         return TypedExpression(Variable(text), known.type, span, declared=known.span)
     if text in wanted.values:

@@ -26,7 +26,7 @@ _NO_VALUES = frozenset(("COLON", "COMMA", "RPAR", "RBRACE", "RSQB"))
 
 
 def repair_tokens(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens with unknown units, foreign operators, doubled braces and split labels repaired."""
+    """Return the tokens with units, operators, braces, labels and words that begin declarations repaired."""
     repaired: list[Token] = []
     problems: list[Diagnostic] = []
     index = 0
@@ -52,6 +52,8 @@ def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, To
         return count, *_unit(tokens[index : index + count], path)
     if _is_doubled_brace(tokens, index):
         return 2, tokens[index], _doubled(tokens[index + 1], path)
+    if _begins_implementation(tokens, index):
+        return 1, *_implementation(tokens[index], path)
     if _is_split_label(tokens, index):
         return 2, *_label(tokens[index], tokens[index + 1], tokens[index + 2], path)
     return 1, tokens[index], None
@@ -113,6 +115,20 @@ def _is_doubled_brace(tokens: tuple[Token, ...], index: int) -> bool:
 def _doubled(brace: Token, path: str) -> Diagnostic:
     span = token_span(brace, path)
     return Diagnostic("syntax", span, "this `{` is one too many", fix=Fix(span, "", "delete it"))
+
+
+def _begins_implementation(tokens: tuple[Token, ...], index: int) -> bool:
+    """Whether a `skill` or `task` at `index` goes on as an implementation does: `skill by_hand of Pick`."""
+    if tokens[index].type not in ("SKILL", "TASK"):
+        return False
+    return [token.type for token in tokens[index + 1 : index + 4]] == ["NAME", "OF", "NAME"]
+
+
+def _implementation(keyword: Token, path: str) -> tuple[Token, Diagnostic]:
+    span = token_span(keyword, path)
+    message = f"a {keyword} is not `of` another one; an implementation is"
+    fix = Fix(span, "impl", "write `impl`", safe=False)
+    return join_tokens("IMPL", keyword, keyword, "impl"), Diagnostic("syntax", span, message, "write `impl`", fix=fix)
 
 
 def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
