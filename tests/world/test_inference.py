@@ -1,7 +1,7 @@
 """Inferred parameters: one answer, none and why, several."""
 
 from skillc_model.conditions import Anything, Holds, Not, Variable
-from skillc_runtime.world.eval.inference import Ambiguous, Found, NoneFound, infer
+from skillc_runtime.world.eval.inference import Ambiguous, Inferred, NoneFound, infer
 from world.lab import SCENE, fact, holds, individual, iri, parameter, requirement
 
 MOUNTED = requirement("mounted", holds("arm", "hasA", "gripper"))
@@ -13,11 +13,11 @@ BINDINGS = {"arm": iri("arm"), "object": iri("eraser")}
 
 
 def test_the_only_answer_is_found() -> None:
-    assert infer(WANTED, PICK, BINDINGS, SCENE) == Found({"gripper": iri("gripper"), "from": iri("shelf")})
+    assert infer(WANTED, PICK, BINDINGS, SCENE) == Inferred({"gripper": iri("gripper"), "from": iri("shelf")})
 
 
 def test_no_parameters_need_no_answer() -> None:
-    assert infer((), PICK, BINDINGS, SCENE) == Found({})
+    assert infer((), PICK, BINDINGS, SCENE) == Inferred({})
 
 
 def test_the_requirement_that_left_none_is_named_with_what_holds_instead() -> None:
@@ -78,7 +78,7 @@ def test_several_answers_are_all_listed_in_order() -> None:
 def test_any_takes_the_first_in_order_and_names_the_others() -> None:
     wanted = (parameter("object", "Product", any_=True), parameter("from", "Location", any_=True))
     answer = infer(wanted, (THERE,), {}, SCENE)
-    assert answer == Found(
+    assert answer == Inferred(
         {"object": iri("box"), "from": iri("table")}, ({"object": iri("eraser"), "from": iri("shelf")},)
     )
     one_fixed = (parameter("object", "Product", any_=True), parameter("from", "Location"))

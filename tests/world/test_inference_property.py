@@ -30,7 +30,7 @@ from skillc_model.skills import Parameter, Requirement
 from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import THING
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.eval.inference import Ambiguous, Found, NoneFound, infer
+from skillc_runtime.world.eval.inference import Ambiguous, Inferred, NoneFound, infer
 from skillc_runtime.world.eval.near_misses import MAX_NEAR_MISSES, NearMiss
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, assign, fact, individual, iri, parameter, requirement
@@ -101,7 +101,7 @@ def test_the_answer_is_that_of_trying_everything(
     answer = infer(looked_for, asked, BOUND, state)
     event(type(answer).__name__)
     match answer:
-        case Found(bindings=first, others=others):
+        case Inferred(bindings=first, others=others):
             assert [first, *others] == tried
             assert all(each.any_ or len({one[each.name] for one in tried}) == 1 for each in looked_for)
         case Ambiguous(candidates=several):

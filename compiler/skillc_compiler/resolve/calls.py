@@ -10,6 +10,7 @@ from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
+from skillc_dsl.spelling import close_names
 
 
 def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
@@ -50,7 +51,9 @@ def _report_argument(
 ) -> None:
     """Report an argument that no parameter takes; its value is still resolved, unless it repeats the name."""
     name = argument.name.text
-    kind = UNKNOWN if _is_shorthand(argument) else resolve_value(context, scope, argument.value).type
+    own = scope.variables.get(name) if _is_shorthand(argument) else None
+    shown = own.type if own else UNKNOWN
+    kind = shown if _is_shorthand(argument) else resolve_value(context, scope, argument.value).type
     if out is not None:
         context.report(
             "unknown-argument",
@@ -60,12 +63,15 @@ def _report_argument(
             Label(out.span, "declared here", is_cause=True),
         )
         return
+    free = _free_parameters(context, skill, written, kind)
+    needed = [each for each in free if (found := skill.parameter(each)) and found.direction == "in"]
+    is_value = own is not None and len(needed) == 1 and not close_names(name, free)
     context.report_unknown(
         "argument",
         argument.name,
         f"the skill `{skill.name}` has no parameter `{name}`",
-        _free_parameters(context, skill, written, kind),
-        f"it takes {_format_parameters(skill)}",
+        () if is_value else free,
+        f"write `{needed[0]}: {name}`" if is_value else f"it takes {_format_parameters(skill)}",
         Label(skill.name_span, "declared here"),
         owner=skill.name,
         passed=True,

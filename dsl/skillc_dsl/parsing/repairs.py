@@ -21,6 +21,7 @@ _INSERTED = (
 _SPACED = ("EQUAL", "DOTS", "LBRACE", "ARROW")
 _WORDS = ("OF", "PYTHON", "STEPS", "KEEP")
 _SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
+_BLOCKS = ("SEQ", "SEL", "PAR", "REACTIVE")
 _KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", "LESS", END}
 
 
@@ -72,7 +73,7 @@ class Fault(msgspec.Struct, frozen=True):
 def repair(fault: Fault) -> Repair | None:
     """Return the first change of one token that lets the parser continue, or None."""
     attempts: tuple[Callable[[Fault], Iterator[Repair]], ...]
-    attempts = (_repeated, _label, _swapped, _keyword, _missing, _superfluous)
+    attempts = (_repeated, _label, _swapped, _keyword, _body, _missing, _superfluous)
     return next((found for attempt in attempts for found in attempt(fault)), None)
 
 
@@ -122,6 +123,17 @@ def _keyword(fault: Fault) -> Iterator[Repair]:
             message = f"there is no keyword `{fault.token}` that fits here"
             problem = Diagnostic("syntax", fault.span, message, f"did you mean `{near}`?", fix=fix)
             yield Repair(problem, (join_tokens(keywords[near], fault.token, fault.token, near),))
+
+
+def _body(fault: Fault) -> Iterator[Repair]:
+    """A block of steps without the `do` of a body."""
+    if fault.token.type in _BLOCKS and begins_line(fault.tokens, fault.index) and fault.mended_by("DO", skip=0):
+        start = Span(fault.path, fault.span.line, fault.span.column, fault.span.line, fault.span.column)
+        problem = Diagnostic(
+            "syntax", fault.span, f"`do` is missing before `{fault.token}`", fix=Fix(start, "do ", "insert `do`")
+        )
+        place = (None, start.line, start.column, start.line, start.column, None)
+        yield Repair(problem, (Token("DO", "do", *place), fault.token))
 
 
 def _missing(fault: Fault) -> Iterator[Repair]:

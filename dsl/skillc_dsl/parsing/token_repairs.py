@@ -54,6 +54,8 @@ def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, To
         return 2, tokens[index], _doubled(tokens[index + 1], path)
     if _begins_implementation(tokens, index):
         return 1, *_implementation(tokens[index], path)
+    if _is_assigned_argument(tokens, index):
+        return 2, *_assigned_argument(tokens[index], tokens[index + 1], tokens[index + 2], path)
     if _is_split_label(tokens, index):
         return 2, *_label(tokens[index], tokens[index + 1], tokens[index + 2], path)
     return 1, tokens[index], None
@@ -129,6 +131,29 @@ def _implementation(keyword: Token, path: str) -> tuple[Token, Diagnostic]:
     message = f"a {keyword} is not `of` another one; an implementation is"
     fix = Fix(span, "impl", "write `impl`", safe=False)
     return join_tokens("IMPL", keyword, keyword, "impl"), Diagnostic("syntax", span, message, "write `impl`", fix=fix)
+
+
+def _is_assigned_argument(tokens: tuple[Token, ...], index: int) -> bool:
+    """Whether an argument of a call is written as in other languages: `Move(arm, target = place)`."""
+    if index + 2 >= len(tokens) or tokens[index].type != "NAME" or tokens[index + 1].type != "EQUAL":
+        return False
+    opening = index - 1
+    depth = 0
+    while opening > 0 and (depth or tokens[opening].type != "LPAR"):
+        depth += {"RPAR": 1, "LPAR": -1}.get(tokens[opening].type, 0)
+        if tokens[opening].type in ("LBRACE", "RBRACE"):
+            return False
+        opening -= 1
+    called = tokens[opening - 1]
+    begins = tokens[index - 1].type in ("LPAR", "COMMA")
+    return begins and opening > 0 and called.type in ("NAME", "RSQB") and _touch(called, tokens[opening])
+
+
+def _assigned_argument(name: Token, equal: Token, value: Token, path: str) -> tuple[Token, Diagnostic]:
+    span = token_span(name, path).after.to(token_span(equal, path))
+    fix = Fix(span, ": " if _touch(equal, value) else ":", f"write `{name}:`")
+    problem = Diagnostic("syntax", token_span(equal, path), "an argument is written `name: value`", fix=fix)
+    return join_tokens("LABEL", name, equal, f"{name}:"), problem
 
 
 def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:

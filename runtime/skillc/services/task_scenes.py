@@ -10,6 +10,7 @@ from typing import TypeAlias
 from skillc.services import scene_diagnostics
 from skillc.services.files import inspect_path
 from skillc.services.library_files import LibraryFiles
+from skillc.services.missing_terms import find_missing_terms, select_problems
 from skillc.services.project.project import Project
 from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
@@ -79,7 +80,8 @@ def read_task_scenes(
     valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
     known = {path: classes_by_individual(scene.state, program.vocabulary) for path, scene in valid.items()}
     missing = (_missing(text, texts) for task, text in written if found[task] is None)
-    wrong = (problem for scene in scenes.values() for problem in scene.diagnostics)
+    lacking = find_missing_terms(program)
+    wrong = (problem for scene in scenes.values() for problem in select_problems(scene, lacking))
     individuals = {task: known[path] for task, path in files.items() if path in known}
     return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))))
 
@@ -144,4 +146,5 @@ def _missing(scene: s.Text, texts: SceneTexts) -> Diagnostic:
     span = scene.span._replace(path=texts.shown(scene.span.path))
     if inspect_path(beside / scene.value).kind != "missing":
         return Diagnostic("unreadable-scene", span, message)
-    return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, catalogue.scene_names()))
+    known = (*catalogue.scene_names(), *(file.name for file in beside.glob("*.ttl")))
+    return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, known))

@@ -174,7 +174,8 @@ class LocatedFacts:
         self, kind: str, iri: str, place: Span, known: Iterable[str], fitting: Sequence[str] = ()
     ) -> Diagnostic:
         near = suggest(iri, place, self._vocabulary, known, fitting if len(fitting) < len(list(known)) else ())
-        return Diagnostic(f"unknown-{kind}", place, f"there is no {kind} {self._short(iri)}", near.help, fix=near.fix)
+        help_ = near.help or f"declare the {kind} in a .skill file or in an ontology"
+        return Diagnostic(f"unknown-{kind}", place, f"there is no {kind} {self._short(iri)}", help_, fix=near.fix)
 
     def _short(self, iri: str) -> str:
         return self._vocabulary.short(iri)

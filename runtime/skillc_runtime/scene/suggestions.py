@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.source import Span
+from skillc_dsl.spelling import close_names
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 LISTED = 12
@@ -36,7 +36,7 @@ def suggest(
 
 
 def _near(wrong: str, known: Iterable[str]) -> list[str]:
-    """Return IRIs with the same local name or, if there are none, with up to three similar local names."""
+    """Return IRIs with the same local name or, if there are none, with local names that are probably meant."""
     by_name: dict[str, list[str]] = {}
     for iri in sorted(known):
         by_name.setdefault(local_name(iri), []).append(iri)
@@ -44,9 +44,7 @@ def _near(wrong: str, known: Iterable[str]) -> list[str]:
     same = [iri for iri in by_name.get(name, ()) if iri != wrong]
     if same:
         return same
-    small = {other.lower(): other for other in by_name}
-    near = get_close_matches(name.lower(), small, n=3, cutoff=0.6)
-    return [iri for each in near for iri in by_name[small[each]]]
+    return [iri for each in close_names(name, by_name) for iri in by_name[each]]
 
 
 def _fix(names: list[str], place: Span) -> Fix | None:
