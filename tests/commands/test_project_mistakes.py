@@ -16,6 +16,7 @@ MISTAKES = {
     "a class in the scene": ("cell.ttl", "a cell:Panel", "a cell:Pannel", "cell.ttl", "unknown-class"),
     "a property in the scene": ("cell.ttl", "cell:pressForce", "cell:presForce", "cell.ttl", "unknown-property"),
     "a class that nothing declares": ("cell.ttl", "a cell:Panel", "a cell:Plate", "cell.ttl", "unknown-class"),
+    "the name of the project": ("skillc.toml", 'name = "cell"', 'name = "press"', "cell.ttl", "unknown-prefix"),
     "the scene of a task": ("tasks.skill", '"cell.ttl"', '"cel.ttl"', "tasks.skill", "unknown-scene"),
     "an argument without its name": (
         *("cell.skill", "MoveTo(arm, target: before)", "MoveTo(arm, before)", "cell.skill", "unknown-argument"),
@@ -23,6 +24,7 @@ MISTAKES = {
     "a body without `do`": ("cell.skill", "    do seq {", "    seq {", "cell.skill", "syntax"),
 }
 HELP = {
+    "the name of the project": "did you mean <https://w3id.org/skillc/library/press#>?",
     "a class in the scene": "did you mean `cell:Panel`?",
     "a class that nothing declares": "declare the class in a .skill file or in an ontology",
     "the scene of a task": "did you mean `cell.ttl`?",
