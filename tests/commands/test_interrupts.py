@@ -159,6 +159,18 @@ def test_a_second_signal_ends_it_at_once(depot: Path) -> None:
     assert code in (130, 143, ended_already) and out == "" and "Traceback" not in err
 
 
+def test_a_second_signal_after_the_first_was_handled_prints_no_traceback() -> None:
+    program = """
+import contextlib, os, signal
+from skillc.cli.interrupts import Interrupted, raising_on_signals
+with contextlib.suppress(Interrupted), raising_on_signals():
+    os.kill(os.getpid(), signal.SIGTERM)
+os.kill(os.getpid(), signal.SIGINT)
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, encoding="utf-8", check=False)
+    assert (ended.returncode, ended.stderr) == (130, "")
+
+
 def test_a_command_that_is_killed_leaves_nothing_either(depot: Path) -> None:
     code, _, _, temporary = interrupted(depot, "plan", lambda pid: os.kill(pid, signal.SIGKILL))
     assert code == -signal.SIGKILL

@@ -7,6 +7,9 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
+from skillc.services.libraries import load_vocabulary
+from skillc_dsl.source import Span
+from skillc_runtime.scene.suggestions import suggest
 
 MISTAKES = {
     "a class that is removed": ("cell.skill", "class    Panel < Surface\n", "", "cell.skill", "unknown-class"),
@@ -54,4 +57,11 @@ def test_a_mistake_in_a_project_is_one_error(project: Path, mistake: str) -> Non
     (error,) = (each for each in found if each["severity"] == "error")
     assert (Path(error["path"]).name, error["name"]) == (place, problem)
     assert HELP.get(mistake, "") in error["help"]
-    assert "Panda" not in error["help"]
+
+
+def test_an_arm_is_not_suggested_for_a_panel() -> None:
+    terms = load_vocabulary()
+    wrong, place = "https://w3id.org/skillc/library/cell#Panel", Span("cell.ttl", 1, 1, 1, 2)
+    assert any(iri.endswith("#Panda") for iri in terms.classes)
+    assert suggest(wrong, place, terms, terms.classes).help == ""
+    assert suggest(wrong.replace("Panel", "Pandda"), place, terms, terms.classes).help == "did you mean `skillc:Panda`?"

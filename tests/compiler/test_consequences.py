@@ -107,6 +107,41 @@ def test_a_direction_that_something_relies_on_is_not_the_cause() -> None:
     assert [each.name for each in errors] == ["unset-optional", "unset-optional"]
 
 
+CLEARING = """\
+skill Clear { in surface: WipeableSurface  post surface.isClean == true }
+impl at_once of Clear { run python "skillc.primitives:StandIn" }
+skill Note { in surface: WipeableSurface  pre surface.isClean == false  noplan }
+impl at_once of Note { run python "skillc.primitives:StandIn" }
+property isDusty(WipeableSurface): Bool
+skill Dust { in surface: WipeableSurface  post surface.isDusty == true }
+impl at_once of Dust { run python "skillc.primitives:StandIn" }
+"""
+
+
+def test_two_skills_that_do_not_declare_one_effect_are_two_errors() -> None:
+    text = HEADER.replace("rparts", "rparts, wiping") + CLEARING
+    text += "".join(
+        f"skill {name} {{ in surface: WipeableSurface  noplan }}\nimpl once of {name} {{ do Clear(surface) }}\n"
+        for name in ("Tidy", "Reset")
+    )
+    errors = [each.name for each in problems(text) if each.severity == "error"]
+    assert errors == ["undeclared-effect", "undeclared-effect"]
+
+
+@pytest.mark.parametrize(
+    ("steps", "found"),
+    [
+        ("Clear(surface)  Note(surface)  Dust(surface)", ["child-precondition"]),
+        ("Clear(surface)  try { Note(surface) }  Dust(surface)", ["child-precondition", "undeclared-effect"]),
+    ],
+)
+def test_only_after_a_call_that_nothing_catches_nothing_more_is_found(steps: str, found: list[str]) -> None:
+    text = HEADER.replace("rparts", "rparts, wiping") + CLEARING
+    text += "skill Go { in surface: WipeableSurface  post surface.isClean == true  noplan }\n"
+    text += "impl once of Go { do seq {\n  " + "\n  ".join(steps.split("  ")) + "\n} }\n"
+    assert [each.name for each in problems(text) if each.severity == "error"] == found
+
+
 def test_a_skill_that_is_declared_as_something_else_is_one_error() -> None:
     text = HEADER + WEIGHING.replace("skill Weigh", "task Weigh")
     assert [each.name for each in problems(text) if each.severity == "error"] == ["syntax"]

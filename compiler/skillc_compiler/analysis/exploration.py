@@ -199,7 +199,7 @@ class Exploration:
         """Yield the preconditions that are false or open on some path; if failure is caught, false on all."""
         for count in self.precondition_stats.values():
             if count.false == count.seen or (count.false and not count.caught):
-                always = count.false == count.seen
+                always = count.false == count.seen and not count.caught
                 yield UnprovedPrecondition(count.call, count.requirement, True, count.false_way, always)
             elif count.open_ and self.implementation is not None:
                 yield UnprovedPrecondition(count.call, count.requirement, False, count.open_way)

@@ -27,7 +27,7 @@ class UnprovedPost(msgspec.Struct, frozen=True):
 class UnprovedPrecondition(msgspec.Struct, frozen=True):
     """A precondition or hold of a called skill that is not known to hold at its start; `false` if known not to hold.
 
-    `always` if it is false whenever the call begins, so that what comes after the call never runs.
+    `always` if it is false whenever the call begins and nothing catches that, so that what comes after it never runs.
     """
 
     call: Call

@@ -37,13 +37,13 @@ def _check_device(
     fitting = [p.name for p in skill.parameters if p.type != UNKNOWN and _reason(vocabulary, p) is None]
     is_output = parameter.direction == "out"
     names = " or ".join(f"`{device.kind} {name}`" for name in fitting)
-    cures = [*(["declare it with `in`"] if is_output else []), *([f"write {names}"] if names else [])]
+    cures = ("declare it with `in`" if is_output else "", f"write {names}" if names else "")
     yield Diagnostic(
         "not-a-device",
         device.parameter.span,
         f"`{parameter.name}` {what}, and `{device.kind}` is for devices",
-        help=" or ".join(cures) or "remove the line",
-        labels=(Label(parameter.span, "declared here", is_output), *_label_class(vocabulary, parameter)),
+        help=" or ".join(filter(None, cures)) or "remove the line",
+        labels=(Label(parameter.span, "declared here", is_cause=is_output), *_label_class(vocabulary, parameter)),
     )
 
 

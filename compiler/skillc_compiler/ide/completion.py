@@ -96,20 +96,20 @@ def offer_keywords(cursor: InCode) -> Iterator[Offer]:
 def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
     """Offer names, selected by the kind of declaration and by the last token before the cursor."""
     types = cursor.types
-    head, last = types[0] if types else "", types[-1] if types else ""
-    if head == "USE":
-        written = {token.value for token in cursor.before}
-        yield from (Offer(p, "vocabulary") for p in analysis.library.vocabulary.prefixes if p not in written)
-    elif last in _CLASS_LISTS.get(head, ()):
-        yield from offers.offer_classes(around)
-    elif head == "RELATION" and last in ("INVERSE", "SUB"):
-        yield from offers.offer_all_relations(around)
-    elif head in ("PROPERTY", "FUNCTION") and last in ("COLON", "LABEL", "ARROW", "LSQB"):
-        yield from _types(around)
-    elif head in ("PROPERTY", "FUNCTION") and last == "OF":
-        yield from offers.offer_dimensions()
-    elif head in ("SKILL", "IMPL", "TASK"):
-        yield from _in_members(analysis, around, cursor)
+    match types[:1], types[-1:]:
+        case ("USE",), _:
+            written = {token.value for token in cursor.before}
+            yield from (Offer(p, "vocabulary") for p in analysis.library.vocabulary.prefixes if p not in written)
+        case (head,), (last,) if last in _CLASS_LISTS.get(head, ()):
+            yield from offers.offer_classes(around)
+        case ("RELATION",), ("INVERSE" | "SUB",):
+            yield from offers.offer_all_relations(around)
+        case ("PROPERTY" | "FUNCTION",), ("COLON" | "LABEL" | "ARROW" | "LSQB",):
+            yield from _types(around)
+        case ("PROPERTY" | "FUNCTION",), ("OF",):
+            yield from offers.offer_dimensions()
+        case ("SKILL" | "IMPL" | "TASK",), _:
+            yield from _in_members(analysis, around, cursor)
 
 
 def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
@@ -146,22 +146,34 @@ def _in_values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Ite
     before, types = cursor.before, cursor.types
     call = find_open_call(before)
     if _applies(types):
-        yield from _labels(around)
-    elif types[-1:] == ("LSQB",) and len(before) > 1:
+        return _labels(around)
+    if types[-1:] == ("LSQB",) and len(before) > 1:
         ways = analysis.program.implementations_of.get(before[-2].value, ())
-        yield from (Offer(way.name, "implementation", documentation=way.doc) for way in ways)
-    elif call and types[-1] in ("LPAR", "COMMA") and call.name in analysis.program.skills:
-        yield from offers.offer_arguments(analysis, around, call.name, call.passed)
-    elif cursor.fits("NAME", "UNDERSCORE"):
-        yield from offers.offer_relations(around, around.type_of(before))
-    elif cursor.fits("UNDERSCORE") and not cursor.fits("UNDERSCORE", "SENSED"):
-        for cls in find_ranges(around, before[-1].value, around.type_of(before[:-1])):
-            yield from offers.offer_values(around, ExpectedType(Thing(cls)))
-    elif cursor.fits("NAME", "LSQB"):
-        yield from offers.offer_skills(analysis, around, scoped=types[-1] == "WITH")
-        yield from offers.offer_unimported_skills(analysis, cursor.word.path, scoped=types[-1] == "WITH")
-    elif cursor.fits("NAME", "DOT"):
-        yield from offers.offer_values(around, find_expected_type(around, analysis.program.skills, before))
+        return (Offer(way.name, "implementation", documentation=way.doc) for way in ways)
+    if call and types[-1] in ("LPAR", "COMMA") and call.name in analysis.program.skills:
+        return offers.offer_arguments(analysis, around, call.name, call.passed)
+    if cursor.fits("NAME", "UNDERSCORE"):
+        return offers.offer_relations(around, around.type_of(before))
+    if cursor.fits("UNDERSCORE") and not cursor.fits("UNDERSCORE", "SENSED"):
+        return _in_range(around, before)
+    if cursor.fits("NAME", "LSQB"):
+        return _called(analysis, around, cursor)
+    if cursor.fits("NAME", "DOT"):
+        return offers.offer_values(around, find_expected_type(around, analysis.program.skills, before))
+    return iter(())
+
+
+def _in_range(around: CursorContext, before: Sequence[Token]) -> Iterator[Offer]:
+    """Offer the individuals and names that a relation may lead to."""
+    for cls in find_ranges(around, before[-1].value, around.type_of(before[:-1])):
+        yield from offers.offer_values(around, ExpectedType(Thing(cls)))
+
+
+def _called(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
+    """Offer the skills that a step may call."""
+    scoped = cursor.types[-1] == "WITH"
+    yield from offers.offer_skills(analysis, around, scoped=scoped)
+    yield from offers.offer_unimported_skills(analysis, cursor.word.path, scoped=scoped)
 
 
 def _types(around: CursorContext) -> Iterator[Offer]:

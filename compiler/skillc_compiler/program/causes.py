@@ -51,10 +51,10 @@ def _confirm_causes(errors: Collection[Diagnostic], program: Program) -> list[Di
     if all(_cause(error) is None for error in errors):
         return list(errors)
     right = find_right_directions(program)
-    return [_deny_causes(error, right) if _cause(error) in right else error for error in errors]
+    return [_without_causes(error, right) for error in errors]
 
 
-def _deny_causes(error: Diagnostic, right: Collection[Span]) -> Diagnostic:
+def _without_causes(error: Diagnostic, right: Collection[Span]) -> Diagnostic:
     labels = (label._replace(is_cause=label.is_cause and label.span not in right) for label in error.labels)
     return replace(error, labels=tuple(labels))
 
@@ -127,12 +127,11 @@ def _uses_of_skills(program: Program) -> Mapping[Span, Sequence[Span]]:
         for argument in call.arguments:
             if (parameter := call.skill.parameter(argument.name.text)) is not None:
                 found[parameter.span].append(argument.value.span)
-        for requirement in call.skill.requirements:
-            found[requirement.span] += (name,) if requirement.kind != "post" else ()
-    for implementation in program.implementations:
-        if isinstance(implementation.body, TypedNode):
-            for requirement in implementation.skill.requirements:
-                found[requirement.span] += (implementation.name_span,) if requirement.kind == "post" else ()
+        for requirement in (each for each in call.skill.requirements if each.kind != "post"):
+            found[requirement.span].append(name)
+    for implementation in (each for each in program.implementations if isinstance(each.body, TypedNode)):
+        for requirement in (each for each in implementation.skill.requirements if each.kind == "post"):
+            found[requirement.span].append(implementation.name_span)
     return found
 
 

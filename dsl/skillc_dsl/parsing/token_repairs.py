@@ -135,18 +135,26 @@ def _implementation(keyword: Token, path: str) -> tuple[Token, Diagnostic]:
 
 def _is_assigned_argument(tokens: tuple[Token, ...], index: int) -> bool:
     """Whether an argument of a call is written as in other languages: `Move(arm, target = place)`."""
-    if index + 2 >= len(tokens) or tokens[index].type != "NAME" or tokens[index + 1].type != "EQUAL":
+    if [token.type for token in tokens[index : index + 2]] != ["NAME", "EQUAL"] or index + 2 == len(tokens):
         return False
-    opening = index - 1
-    depth = 0
-    while opening > 0 and (depth or tokens[opening].type != "LPAR"):
-        depth += {"RPAR": 1, "LPAR": -1}.get(tokens[opening].type, 0)
-        if tokens[opening].type in ("LBRACE", "RBRACE"):
-            return False
-        opening -= 1
+    if tokens[index - 1].type not in ("LPAR", "COMMA"):
+        return False
+    opening = _find_opening(tokens, index - 1)
     called = tokens[opening - 1]
-    begins = tokens[index - 1].type in ("LPAR", "COMMA")
-    return begins and opening > 0 and called.type in ("NAME", "RSQB") and _touch(called, tokens[opening])
+    return opening > 0 and called.type in ("NAME", "RSQB") and _touch(called, tokens[opening])
+
+
+def _find_opening(tokens: tuple[Token, ...], index: int) -> int:
+    """Return the index of the `(` that is open after the token at `index`; 0 if there is none in its block."""
+    depth = 0
+    for at in range(index, 0, -1):
+        kind = tokens[at].type
+        if kind in ("LBRACE", "RBRACE"):
+            return 0
+        if kind == "LPAR" and depth == 0:
+            return at
+        depth += {"RPAR": 1, "LPAR": -1}.get(kind, 0)
+    return 0
 
 
 def _assigned_argument(name: Token, equal: Token, value: Token, path: str) -> tuple[Token, Diagnostic]:

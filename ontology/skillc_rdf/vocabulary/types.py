@@ -207,7 +207,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     def namespaces(self) -> dict[str, str]:
         """The prefixes whose namespaces contain terms."""
         iris = (*self.classes, *self.relations, *self.properties)
-        bases = {iri.removesuffix(local_name(iri)) for iri in iris}
+        bases = set(map(namespace_of, iris))
         return {prefix: base for prefix, base in self.prefixes.items() if base in bases}
 
     def is_a(self, cls: str, ancestor: str) -> bool:
@@ -243,6 +243,11 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
 def local_name(iri: str) -> str:
     """Return the part of an IRI after its last `#` or `/`."""
     return iri.rsplit("#", 1)[-1].rsplit("/", 1)[-1]
+
+
+def namespace_of(iri: str) -> str:
+    """Return an IRI without its local name."""
+    return iri.removesuffix(local_name(iri))
 
 
 def _ancestors(iri: str, parents: dict[str, tuple[str, ...]]) -> frozenset[str]:

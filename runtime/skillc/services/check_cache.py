@@ -169,10 +169,8 @@ def _states(folder: str) -> list[str]:
     found, folders = [], [folder]
     while folders:
         with os.scandir(folders.pop()) as entries:
-            for entry in entries:
-                if not entry.is_dir():
-                    state = entry.stat()
-                    found.append(f"{entry.path} {state.st_size} {state.st_mtime_ns}")
-                elif entry.name != "__pycache__":
-                    folders.append(entry.path)
+            inside = [(each, each.is_dir()) for each in entries]
+        folders += [each.path for each, is_folder in inside if is_folder and each.name != "__pycache__"]
+        states = ((each.path, each.stat()) for each, is_folder in inside if not is_folder)
+        found += [f"{path} {state.st_size} {state.st_mtime_ns}" for path, state in states]
     return sorted(found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
+from skillc.services.scene_diagnostics import with_shown_path
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_runtime.scene.load import Scene
@@ -23,6 +24,6 @@ def find_missing_terms(program: Program) -> frozenset[str]:
 def select_problems(scene: Outcome[Scene | None], missing: Collection[str]) -> Iterator[Diagnostic]:
     """Yield the problems of a scene but those at a class or predicate that is one of the missing terms."""
     said = scene.value.said if scene.value is not None and missing else ()
-    places = {each.predicate_place[1:] for each in said if each.predicate in missing}
-    places |= {each.object_place[1:] for each in said if iri_of(each.object) in missing}
-    yield from (problem for problem in scene.diagnostics if problem.span[1:] not in places)
+    places = {with_shown_path(each.predicate_place) for each in said if each.predicate in missing}
+    places |= {with_shown_path(each.object_place) for each in said if iri_of(each.object) in missing}
+    yield from (problem for problem in scene.diagnostics if problem.span not in places)

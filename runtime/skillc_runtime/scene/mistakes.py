@@ -12,7 +12,8 @@ from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_rdf.turtle.statements import SOMETHING, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_rdf.vocabulary.types import THING, Vocabulary, local_name
+from skillc_rdf.vocabulary.types import THING, Vocabulary
+from skillc_runtime.scene.foreign_terms import TermUse, group_foreign_terms, report_foreign_terms
 from skillc_runtime.scene.interpretation import Interpretation, Mistake, interpret_table
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.suggestions import suggest
@@ -21,8 +22,6 @@ from skillc_runtime.store.literals import read_literal
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.values import show
 
-MOST = 3
-"""The maximum number of further places that are shown of terms with one cause."""
 LocatedChange: TypeAlias = tuple[Change, Statement]
 """A change with the statement that states it."""
 
@@ -45,11 +44,8 @@ class LocatedFacts:
         """Return the changes of the statements: individuals first, then relations in order, then values."""
         facts = self._meaning.facts
         pairs = {relation: set(found) for relation, found in facts.related.items()}
-        individuals, relations, values = (
-            list[LocatedChange](),
-            list[LocatedChange](),
-            dict[tuple[str, str], LocatedChange](),
-        )
+        individuals, relations = list[LocatedChange](), list[LocatedChange]()
+        stated: dict[tuple[str, str], Statement] = {}
         for position, each in enumerate(self._said):
             subject, predicate, object_ = iri_of(each.subject), each.predicate, iri_of(each.object)
             if predicate == RDF_TYPE and object_ in facts.types.get(subject, ()):
@@ -57,10 +53,14 @@ class LocatedFacts:
             elif (subject, object_) in pairs.get(predicate, ()):
                 relations.append((AddRelation(subject, predicate, object_), each))
             elif isinstance(each.object, ox.Literal) and position not in self._unreadable:
-                value = facts.valued.get(predicate, {}).get(subject)
-                if value is not None:
-                    values.setdefault((subject, predicate), (SetProperty(subject, predicate, value), each))
-        return [*individuals, *relations, *values.values()]
+                stated.setdefault((subject, predicate), each)
+        valued = ((facts.valued.get(predicate, {}).get(subject), each) for (subject, predicate), each in stated.items())
+        values = (
+            (SetProperty(iri_of(each.subject), each.predicate, value), each)
+            for value, each in valued
+            if value is not None
+        )
+        return [*individuals, *relations, *values]
 
     def problems(self, doubtful: Collection[str]) -> Iterator[Diagnostic]:
         """Yield the problem of each mistake; a missing class of a `doubtful` individual is not reported.
@@ -68,11 +68,15 @@ class LocatedFacts:
         Terms of a namespace of which nothing is known are one problem.
         """
         subjects, objects = dict[str, Statement](), defaultdict[str, list[Statement]](list)
-        foreign = self._foreign_terms()
-        yield from (self._unknown_namespace(each) for each in foreign.values())
-        for mistake in sorted(self._meaning.mistakes, key=self._position):
-            each = self._said[self._position(mistake)]
-            if namespace_of(_unknown_term(mistake, each)) in foreign:
+        wrong = [
+            (each, self._said[self._position(each)]) for each in sorted(self._meaning.mistakes, key=self._position)
+        ]
+        unknown = (use for mistake, each in wrong if (use := _unknown_term(mistake, each)))
+        foreign = group_foreign_terms(unknown, self._vocabulary)
+        yield from (report_foreign_terms(namespace, uses, self._vocabulary) for namespace, uses in foreign.items())
+        reported = {use for uses in foreign.values() for use in uses}
+        for mistake, each in wrong:
+            if _unknown_term(mistake, each) in reported:
                 continue
             if mistake.kind == "unknown subject":
                 subjects.setdefault(iri_of(each.subject), each)
@@ -83,33 +87,6 @@ class LocatedFacts:
         yield from (self._without_class(iri, each) for iri, each in subjects.items() if iri not in doubtful)
         if SOMETHING not in doubtful:
             yield from (self._unknown_individual(iri, uses) for iri, uses in objects.items() if iri not in doubtful)
-
-    def _foreign_terms(self) -> dict[str, list[tuple[str, Span]]]:
-        """Return several terms of a namespace, with their places, by namespaces of which no vocabulary has a term."""
-        tables = (self._vocabulary.classes, self._vocabulary.relations, self._vocabulary.properties)
-        known = {namespace_of(iri) for table in tables for iri in table}
-        found: dict[str, list[tuple[str, Span]]] = defaultdict(list)
-        for mistake in sorted(self._meaning.mistakes, key=self._position):
-            each = self._said[self._position(mistake)]
-            term = _unknown_term(mistake, each)
-            if term and namespace_of(term) not in known:
-                place = each.object_place if mistake.kind == "unknown class" else each.predicate_place
-                found[namespace_of(term)].append((term, place))
-        return {namespace: uses for namespace, uses in found.items() if len(dict(uses)) > 1}
-
-    def _unknown_namespace(self, uses: Sequence[tuple[str, Span]]) -> Diagnostic:
-        """Return the problem of terms of one namespace, at the first of them."""
-        (term, place), *others = uses
-        names = {local_name(each) for each, _ in uses}
-        tables = (self._vocabulary.classes, self._vocabulary.relations, self._vocabulary.properties)
-        there: dict[str, set[str]] = defaultdict(set)
-        for iri in (iri for table in tables for iri in table if local_name(iri) in names):
-            there[namespace_of(iri)].add(local_name(iri))
-        meant = [namespace for namespace, found in there.items() if found == names]
-        help_ = f"did you mean <{meant[0]}>?" if len(meant) == 1 else "declare them in a .skill file or in an ontology"
-        shown = [Label(other, "also here") for _, other in others[:MOST]]
-        message = f"nothing declares terms of <{namespace_of(term)}>"
-        return Diagnostic("unknown-prefix", place, message, help_, labels=tuple(shown))
 
     def _problems_of(self, mistake: Mistake, each: Statement) -> Iterator[Diagnostic]:
         """Yield the problem of a single statement."""
@@ -220,19 +197,14 @@ class LocatedFacts:
         return self._short(node.value) if isinstance(node, ox.NamedNode) else _text(node)
 
 
-def namespace_of(iri: str) -> str:
-    """Return an IRI without its local name."""
-    return iri.removesuffix(local_name(iri))
-
-
-def _unknown_term(mistake: Mistake, each: Statement) -> str:
-    """Return the IRI of the class or predicate that is unknown; empty for other mistakes."""
+def _unknown_term(mistake: Mistake, each: Statement) -> TermUse | None:
+    """Return the class or predicate that is unknown; None for other mistakes."""
     match mistake.kind:
         case "unknown class":
-            return iri_of(each.object)
+            return TermUse(iri_of(each.object), each.object_place)
         case "unknown predicate":
-            return each.predicate
-    return ""
+            return TermUse(each.predicate, each.predicate_place)
+    return None
 
 
 def _problem(name: str, each: Statement, message: str, help_: str, edit: Fix | None = None) -> Diagnostic:
