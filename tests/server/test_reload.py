@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import shutil
 import signal
+import time
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,6 +16,9 @@ import pytest
 from running_cells.yard import SKILLS, write_yard
 from server.running import RunningServer, serving, wait_until
 from server.test_client_commands import type_in
+from skillc.server import served_library
+from skillc.server.served_library import open_library
+from skillc_runtime.execution.worker_process import Died, WorkerProcess
 
 NEW_TASK = """
 ## Carry the first crate.
@@ -164,3 +170,26 @@ def test_a_cell_has_the_library_in_whose_folder_its_scene_is(server: RunningServ
     taken = server.client.post("/cells/south/operations", json={"task": "carry_first"})
     assert taken.status_code == 201 and server.wait_for(taken.json()["id"], "succeeded")
     assert {each["hash"] for each in server.client.get("/libraries").json()} == set(hashes.values())
+
+
+def test_a_server_that_ends_does_not_wait_for_a_check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_yard(tmp_path)
+    started, library = list[WorkerProcess](), open_library(tmp_path, ())
+
+    def start(*arguments: Any) -> WorkerProcess:
+        started.append(WorkerProcess(*arguments))
+        loop.call_soon_threadsafe(keeping.cancel)
+        time.sleep(0.2)  # the server ends before the check has begun
+        return started[-1]
+
+    async def keep_up() -> None:
+        nonlocal loop, keeping
+        loop, keeping = asyncio.get_running_loop(), asyncio.create_task(library.keep_up(()))
+        await asyncio.wait((keeping,), timeout=60.0)
+
+    loop: asyncio.AbstractEventLoop
+    keeping: asyncio.Task[None]
+    monkeypatch.setattr(served_library, "WorkerProcess", start)
+    library.touched = True
+    asyncio.run(keep_up())
+    assert [each.poll() for each in started] == [Died("it was killed")]

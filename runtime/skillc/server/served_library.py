@@ -17,6 +17,7 @@ from skillc.server.log import log
 from skillc.server.supervisor import CellSupervisor
 from skillc.workers.library_check import CheckedLibrary, LibraryRefused, check_again, read_checked
 from skillc_ontology import catalogue
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
 from skillc_runtime.platforms.python_modules import make_environment
 
@@ -50,7 +51,7 @@ class ServedLibrary:
     touched: bool = False
     checking: bool = False
     writing: asyncio.Lock = field(default_factory=asyncio.Lock, repr=False)
-    _worker: WorkerProcess | None = field(default=None, repr=False)
+    _cancel: CancelToken = field(default_factory=CancelToken, repr=False)
 
     async def keep_up(self, cells: Sequence[CellSupervisor]) -> None:
         """Let cells have the library as it is on disk, whenever it has no errors, until this is cancelled."""
@@ -67,8 +68,7 @@ class ServedLibrary:
                 seen = stamp
                 await self._tell(cells)
         finally:
-            if self._worker is not None:
-                self._worker.kill()
+            self._cancel.cancel("the server ends")
 
     @property
     def pending(self) -> bool:
@@ -91,11 +91,10 @@ class ServedLibrary:
     def _ask(self) -> Answer:
         """Check the library in a process of its own; it is killed if it takes too long."""
         try:
-            self._worker = worker = WorkerProcess(check_again, "spawn")
+            worker = WorkerProcess(check_again, "spawn")
         except OSError as error:
             return LibraryRefused(f"it cannot be checked: {error.strerror or error}")
-        worker.ask((self.path, self.checked.basis))
-        result = worker.wait(CHECK_S)
+        result = worker.answer((self.path, self.checked.basis), self._cancel.limited(CHECK_S))
         worker.kill()
         match result:
             case Returned(CheckedLibrary() | LibraryRefused() as answer):

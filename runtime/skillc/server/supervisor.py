@@ -93,7 +93,8 @@ class CellSupervisor:
         A cell that starts is waited for, START_S at most.
         """
         with suppress(TimeoutError):
-            await asyncio.wait_for(self._settled.wait(), START_S)  # wait ends: wait_for limits it
+            async with asyncio.timeout(START_S):  # unlike wait_for, it never loses a cancellation
+                await self._settled.wait()  # wait ends: with the timeout
         if self._cell is None or not self.ready:
             return Refused(kind="off", reason=f"{self.settings.name} is off: {self.status.reason}")
         try:

@@ -23,8 +23,6 @@ TURN_S = 30.0
 """How long a job may wait for a process, in s."""
 START_S = 60.0
 """How long a process may take to start, in s."""
-LOOK_S = 0.1
-"""How often it is looked whether somebody still waits for an answer, in s."""
 
 T = TypeVar("T")
 Request: TypeAlias = tuple[Job | RunJob, bytes]
@@ -115,7 +113,8 @@ class Workers:
             raise TooManyJobs(f"{MAX_WAITING} requests wait for a process that answers them; try again later")
         self._waiting += 1
         try:
-            await asyncio.wait_for(self._free.acquire(), self.turn_s)  # wait ends: wait_for limits it
+            async with asyncio.timeout(self.turn_s):
+                await self._free.acquire()  # wait ends: with the timeout
         except TimeoutError as error:
             raise TooManyJobs(f"no process was free for {self.turn_s:g} s; try again later") from error
         finally:
@@ -134,9 +133,9 @@ class Workers:
         worker = WorkerProcess(self.program, "spawn") if new else self._idle.pop()
         result: WorkerResult | None = None
         try:
-            ready = not new or isinstance(_wait(worker, None, cancel.limited(START_S)), Returned)
+            ready = not new or isinstance(worker.answer(None, cancel.limited(START_S)), Returned)
             limit = cancel.limited(seconds if ready else 0.0)
-            result = _wait(worker, request, limit) if ready else None
+            result = worker.answer(request, limit) if ready else None
         finally:
             if isinstance(result, Returned):
                 self._idle.append(worker)
@@ -153,12 +152,3 @@ class Workers:
                 raise JobCrashed(f"the process that should have answered has ended: {why}")
             case _:
                 raise Cancelled(limit.reason or "")
-
-
-def _wait(worker: WorkerProcess, request: Request | None, cancel: CancelToken) -> WorkerResult | None:
-    """Return what a process answers to a request; None if it is not waited for any longer."""
-    result: WorkerResult | None = None
-    worker.ask(request)
-    while result is None and cancel.reason is None:
-        result = worker.wait(min(LOOK_S, cancel.remaining_s))
-    return result

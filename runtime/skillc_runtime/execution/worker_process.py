@@ -29,6 +29,8 @@ CLEANUP_S = 2.0
 SEND_S = 5.0
 """How long a worker may take to accept a request, in s."""
 MAX_WAIT_S = 3600.0
+LOOK_S = 0.1
+"""How often `answer` looks whether somebody still waits for an answer, in s."""
 _HEADER = struct.Struct("!Q")
 _CHUNK = 2**16
 
@@ -81,7 +83,7 @@ class WorkerProcess:
 
     `ask` sends a request, `poll` returns its result and never blocks; after `poll` found none, `report` is how far the
     function is, as it has said last. `kill` ends the process and the programs that it started in sandboxes. A process
-    that has died stays so.
+    that has died stays so. One thread at a time uses it: one that waits in `answer` is told to end by its token.
     """
 
     def __init__(self, function: WorkerFunction, start: StartMethod = DEFAULT_START) -> None:
@@ -122,6 +124,14 @@ class WorkerProcess:
         with suppress(OSError):  # it has died or hangs, which is found out when the result is waited for
             self._socket.sendall(_HEADER.pack(len(message)) + message)
         self._socket.setblocking(False)
+
+    def answer(self, request: object, cancel: CancelToken) -> WorkerResult | None:
+        """Send a request, and wait for its result until that is cancelled; None then."""
+        result: WorkerResult | None = None
+        self.ask(request)
+        while result is None and cancel.reason is None:
+            result = self.wait(min(LOOK_S, cancel.remaining_s))
+        return result
 
     def poll(self) -> WorkerResult | None:
         """Return the result of the last request if there is one, else None."""
