@@ -32,7 +32,7 @@ OPERATIONS := 600
 # How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
 EDITS := 10000
 
-.PHONY: help demo test check reasoners sim browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept lock clean
+.PHONY: help demo test slow check reasoners sim browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -42,6 +42,9 @@ demo: .venv/.runtime .venv/.studio ## run the demo: two robots wipe two surfaces
 
 test: .venv/.dev .venv/.studio ## run the fast tests
 	$(BIN)/pytest -n 2 --dist worksteal
+
+slow: .venv/.dev .venv/.studio ## run the tests that take more than a second, and those of whole cells and servers
+	$(BIN)/pytest -m "slow and not (browser or reasoner or sim or wheel)" -n 2 --dist worksteal
 
 check: .venv/.dev ## check style, types and import rules
 	$(BIN)/ruff check .
@@ -56,13 +59,13 @@ reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with t
 	$(BIN)/pytest -m reasoner -n 2
 
 sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
-	$(BIN)/pytest -m "sim and not long" -n 2
+	$(BIN)/pytest -m "sim and not long" -n 2 --dist worksteal
 
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
 	$(BIN)/pytest -m browser tests/studio -n 2 --dist loadfile
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
-	$(BIN)/pytest -m wheel
+	$(BIN)/pytest -m wheel tests/distribution -n 2 --dist loadfile
 
 fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; failing inputs are saved in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
@@ -74,8 +77,8 @@ soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/so
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m killed_servers --kills $(KILLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)
-	ROUNDS=$(ROUNDS) $(BIN)/pytest --timeout 0 tests/server/test_attacks.py
-	SEQUENCES=$(SEQUENCES) $(BIN)/pytest --timeout 0 tests/compiler/test_incremental.py -n 2
+	ROUNDS=$(ROUNDS) $(BIN)/pytest --timeout 0 -m slow tests/server/test_attacks.py
+	SEQUENCES=$(SEQUENCES) $(BIN)/pytest --timeout 0 -m "" tests/compiler/test_incremental.py -n 2
 	SKILLC_RUNS=$(RUNS) $(BIN)/pytest --timeout 0 -m sim tests/execution/test_random_commands.py tests/execution/test_repeat.py -n 2
 	SKILLC_WIPINGS=$(WIPINGS) $(BIN)/pytest --timeout 0 -m sim tests/sim/test_random_commands.py -n 2
 	$(BIN)/pytest --timeout 0 -m long -n 2

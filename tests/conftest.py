@@ -3,7 +3,9 @@
 import os
 import signal
 import sys
+from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 from skillc_dsl.garbage import exempt_from_gc
@@ -11,6 +13,9 @@ from skillc_dsl.garbage import exempt_from_gc
 # No test depends on how fast the machine is.
 settings.register_profile("skillc", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("skillc")
+
+# Folders whose tests run whole cells and servers in processes of their own.
+SLOW_FOLDERS = ("operating", "running_cells", "server")
 
 # Tests of, or with, what only Unix has.
 if sys.platform == "win32":
@@ -30,6 +35,14 @@ def pytest_configure() -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if sys.platform != "win32":
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests of slow folders as `slow`."""
+    folders = [Path(__file__).with_name(each) for each in SLOW_FOLDERS]
+    for item in items:
+        if any(item.path.is_relative_to(each) for each in folders):
+            item.add_marker("slow")
 
 
 def pytest_collection_finish() -> None:

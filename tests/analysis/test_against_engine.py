@@ -123,6 +123,7 @@ def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("block", range(10))
 def test_what_is_proved_holds_when_it_runs(block: int) -> None:
     started = 0

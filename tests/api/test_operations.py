@@ -43,6 +43,7 @@ def _execute(cells: tuple[str, ...], folder: object) -> list[nbformat.NotebookNo
     return [each.data for each in outputs]
 
 
+@pytest.mark.slow
 def test_a_notebook_shows_libraries_plans_and_tables(tmp_path: object) -> None:
     library, tree, plan, table = _execute(FAST_CELLS, tmp_path)
     assert "press_button" in library["text/html"]

@@ -34,6 +34,7 @@ def _follow(examples: Iterator[Block]) -> int:
     return compared
 
 
+@pytest.mark.slow
 def test_libraries_scenes_and_plans(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     part = tmp_path / "part.md"

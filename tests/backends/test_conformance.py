@@ -53,6 +53,7 @@ def press(backend: Backend, force_n: float) -> Array:
     return normal
 
 
+@pytest.mark.slow
 def test_nobody_can_change_what_was_measured(backend: Backend) -> None:
     state = backend.arm.state()
     arrays = [state.tool.position, state.tool.rotation, *(getattr(state, f.name) for f in fields(state))]
@@ -91,6 +92,7 @@ def test_a_step_of_the_pose(backend: Backend) -> None:
     assert np.abs(backend.driver.measured.pose.rotation - start.rotation).max() < 1e-2
 
 
+@pytest.mark.slow
 def test_steps_of_the_force(backend: Backend) -> None:
     normal = press(backend, 8.0)
     assert mean_force(backend) == pytest.approx(8.0, rel=0.05)
@@ -217,6 +219,7 @@ def test_it_stops_at_once(backend: Backend) -> None:
     assert np.linalg.norm(driver.measured.pose.position - where) < 0.02
 
 
+@pytest.mark.slow
 def test_it_lets_go_when_it_stops_in_contact(backend: Backend) -> None:
     """What is left is what the wall, which springs back, pushes against the stiff arm."""
     press(backend, 10.0)

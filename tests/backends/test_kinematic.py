@@ -86,6 +86,7 @@ def test_what_is_held_drives_along_with_the_base() -> None:
     assert np.abs((tool.pose @ in_hand).position - moved.position).max() < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["iiwa_table", "ur5e_whiteboard"])
 def test_a_pushed_tool_presses_on_a_surface_with_the_force_that_is_commanded(scene: str) -> None:
     there = holding(scene)

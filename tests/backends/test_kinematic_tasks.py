@@ -19,6 +19,7 @@ SLOW = ("clean", "share", "polish")
 TASKS = [pytest.param(name, marks=pytest.mark.sim if name.startswith(SLOW) else ()) for name in shipped_tasks()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TASKS)
 def test_a_shipped_task_succeeds_and_is_not_called_verified(name: str) -> None:
     execution, result = run_shipped(name)

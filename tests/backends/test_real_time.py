@@ -75,6 +75,7 @@ def wait_until(holds: Callable[[], bool]) -> None:
         time.sleep(0.005)
 
 
+@pytest.mark.slow
 def test_a_blocked_tick_stops_the_devices_while_it_still_blocks() -> None:
     with running() as (cell, _):
         arm = swing(cell)
@@ -89,6 +90,7 @@ def test_a_blocked_tick_stops_the_devices_while_it_still_blocks() -> None:
         assert np.abs(arm.measured.pose.position - place).max() < 1e-4
 
 
+@pytest.mark.slow
 def test_a_client_that_gives_signs_of_life_is_not_stopped() -> None:
     with running() as (cell, _):
         arm = swing(cell)

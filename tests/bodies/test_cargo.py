@@ -23,6 +23,7 @@ def cube(name: str, place: Pose, frame: str = "heron") -> list[Change]:
     return thing(name, place, frame=frame, size=(0.04, 0.04, 0.04), cls=PART)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", [SimulatedCell, KinematicCell])
 def test_what_stands_on_a_base_drives_with_it(backend: type[SimulatedCell | KinematicCell]) -> None:
     state = scene("ur5e_whiteboard").with_changes(

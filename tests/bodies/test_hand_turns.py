@@ -52,6 +52,7 @@ def cell(request: pytest.FixtureRequest, tmp_path: Path) -> KinematicCell:
     return KinematicCell(WorldModel(state.with_changes(away)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["above", "across"])
 def test_the_hand_keeps_away_from_the_ends_of_its_joint_over_a_part_that_lies_in_any_direction(
     cell: KinematicCell, way: str

@@ -98,6 +98,7 @@ def test_where_blocks_stand_on_all_sides_the_part_is_left_with_a_reason(tmp_path
     assert now.position[2] == pytest.approx(0.63, abs=0.005)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", [pytest.param(SimulatedCell, marks=pytest.mark.sim), KinematicCell])
 def test_a_thing_with_a_wide_lid_is_held_from_the_side_and_put_down_upright(
     backend: type[SimulatedCell | KinematicCell], tmp_path: Path
@@ -143,6 +144,7 @@ def deep(side_m: float, edits: list[tuple[str, str]]) -> list[tuple[str, str]]:
     return [*edits, a_bin, at, part]
 
 
+@pytest.mark.slow
 def test_a_part_in_a_deep_bin_is_grasped_where_the_hand_has_room_else_refused(tmp_path: Path) -> None:
     wide = written(tmp_path, deep(0.26, []))
     assert grasp_problem(load_scene(wide, library().vocabulary), HAND, PART) is None

@@ -89,6 +89,7 @@ def failure_of(ended: Execution | NotStarted) -> str:
     return ended.failure.message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("arm", CELLS)
 def test_three_arms_sort_parts_without_any_stated_pose(
@@ -105,6 +106,7 @@ def test_three_arms_sort_parts_without_any_stated_pose(
         assert np.abs((bin_.inverse() @ part).position[:2]).max() < 0.015
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_a_part_is_put_beside_another_one_on_a_tray(
     backend: type[SimulatedCell | KinematicCell], tmp_path: Path
@@ -139,6 +141,7 @@ BIN_A = "lab:Bin-A a sorting:Bin ;\n    skiros:SizeX 0.16 ; skiros:SizeY 0.16 ; 
 TO_BIN = [PICK_A, place("Part-A", "Bin-A")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("edits", "calls", "why"),
     [

@@ -92,11 +92,13 @@ def test_what_the_gripper_cannot_hold_is_refused_with_the_reason(changes: list[C
     assert reason in refusal(changes)
 
 
+@pytest.mark.slow
 def test_a_part_nearly_as_wide_as_the_gripper_opens_is_sorted() -> None:
     execution = run(sized(PART, 0.07, 0.07, 0.06))
     assert execution.status == "succeeded", execution.failure
 
 
+@pytest.mark.slow
 def test_nothing_is_let_go_where_nothing_supports_it() -> None:
     place = LAB + "Bin-A-placing"
     in_the_air: list[Change] = [
@@ -109,6 +111,7 @@ def test_nothing_is_let_go_where_nothing_supports_it() -> None:
     assert "nothing supports lab:Part-A where it should stand at lab:Bin-A" in execution.failure.message
 
 
+@pytest.mark.slow
 def test_parts_for_one_bin_lie_beside_each_other() -> None:
     there = added("Block", PRODUCT, (0.45, 0.15, 0.644), (0.04, 0.04, 0.08))
     execution = run([*sized(BIN, 0.32, 0.16, 0.06), *there])

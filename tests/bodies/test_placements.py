@@ -19,6 +19,7 @@ from skillc_runtime.world.state.model import WorldModel
 FOLDER = Path(__file__).parent / "sorting"
 
 
+@pytest.mark.slow
 def test_each_thing_that_was_moved_is_listed_with_its_true_place() -> None:
     compiled = libraries.compile_library(find_library(FOLDER)).value
     prepared = prepare(compiled, "sort_parts", FOLDER / "cell.ttl")
@@ -46,6 +47,7 @@ def test_each_thing_that_was_moved_is_listed_with_its_true_place() -> None:
     assert kept == other
 
 
+@pytest.mark.slow
 def test_a_held_thing_is_where_the_hand_is() -> None:
     compiled = library("wiping")
     prepared = prepare(compiled, "clean_table", catalogue.scene_path("iiwa_table"))

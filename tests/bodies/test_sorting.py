@@ -20,6 +20,7 @@ LAB = "http://example.org/lab#"
 FOLDER = Path(__file__).parent / "sorting"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", [pytest.param(SimulatedCell, marks=pytest.mark.sim), KinematicCell])
 def test_parts_are_sorted_into_bins(backend: type[SimulatedCell | KinematicCell]) -> None:
     outcome = libraries.compile_library(find_library(FOLDER))

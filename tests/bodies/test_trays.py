@@ -46,6 +46,7 @@ def run_task(task: str, backend: type[SimulatedCell | KinematicCell], *changes: 
     return find_false_claims(cell.scene.bodies, state, truth)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", [pytest.param(SimulatedCell, marks=pytest.mark.sim), KinematicCell])
 def test_a_part_is_put_into_a_tray_and_carried_with_it(backend: type[SimulatedCell | KinematicCell]) -> None:
     assert run_task("serve", backend) == ()

@@ -36,6 +36,7 @@ def found(state: WorldState) -> list[SceneViolation]:
     return [each for each in check_cell(state) if each.name == "out-of-reach"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("place", "severity"),
     [
@@ -55,6 +56,7 @@ def test_a_part_that_no_posture_grasps_from_above_is_out_of_reach(
     assert all("no posture of lab:Panda-1 brings the hand where it would grasp it" in each.message for each in reported)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("height", "reached"), [(0.6, True), (1.45, False)])
 def test_a_bin_into_which_no_posture_brings_a_hand_is_out_of_reach(height: float, reached: bool) -> None:
     bin_ = thing("Bin", at(0.0, 0.4, height + 0.05), size=(0.15, 0.15, 0.1), cls=CONTAINER)
@@ -62,6 +64,7 @@ def test_a_bin_into_which_no_posture_brings_a_hand_is_out_of_reach(height: float
     assert [each.individual for each in reported] == ([] if reached else [lab("Bin")])
 
 
+@pytest.mark.slow
 def test_the_answer_is_the_same_each_time() -> None:
     (hand,) = read_hand_reaches(cell())
     down = Pose.of((0.4, 0.0, 0.9), (0.0, 1.0, 0.0, 0.0))
@@ -70,6 +73,7 @@ def test_the_answer_is_the_same_each_time() -> None:
     assert all((one == other).all() for one, other in zip(first, again, strict=True))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(0, 12, 2))
 def test_nothing_is_out_of_reach_in_a_cell_that_can_be_solved(seed: int, tmp_path: Path) -> None:
     case = draw_case(seed)

@@ -31,6 +31,7 @@ def test_a_cell_with_margins_has_no_problem(seed: int, tmp_path: Path) -> None:
     assert problems(text, tmp_path, "Part-0", "Bin-0") == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("way", SPOILED)
 def test_a_spoilt_cell_has_exactly_this_problem(way: str, seed: int, tmp_path: Path) -> None:

@@ -96,6 +96,7 @@ CHANGES: dict[str, Callable[[Path], None]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES.keys())
 def test_whatever_changes_is_seen(library: Path, own: Path, change: Callable[[Path], None]) -> None:
     before = check(library)
@@ -168,6 +169,7 @@ def test_another_state_of_the_installation_is_another_digest(tmp_path: Path, mon
     assert len(set(states)) == 4
 
 
+@pytest.mark.slow
 def test_nothing_heavy_is_imported_for_what_is_remembered(library: Path, cache: Path) -> None:
     program = f"""
 import sys
@@ -186,6 +188,7 @@ except SystemExit:
     assert warm == set()
 
 
+@pytest.mark.slow
 def test_every_file_that_is_read_counts(library: Path) -> None:
     """A check opens no file but those of skillc and Python and those whose content is part of the digest."""
     program = f"""

@@ -59,6 +59,7 @@ def watcher(library: Path) -> Iterator[Watcher]:
     running.process.wait()
 
 
+@pytest.mark.slow
 def test_changes_are_told_and_ctrl_c_ends_with_0(watcher: Watcher, library: Path) -> None:
     assert any("no problems" in line for line in watcher.until("waiting"))
     (library / "a.skill").write_text("class Board < Nothing\n", encoding="utf-8")
@@ -71,6 +72,7 @@ def test_changes_are_told_and_ctrl_c_ends_with_0(watcher: Watcher, library: Path
     assert watcher.process.wait(PATIENCE_S) == 0
 
 
+@pytest.mark.slow
 def test_a_folder_that_goes_and_comes_back_is_watched_on(watcher: Watcher, library: Path) -> None:
     watcher.until("waiting")
     library.rename(library.parent / "elsewhere")

@@ -168,6 +168,7 @@ def _move(text: str, chance: random.Random) -> str:
     return "\n".join(lines)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(SEQUENCES))
 def test_a_check_after_edits_equals_one_of_everything(
     tmp_path: Path, seed: int, monkeypatch: pytest.MonkeyPatch

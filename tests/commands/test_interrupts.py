@@ -120,6 +120,7 @@ def interrupted(depot: Path, command: str, send: Callable[[int], None]) -> tuple
     return process.returncode, out, err, temporary
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "code", "said"),
     [
@@ -135,6 +136,7 @@ def test_a_signal_ends_planning(depot: Path, number: signal.Signals, code: int, 
     assert not list(temporary.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "said"),
     [

@@ -43,6 +43,7 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_in_a_project_is_one_error(project: Path, mistake: str) -> None:
     name, old, new, place, problem = MISTAKES[mistake]

@@ -49,6 +49,7 @@ def test_a_closed_output_is_said_where_there_is_something_to_print(place: Path) 
     assert ended(place, "skillc check good.skill >&-") == (0, "no problems\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("errors", ["2>&-", "2>/dev/full"])
 def test_messages_that_nobody_takes_change_no_exit_code(place: Path, errors: str) -> None:
     assert ended(place, f"skillc plan nowhere:x {errors}") == (2, "")
@@ -59,6 +60,7 @@ def test_a_closed_input_is_empty(place: Path) -> None:
     assert ended(place, "skillc fmt - <&-") == (0, "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "given",
     [
@@ -79,6 +81,7 @@ def test_json_that_is_no_message_is_left_out(place: Path) -> None:
     assert "is not a JSON-RPC message" in (place / "out").read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("output", "said"), [("> /dev/full", FULL), (">&-", CLOSED)])
 def test_a_server_whose_editor_takes_nothing_ends(place: Path, output: str, said: str) -> None:
     assert ended(place, f"skillc lsp {output}", NO_MESSAGE) == (1, said)

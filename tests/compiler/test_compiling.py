@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shipped import library, shelf, vocabulary
@@ -163,6 +164,7 @@ def test_imports_in_a_circle_are_told_and_both_files_are_read() -> None:
     assert sorted(outcome.value.skills) == ["A", "B"]
 
 
+@pytest.mark.slow
 @settings(max_examples=int(os.environ.get("SKILLC_DAMAGES", "20")))
 @given(st.data())
 def test_damaged_libraries_never_crash(data: st.DataObject) -> None:

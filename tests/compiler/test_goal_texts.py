@@ -175,6 +175,7 @@ def test_calls() -> None:
     assert outcome.value.source == Position("call", 1, 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "name"),
     [

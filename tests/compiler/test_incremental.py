@@ -30,6 +30,7 @@ def parsed(source: Source) -> Outcome[s.File]:
     return parse(source)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(SEQUENCES))
 def test_an_incremental_analysis_equals_a_cold_one(seed: int) -> None:
     memo = AnalysisMemo()
@@ -40,6 +41,7 @@ def test_an_incremental_analysis_equals_a_cold_one(seed: int) -> None:
     assert step == STEPS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 def test_the_edits_of_a_sequence_change_what_is_found(seed: int) -> None:
     found = {analyse(library).compiled.diagnostics for library in edited_libraries(seed)}

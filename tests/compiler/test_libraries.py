@@ -38,6 +38,7 @@ def test_a_correct_library_has_no_problem(library: str) -> None:
     assert problems(text_of(library)) == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("library", "name", "old", "new"), list(edits()), ids=lambda part: part[:24])
 def test_one_mistake_gives_one_error(library: str, name: str, old: str, new: str) -> None:
     text = text_of(library)

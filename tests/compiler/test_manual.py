@@ -131,6 +131,7 @@ def beside_scene(text: str) -> list[str]:
         return [d.name for d in library_checks.check_library(find_library(Path(folder)), Path(folder, "example.ttl"))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", load_pages().values(), ids=lambda page: page.name)
 def test_the_examples_show_the_problem_and_its_cure(page: Page) -> None:
     assert problems(page, page.bad) == [page.name]
@@ -144,6 +145,7 @@ def test_pages_are_short_and_complete(page: Page) -> None:
     assert len(page.bad.splitlines()) <= 20 and len(page.good.splitlines()) <= 20
 
 
+@pytest.mark.slow
 def test_every_diagnostic_has_a_page() -> None:
     given = {name for folder in PLACES for file in (ROOT / folder).rglob("*.py") for name in named(file)}
     given |= {f"unknown-{kind}" for kind in get_args(UnknownKind)}

@@ -15,6 +15,7 @@ from skillc_dsl.source import Source
 EDITED = int(os.environ.get("EDITS", "60"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(len(beginnings())))
 def test_edits_are_parsed_as_from_nothing(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     parser, chance, whole = ParseMemo(), random.Random(number), []

@@ -19,6 +19,7 @@ def verdicts(origin: Origin, count: int) -> Iterator[Verdict]:
             yield verdict
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("origin", ORIGINS)
 @pytest.mark.parametrize(("count", "most_wrong"), [(1, 0.04), (2, 0.08)])
 def test_there_are_as_many_errors_as_mistakes_and_they_are_there(origin: Origin, count: int, most_wrong: float) -> None:

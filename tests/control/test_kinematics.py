@@ -142,6 +142,7 @@ def test_the_driver_finds_joints_for_a_pose_in_the_world(robot):
     )
 
 
+@pytest.mark.slow
 def test_joints_stay_away_from_the_ends_of_their_ranges_where_they_are_pushed_back(robot):
     bench, arm = Bench(robot), VirtualArm(load_virtual_model(ROBOTS / f"{robot}.xml"))
     limits, found = bench.limits.range, 0

@@ -73,6 +73,7 @@ def test_a_force_that_is_kept_stays_the_same(robot):
     assert np.abs(force / arm.force_n - 1).max() < 0.02
 
 
+@pytest.mark.slow
 def test_a_tool_is_taken_off_held_and_brought_back(robot):
     arm = Pressing(robot)
     pressed_at = arm.height
@@ -131,6 +132,7 @@ def test_a_pause_beside_the_way_keeps_the_motion(robot):
     assert np.abs(np.array(forces) / arm.force_n - 1).max() < 0.2
 
 
+@pytest.mark.slow
 def test_an_approach_is_stopped_and_goes_on(robot):
     arm = Pressing(robot, gap=0.06, seconds=0.6)
     assert arm.push.pressed_s is None

@@ -32,6 +32,7 @@ def test_each_package_says_that_it_is_typed(package: str) -> None:
     assert (ROOT / package / "py.typed").is_file()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workflow", [WORKFLOW, TEMPLATE], ids=["project", "users"])
 def test_workflows_are_of_the_schema(workflow: Path, tmp_path: Path) -> None:
     check = (BIN / "check-jsonschema", "--builtin-schema", "vendor.github-workflows", "--default-filetype", "yaml")
@@ -86,6 +87,7 @@ def test_citation_package_and_extension_have_one_version_and_licence() -> None:
     assert citation["authors"] == PROJECT["authors"] == [extension["author"]]
 
 
+@pytest.mark.slow
 def test_hooks_find_and_mend_what_is_wrong_when_pre_commit_runs_them(tmp_path: Path) -> None:
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
     # As they are, but for the environment that pre-commit would install: the commands of this one.

@@ -40,6 +40,7 @@ def find_differences(text: str) -> Iterator[str]:
                 pass
 
 
+@pytest.mark.slow
 def test_no_other_package_asks_which_system_it_runs_on() -> None:
     sources = [each for folder in FOLDERS for each in (ROOT / folder).rglob("*.py") if PLATFORMS not in each.parents]
     found = {

@@ -25,6 +25,7 @@ def follow(folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> R
     return reader
 
 
+@pytest.mark.slow
 def test_the_page_adds_an_arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert follow(tmp_path, monkeypatch, everything=False).done == 7
 

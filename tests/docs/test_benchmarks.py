@@ -7,10 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 FOLDER = Path(__file__).parents[2] / "benchmarks"
 BENCHMARKS = sorted(path.stem for path in FOLDER.glob("*.py"))
 
 
+@pytest.mark.slow
 def test_each_benchmark_can_be_imported() -> None:
     program = "import importlib, sys\nfor name in sys.argv[1:]: importlib.import_module(name)"
     folders = os.pathsep.join((str(FOLDER), str(FOLDER.parent / "tests")))

@@ -40,6 +40,7 @@ def test_what_the_command_names_is_in_the_image() -> None:
     assert find_options("--state") == [state]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="the image has Linux")
 def test_its_server_becomes_healthy_and_ends_in_time(tmp_path: Path) -> None:
     folders = {each.split(":")[1]: tmp_path / str(number) for number, each in enumerate(find_options("--volume"))}

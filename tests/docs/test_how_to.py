@@ -27,6 +27,7 @@ def follow(page: Path, folder: Path, monkeypatch: pytest.MonkeyPatch, everything
     return reader
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["own-controller", "own-primitive", "pick-a-part"])
 def test_what_is_checked_and_planned_is_as_the_page_says(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

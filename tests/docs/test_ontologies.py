@@ -28,6 +28,7 @@ def test_the_table_is_there() -> None:
     assert len(ROWS) >= 25
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("construct", ROWS)
 def test_each_construct_has_the_effect_that_the_table_says(construct: str) -> None:
     turtle, effect = ROWS[construct]

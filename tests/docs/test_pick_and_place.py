@@ -19,6 +19,7 @@ def follow(folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> R
     return reader
 
 
+@pytest.mark.slow
 def test_what_is_checked_and_planned_is_as_the_page_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert follow(tmp_path, monkeypatch, everything=False).done >= 15
 

@@ -17,6 +17,8 @@ from skillc_site.navigation import find_pages, read_sections
 from skillc_site.python_modules import MODULES
 from skillc_site.repository import Links
 
+pytestmark = pytest.mark.slow
+
 LOADED = re.compile(r"""<(?:script|img|link rel="stylesheet"|iframe|source)[^>]*?(?:src|href)="(https?:[^"]*)""")
 
 

@@ -18,6 +18,7 @@ def follow(folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> R
     return reader
 
 
+@pytest.mark.slow
 def test_everything_but_running_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert follow(tmp_path, monkeypatch, everything=False).done >= 10
     assert (tmp_path / "press_panel/out/reference/skill/Polish.html").is_file()

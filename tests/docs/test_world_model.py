@@ -15,6 +15,7 @@ PAGES = {"world-model": 8, "bodies": 3, "space": 6, "scenes": 5, "obstacles": 1,
 """Pages of `docs`, and how many outputs each shows at least."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES)
 def test_every_example_prints_what_stands_below_it(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)

@@ -26,6 +26,7 @@ DEEP = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", DEEP)
 @pytest.mark.parametrize("levels", [DEEPEST + 1, 4000])
 def test_what_is_too_deep_is_one_error_and_the_rest_is_understood(kind: str, levels: int) -> None:

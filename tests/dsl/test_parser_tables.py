@@ -73,6 +73,7 @@ def test_shipped_files_are_parsed_as_by_lark_also_with_mistakes(path: Path) -> N
         parse_in_both_ways(mistaken)
 
 
+@pytest.mark.slow
 def test_tables_are_kept_and_damaged_ones_are_made_again(tmp_path: Path) -> None:
     first = read_or_make_tables(grammar_text(), tmp_path / "new")
     (kept,) = (tmp_path / "new").iterdir()

@@ -22,6 +22,7 @@ def analyse(grammar: str) -> None:
     LALR_Analyzer(parser.parser_conf, strict=True).compute_lalr()
 
 
+@pytest.mark.slow
 def test_the_grammar_has_no_conflict() -> None:
     analyse(grammar_text())
 

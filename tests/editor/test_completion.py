@@ -80,6 +80,7 @@ AMONG = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("after", "line", "offered"), EXACT, ids=[line.strip() for _, line, _ in EXACT])
 async def test_just_what_fits_is_offered(desk: Desk, after: str, line: str, offered: str) -> None:
     desk.library(motion=MOTION)

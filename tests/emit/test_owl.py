@@ -147,6 +147,7 @@ locals_ = st.from_regex(r"[A-Za-zä_.0-9-]{1,8}", fullmatch=True)
 values = st.text() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(locals_, values), max_size=6))
 def test_what_is_written_is_read_back(pairs: list[tuple[str, str | bool | int | float]]) -> None:
     base = "http://example.org/x#"

@@ -48,6 +48,7 @@ def read_result(folder: Path) -> TaskResult:
     return msgspec.json.decode((folder / "out/result.json").read_bytes(), type=TaskResult)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("how", "code", "why"),
     [

@@ -47,6 +47,7 @@ def test_a_run_that_was_paused_replanned_and_retried_is_possible() -> None:
         assert check(events[:length]) is None, "a run that was cut off is possible too"
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None, derandomize=True, phases=PHASES, suppress_health_check=QUIET)
 @given(DRAWN)
 def test_random_runs_are_possible(drawn: Drawn) -> None:

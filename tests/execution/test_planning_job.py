@@ -68,6 +68,7 @@ ASSIGNMENTS: list[tuple[Assignment, FailedSteps]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("assignment", "failures", "start"),
     [

@@ -35,6 +35,7 @@ def check(drawn: Drawn) -> None:
     assert (actors.postures(again) == actors.postures(ran.cell)).all(), "to the last bit"
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None, derandomize=True, phases=PHASES, suppress_health_check=QUIET)
 @given(DRAWN)
 def test_a_repeated_run_tells_the_same(drawn: Drawn) -> None:

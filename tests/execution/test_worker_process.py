@@ -97,6 +97,7 @@ def count_up(most: int, report: Callable[[object], None]) -> int:
     return most
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", ["fork", "spawn", "thread"])
 def test_a_function_reports_how_far_it_is_and_never_waits_for_who_does_not_read(start: StartMethod) -> None:
     worker = WorkerProcess(ReportingFunction(count_up), start)

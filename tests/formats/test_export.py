@@ -49,6 +49,7 @@ def load(text: str, suffix: str = "") -> WorldState:
     return load_documents([Document.of(f"scene{suffix}", text), *sheet_documents()], libraries.load_vocabulary())
 
 
+@pytest.mark.slow
 @given(scenes())
 @settings(max_examples=5, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_random_scenes_are_the_same_after_each_format(text: str) -> None:
@@ -59,6 +60,7 @@ def test_random_scenes_are_the_same_after_each_format(text: str) -> None:
         assert set(all_triples(load(format_as(form, turtle)))) == expected, form
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", FORMATS)
 def test_other_tools_read_what_is_exported(form: str, tmp_path: Path) -> None:
     result = CliRunner().invoke(skillc, ["world", "iiwa_table", "--export", form])

@@ -63,6 +63,7 @@ def test_the_schemas_that_ship_are_those_of_the_code(name: str) -> None:
     assert tuple(SCHEMAS) == NAMES
 
 
+@pytest.mark.slow
 def test_a_compiled_library_fits_and_a_changed_one_does_not(tmp_path: Path) -> None:
     result = CliRunner().invoke(skillc, ["compile", "skills_src/skillc_skills/contact", "-o", str(tmp_path)])
     assert result.exit_code == 0, result.output
@@ -117,6 +118,7 @@ def test_a_run_fits_and_its_names_mean_one_thing(tmp_path: Path, monkeypatch: py
     assert {field for field, text in strings(result) if IRI.fullmatch(text)} == {"iri"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "command",
     [

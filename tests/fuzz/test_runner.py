@@ -46,6 +46,7 @@ def die() -> None:
     os._exit(7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("bad", "said"), [(fail, "a crash"), (spin, "more than"), (block, "no answer"), (die, "code 7")]
 )

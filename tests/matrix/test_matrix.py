@@ -11,6 +11,7 @@ from matrix.table import PAGE, page
 from skillc_compiler.emit import owl
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.name)
 def test_a_feature_becomes_what_is_expected(case: Case) -> None:
     found = measured(case)

@@ -52,6 +52,7 @@ def read(text: str) -> Graph:
     return Graph().parse(data=PREFIXES + text, format="turtle")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", FILES, ids=name)
 def test_every_term_used_is_declared(path: Path) -> None:
     declared = with_scene(path.name) if path.name in SCENES else vocabulary()

@@ -44,6 +44,7 @@ def check_claim(answer: PlanResult, least: float, restricted: bool) -> None:
             raise AssertionError(answer)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(EXAMPLES or 25))
 def test_what_is_said_of_a_plan_is_true(seed: int) -> None:
     drawn = Author(seed).drawn()

@@ -171,6 +171,7 @@ def written(folder: Path, way: Way | None) -> Path:
     return library
 
 
+@pytest.mark.slow
 def test_the_cell_works_at_the_first_run(place: Path) -> None:
     library = written(place, None)
     assert "no problems" in invoke(library, "check", "DIR").output
@@ -178,6 +179,7 @@ def test_the_cell_works_at_the_first_run(place: Path) -> None:
     assert answer["status"] == "succeeded", answer["failure"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WAYS)
 def test_what_is_wrong_is_said(name: str, place: Path) -> None:
     way = WAYS[name]
@@ -194,12 +196,14 @@ def test_what_is_wrong_is_said(name: str, place: Path) -> None:
     assert len(parts) == len(set(parts)), "nothing is said twice"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.ends != "failed"])
 def test_check_says_the_same(name: str, place: Path) -> None:
     result = invoke(written(place, WAYS[name]), "check", "DIR")
     assert result.exit_code == 1 and WAYS[name].says in result.output
 
 
+@pytest.mark.slow
 def test_what_a_device_contradicts_is_the_reason(place: Path) -> None:
     library = written(place, WAYS["part in nothing"])
     cell = (library / "cell.ttl").read_text("utf-8")

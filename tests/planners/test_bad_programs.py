@@ -52,6 +52,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("script", BROKEN)
 def test_a_bad_program_is_a_planner_that_gives_up_and_leaves_nothing(

@@ -17,6 +17,7 @@ TESTS = Path(__file__).parents[1]
 TRANSLATED = 'touch task.sas; echo "Translator axioms: 0"'
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="needs the parent death signal of Linux")
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
 def test_nothing_is_left_of_planners_when_who_asked_is_gone(how: signal.Signals, tmp_path: Path) -> None:

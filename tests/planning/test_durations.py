@@ -69,6 +69,7 @@ def last(said: str) -> str:
     return next(line for line in reversed(said.splitlines()) if re.match(r"\d+ steps?, ", line))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("planner", PLANNERS)
 @pytest.mark.parametrize(
     ("wash", "dry", "brush", "expected"),

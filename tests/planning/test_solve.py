@@ -55,6 +55,7 @@ GOALS: list[tuple[Condition, list[str]]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
 @pytest.mark.parametrize(("goal", "expected"), GOALS)
 def test_every_kind_of_goal_is_planned_for(goal: Condition, expected: list[str], planner: Planner) -> None:

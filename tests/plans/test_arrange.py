@@ -75,6 +75,7 @@ def a_sequence(arrangement: Arrangement, random: Random) -> list[int]:
     return merged
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 def test_every_sequence_that_an_arrangement_allows_leaves_the_same_world(seed: int) -> None:
     random = Random(seed)

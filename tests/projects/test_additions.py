@@ -24,6 +24,7 @@ def test_a_skill_has_no_problem(project: Path) -> None:
     assert again.exit_code == 2 and "already" in again.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "like", "edits"),
     [

@@ -29,6 +29,7 @@ def test_a_problem_is_shown_relative_to_the_current_folder(project: Path) -> Non
     assert [each["path"] for each in checked(project / "notes")] == ["../bad.skill"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["plan", "world", "compile"])
 def test_the_name_of_the_folder_means_nothing(command: str, project: Path, tmp_path: Path) -> None:
     arguments = {"plan": ["plan", "--json"], "world": ["world", "--json"], "compile": ["compile", "-o", "../out"]}
@@ -88,6 +89,7 @@ def test_a_task_of_steps_is_listed_with_the_skills_that_it_calls(project: Path) 
     assert [each["aim"] for each in listed if each["name"] == "steps"] == ["Second, First"]
 
 
+@pytest.mark.slow
 def test_tasks_are_listed_here_and_shipped(project: Path) -> None:
     listed = json.loads(call(project / "notes", "tasks", "--json").stdout)
     own = [each for each in listed if each["origin"] == "project"]

@@ -61,11 +61,13 @@ def test_the_table_has_a_row_for_each_trouble_and_the_share_that_succeeded() -> 
     assert [line.split("  ")[0] for line in format_table(trials).splitlines()[1:-1]] == ["none", "no support"]
 
 
+@pytest.mark.slow
 def test_a_cell_without_physics_is_solved(tmp_path: Path) -> None:
     trial = CaseRunner(tmp_path, "kinematic", SMALL).run(2)
     assert (trial.status, trial.verified, trial.false_claims) == ("succeeded", False, ()), trial.reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("has_camera", [False, True])
 def test_a_displaced_part_is_grasped_where_a_camera_sees_it_and_else_not(tmp_path: Path, has_camera: bool) -> None:
     cases = (draw_case(seed, SMALL) for seed in range(1, 300, 2))

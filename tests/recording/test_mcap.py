@@ -183,6 +183,7 @@ def describe_late() -> RunContents:
     return CONTENTS
 
 
+@pytest.mark.slow
 def test_a_disk_that_does_not_keep_up_ends_the_recording_and_not_the_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -72,6 +72,7 @@ def test_x_of_each_surface_lies_across_to_scale_whatever_its_longer_side_is() ->
     assert "29.0% wiped" in lying.get_title(loc="left")
 
 
+@pytest.mark.slow
 def test_not_wiped_is_in_the_legend_only_where_something_was_not() -> None:
     whole = replace(wiped(), dose=np.full((60, 80), 0.5))
     assert "not wiped" in words(render_figure(lambda: draw_figure([wiped()])).svg)
@@ -138,6 +139,7 @@ def test_each_curve_says_where_it_comes_from() -> None:
             assert name.endswith((": simulator truth", ": commanded")) or name == "half the lane speed"
 
 
+@pytest.mark.slow
 def test_the_same_drawing_gives_the_same_files() -> None:
     drawn = render_figure(lambda: draw_figure([wiped()]))
     assert drawn == render_figure(lambda: draw_figure([wiped()]))

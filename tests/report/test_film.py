@@ -99,6 +99,7 @@ def test_a_text_that_has_room_is_whole() -> None:
     assert cut.endswith("…") and draw.textlength(cut, load_font(31, True)) <= 150.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["gif", "webp"])
 def test_a_loop_is_smaller_than_its_limit_or_is_not_written(tmp_path: Path, suffix: str) -> None:
     rng, loop, file = np.random.default_rng(2), LoopPictures(), tmp_path / f"film.{suffix}"
@@ -117,6 +118,7 @@ def test_a_loop_is_smaller_than_its_limit_or_is_not_written(tmp_path: Path, suff
         assert image.size[0] < 800 and image.size[0] * 9 == pytest.approx(image.size[1] * 16, abs=16)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("x", "y"), [(0.15, 0.1), (-0.15, 0.1), (0.15, -0.1)])
 def test_the_cell_that_was_worked_is_lighter_in_the_picture_where_it_is_in_the_world(x: float, y: float) -> None:
     try:

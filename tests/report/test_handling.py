@@ -42,6 +42,7 @@ def sorted_parts() -> tuple[tuple[Handling, ...], HandlingDrawing, tuple[Placeme
     return handlings, drawing, measure_placements(cell.world, cell.ground_truth, find_targets(handlings))
 
 
+@pytest.mark.slow
 def test_each_pick_is_found_with_its_times_and_where_the_part_was_to_go() -> None:
     (one, other), _, _ = sorted_parts()
     assert (one.thing, one.arm, one.gripper) == (f"{LAB}Part-A", f"{LAB}Arm-1", f"{LAB}Hand-1")

@@ -29,6 +29,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "cell"
 
 
+@pytest.mark.slow
 def test_an_arm_like_a_shipped_one_is_used_by_a_scene(project: Path) -> None:
     added = call(project, "add", "robot", "six.urdf", "--like", "panda", "--set", "forceLimit=30", "--set", "reach=0.8")
     assert added.exit_code == 0, added.output
@@ -44,6 +45,7 @@ def test_an_arm_like_a_shipped_one_is_used_by_a_scene(project: Path) -> None:
     assert call(project, "plan", "--json").exit_code == 0
 
 
+@pytest.mark.slow
 def test_what_is_still_to_be_stated_is_listed_and_nothing_runs(project: Path) -> None:
     text = (project / "six.urdf").read_text("utf-8").replace('velocity="2"', 'velocity="0"', 1)
     (project / "six.urdf").write_text(text, "utf-8")

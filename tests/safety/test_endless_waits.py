@@ -60,6 +60,7 @@ def test_a_comment_that_explains_no_wait_is_found() -> None:
     assert find_unneeded_marks("# wait ends: with the process\nthread.join()") == []
 
 
+@pytest.mark.slow
 def test_no_wait_in_the_product_is_endless() -> None:
     assert len(FILES) > 500
     found = {file: find_endless_waits(file.read_text("utf-8")) for file in FILES}

@@ -46,6 +46,7 @@ def is_safe(there: SimulatedCell, scene: str) -> None:
     assert np.linalg.norm(arm.measured.wrench[:3]) < 3.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "phase"), list(_breaks()))
 def test_a_primitive_that_breaks_leaves_a_stiff_hold(name: str, phase: str) -> None:
     scene = scene_for(CLASSES[name], sorted(CLASSES).index(name) % 2)

@@ -95,6 +95,7 @@ def test_targets_and_paths_outside_the_workspace_are_refused_with_their_places(t
     assert "Pick" not in refused.reason, "the eraser is inside"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("task", sorted(ARMS))
 def test_a_workspace_that_holds_everything_refuses_nothing(task: str) -> None:
     assert isinstance(prepare(task), PreparedTask)

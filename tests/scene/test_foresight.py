@@ -137,6 +137,7 @@ def test_nothing_is_foreseen_of_shipped_libraries(name: str) -> None:
     assert library_checks.check_library(find_library(SHIPPED / name), None) == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("fact", "wrong", "name"),
     [

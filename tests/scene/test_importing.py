@@ -51,6 +51,7 @@ def numbers(values: object) -> str:
     return " ".join(f"{value:.9f}" for value in np.ravel(np.asarray(values, float)).tolist())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("form", ["sdf", "urdf", "mjcf"])
 def test_nested_boxes_stand_where_the_file_says(form: str, seed: int) -> None:
@@ -92,6 +93,7 @@ def test_the_origin_of_the_file_can_be_placed_and_names_stay_unique() -> None:
     assert wrong.exit_code == 2 and "--position" in wrong.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("shape", "volume", "extent"),
     [

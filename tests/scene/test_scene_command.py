@@ -80,6 +80,7 @@ def test_a_thing_is_added_at_the_end(cell: Path) -> None:
     assert (box["position"], box["angles"]) == ([-0.2, -0.15, 0.75], [0.0, 0.0, -90.0])
 
 
+@pytest.mark.slow
 def test_a_thing_of_which_nothing_says_where_it_is_stands_on_the_floor_of_the_only_workstation(tmp_path: Path) -> None:
     path = tmp_path / "own.ttl"
     assert scene("new", str(path), "--arm", "Panda").exit_code == 0
@@ -132,6 +133,7 @@ def test_moving_changes_only_the_pose(cell: Path) -> None:
     assert change(cell, "move", "Part-A", "--position", "1", "2", "3")[1:] == [f"+     skillc:yaw 30 ; {place} ."]
 
 
+@pytest.mark.slow
 def test_a_thing_in_a_frame_moves_in_it_and_from_it(cell: Path) -> None:
     change(cell, "move", "Part-B", "--position", "1", "0", "0.5")
     assert shown(cell)["lab:Part-B"]["stated"] == "in here"
@@ -151,6 +153,7 @@ def test_things_are_removed_and_everything_else_stays(cell: Path) -> None:
     assert result.stderr == "cell.ttl: lab:Table-1, lab:Part-B removed\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "code", "reason"),
     [
@@ -183,6 +186,7 @@ def test_line_ends_stay(cell: Path, ends: str) -> None:
     assert cell.read_bytes() == CELL.replace("atX 0.20", "atX 0.25").replace("\n", ends).encode()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arm", [None, "ur5e", "PANDA"])
 def test_a_new_scene_is_valid_and_can_be_shown(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arm: str | None
@@ -219,6 +223,7 @@ def test_without_a_graphics_library_it_says_so_and_draws_from_above(cell: Path) 
     assert [each.name for each in Path("out/scene").iterdir()] == ["cell.svg"]
 
 
+@pytest.mark.slow
 def test_random_edits_keep_comments_and_all_other_statements(cell: Path) -> None:
     chance, done = random.Random(15), 0
     others = [line for line in CELL.splitlines() if line.startswith(("#", "@prefix", "lab:Cell", "lab:Here"))]

@@ -56,6 +56,7 @@ def test_a_store_of_another_version_is_named(tmp_path: Path) -> None:
     assert FORMAT.startswith("skillc store")
 
 
+@pytest.mark.slow
 def test_the_line_that_a_writer_died_in_does_not_count(tmp_path: Path) -> None:
     journal = (written(tmp_path / "whole") / JOURNAL).read_bytes()
     shutil.rmtree(tmp_path / "original")

@@ -55,6 +55,7 @@ def store_at(address: str, patience_s: float = 5.0) -> SparqlStore:
     return SparqlStore(HttpEndpoint(address, "/query", "/update", TIMEOUT_S), patience_s=patience_s)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times", [1, 2])
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_passing_fault_is_not_noticed(server: str, proxy: Proxy, fault: Fault, times: int) -> None:
@@ -68,6 +69,7 @@ def test_a_passing_fault_is_not_noticed(server: str, proxy: Proxy, fault: Fault,
     assert proxy.next_fault() is None, "all faults happened"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_lasting_fault_is_told_and_over_when_it_is_over(server: str, proxy: Proxy, fault: Fault) -> None:
     model, other = model_of(store_at(proxy.address, patience_s=0.2)), model_of(store_at(server))
@@ -85,6 +87,7 @@ def test_a_lasting_fault_is_told_and_over_when_it_is_over(server: str, proxy: Pr
     assert (model.snapshot().value(iri("box"), iri("weight")) == 8.0) == ("first" in heard)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 def test_among_random_faults_nothing_is_lost_or_done_twice(server: str, proxy: Proxy, seed: int) -> None:
     chance, lock = Random(seed), threading.Lock()
@@ -197,6 +200,7 @@ MALFORMED = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("address", SECRETS)
 @pytest.mark.parametrize("fault", [*FAULTS, "moved"])
 def test_credentials_are_in_no_message(proxy: Proxy, fault: Fault, address: str) -> None:

@@ -36,6 +36,7 @@ def empty(server: str) -> str:
     return server
 
 
+@pytest.mark.slow
 @BY_ALL_SERVERS
 def test_what_is_written_is_there_for_the_next_process(empty: str) -> None:
     first = open_store(empty)

@@ -14,6 +14,7 @@ from skillc.cli.main import skillc
 PAGE = ROOT / "docs/stores.md"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("everything", [False, pytest.param(True, marks=pytest.mark.sim)])
 def test_stores_work_as_the_page_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> None:
     monkeypatch.chdir(tmp_path)

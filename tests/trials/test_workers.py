@@ -53,6 +53,7 @@ def test_every_seed_has_its_trial_whatever_happens_to_a_process() -> None:
     assert (trials[BROKEN].reason or "").startswith("ArithmeticError: nothing adds up (runners.py:")
 
 
+@pytest.mark.slow
 def test_a_trial_that_takes_too_long_is_ended_and_the_others_go_on(tmp_path: Path) -> None:
     trials = {trial.seed: trial for trial in run_in_processes(partial(Slow, tmp_path), range(4), 2, limit_s=3.0)}
     assert sorted(trials) == list(range(4))
@@ -91,6 +92,7 @@ def test_no_seeds_need_no_process() -> None:
     assert list(run_in_processes(Faulty, (), 2)) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
 def test_no_process_outlives_its_parent(number: signal.Signals, tmp_path: Path) -> None:
     file, pids = tmp_path / "parent.py", tmp_path / "pids"

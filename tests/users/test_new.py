@@ -74,6 +74,7 @@ def test_each_template_is_listed_and_another_one_is_refused(tmp_path: Path, monk
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("template", NAMES)
 def test_each_template_checks_formats_and_plans_from_any_folder(
     template: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

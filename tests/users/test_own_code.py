@@ -59,6 +59,7 @@ def check(project: Path, controller: str) -> str:
     return output
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("controller", "message"),
     [

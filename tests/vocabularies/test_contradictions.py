@@ -109,6 +109,7 @@ SOUND = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", WRONG)
 def test_what_cannot_be_is_told_at_its_line(case: str) -> None:
     text, name, line = WRONG[case]

@@ -88,6 +88,7 @@ def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
     assert world("iiwa_table", "--diff", scene).stdout == "no differences\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "reason"),
     [

@@ -13,6 +13,8 @@ from skillc.services.task_loading import TaskRequest
 from skillc_runtime.film import film
 from why.test_replay_check import edit, record, recorded, run
 
+pytestmark = pytest.mark.slow
+
 __all__ = ["recorded", "run"]
 WALL_TIMES = ("wall_time_s", "real_time_factor")
 

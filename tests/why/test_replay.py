@@ -56,6 +56,7 @@ def test_a_pace_is_positive(run: Path, pace: float) -> None:
         api.open_run(run).replay(pace)
 
 
+@pytest.mark.slow
 def test_keys_pause_and_step_a_replay(run: Path) -> None:
     command = (sys.executable, "-m", "skillc", "replay", str(run), "--pace", "0.1")
     with Terminal(command, ENVIRONMENT) as terminal:

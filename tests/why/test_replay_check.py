@@ -19,6 +19,8 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import TaskRequest, load_task
 
+pytestmark = pytest.mark.slow
+
 
 def check(*arguments: object) -> Result:
     result = CliRunner().invoke(skillc, ["replay", "--check", *map(str, arguments)])

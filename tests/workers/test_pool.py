@@ -49,6 +49,7 @@ def busy(workers: Workers, snapshot: bytes) -> asyncio.Task[QueryRows]:
     return asyncio.create_task(workers.answer(ENDLESS, snapshot, QueryRows, LIMIT_S))
 
 
+@pytest.mark.slow
 def test_a_process_is_kept_until_nobody_waits_for_its_answer(snapshot: bytes, started: list[WorkerProcess]) -> None:
     async def leave(workers: Workers) -> None:
         for _ in range(2):

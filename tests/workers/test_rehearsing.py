@@ -30,6 +30,7 @@ def run_until_held(host: CellHost) -> None:
     assert gripper.counted
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("backend", "filmed"), [("kinematic", False), pytest.param("mujoco", True, marks=pytest.mark.sim)]
 )

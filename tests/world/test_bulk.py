@@ -68,6 +68,7 @@ def test_shipped_scenes_are_read_quickly_and_alike(name: str, shipped: Vocabular
     assert found is not None and everything(found) == everything(read_documents(documents, shipped).state)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_wrong_with_a_changed_scene_is_never_passed_over(name: str, shipped: Vocabulary) -> None:
     text = catalogue.scene_path(name).read_text("utf-8")

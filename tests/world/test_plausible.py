@@ -93,6 +93,7 @@ MISTAKES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("old", "new", "name", "words", "cure"), MISTAKES)
 def test_a_mistake_is_reported_at_its_line(
     tmp_path: Path, old: str, new: str, name: str, words: str, cure: str

@@ -53,6 +53,7 @@ def test_no_number_or_text_is_changed(number: float, texts: list[str]) -> None:
     assert sorted(found.value(iri("box"), iri("label"))) == sorted(labels)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", catalogue.scene_names())
 def test_shipped_scenes_come_back_with_labels_and_without_data_sheets(name: str) -> None:
     vocabulary = libraries.load_vocabulary()
