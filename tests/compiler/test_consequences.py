@@ -220,6 +220,19 @@ def test_what_a_syntax_error_removed_is_not_unknown() -> None:
     assert [(d.name, d.span.line) for d in problems(text)] == [("syntax", 2)]
 
 
+def test_a_declaration_that_lost_its_name_had_one() -> None:
+    nameless = HEADER + skill("").replace("skill  {", "skill {") + RUN.format("Go")
+    assert [(d.name, d.span.line) for d in problems(nameless)] == [("syntax", 2)]
+    found = problems(nameless + RUN.format("Go").replace("one", "other") + RUN.format("Hold"))
+    assert [(d.name, d.span.line) for d in found] == [("syntax", 2), ("unknown-skill", 12)]
+
+
+def test_an_implementation_that_is_broken_declares_no_relation() -> None:
+    text = f"{HEADER}skill Go {{\n in arm: ArmDevice\n pre arm leansAgainst arm\n noplan\n}}\n"
+    found = problems(text + RUN.format("Go").replace("{\n run", "run {\n"))
+    assert [(d.name, d.span.line) for d in found] == [("unknown-relation", 4), ("syntax", 7)]
+
+
 def test_a_removed_parameter_of_a_function_is_one_error_for_all_its_calls() -> None:
     text = (
         f'{HEADER}function middle(arm: ArmDevice) -> Pose = python "skillc_runtime.world.places:across"\n'

@@ -10,8 +10,8 @@ from typing import TypeAlias
 
 from skillc_compiler.diagnostics.orphans import Orphans
 from skillc_compiler.program.typed import ParsedFile, Program
-from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownName
-from skillc_compiler.program.written import skill_of
+from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
+from skillc_compiler.program.written import names_declared_in, skill_of
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
@@ -20,6 +20,16 @@ Key: TypeAlias = tuple[object, ...]
 
 MOST_PLACES = 3
 """The maximum number of further places that are shown of names that one line would make visible."""
+_KEYWORDS: Mapping[UnknownKind, str] = {
+    "class": "class",
+    "type": "class",
+    "relation": "relation",
+    "property": "property",
+    "function": "function",
+    "skill": "skill",
+    "implementation": "impl",
+}
+"""What begins the declaration of a name of a kind."""
 _WORD = re.compile(r"[\w-]+")
 _COMMENT = re.compile(r"#[^\n]*")
 
@@ -33,6 +43,8 @@ def report_unknown_names(program: Program) -> Iterator[Diagnostic]:
     for unknown in program.unknown:
         if not program.lost.explains(unknown):
             groups[_key(unknown)].append(unknown)
+    for key in tuple(_find_renamed(program, groups)):
+        del groups[key]
     times = _count_words(program.files) if any(len(group) > 1 for group in groups.values()) else {}
     calls: set[Key] = set()
     orphans = Orphans(program)
@@ -42,6 +54,24 @@ def report_unknown_names(program: Program) -> Iterator[Diagnostic]:
         if not first.passed or call not in calls:
             yield _report(group, orphans, times)
         calls |= {call} if first.passed else set()
+
+
+def _find_renamed(program: Program, groups: Mapping[Key, Sequence[UnknownName]]) -> Iterator[Key]:
+    """Yield the keys of names whose declarations an error may have given another name, one for each such declaration.
+
+    Of several names, those are meant that are declared nowhere else, and used most often.
+    """
+    renamed = [key for key, group in groups.items() if program.lost.may_be_renamed(group[0])]
+    if len(renamed) > 1:
+        declarations = (each for unit in program.files for each in unit.file.declarations)
+        declared = {name.text for each in declarations for name in names_declared_in(each)}
+        renamed.sort(key=lambda key: (groups[key][0].written.text in declared, -len(groups[key])))
+    left = [*program.lost.nameless, *("" for _ in program.lost.twice)]
+    for key in renamed:
+        keyword = next((each for each in (_KEYWORDS.get(groups[key][0].kind), "") if each in left), None)
+        if keyword is not None:
+            left.remove(keyword)
+            yield key
 
 
 def _first_place(group: Sequence[UnknownName]) -> Span:

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from enum import IntEnum
 from functools import cached_property
 
 from skillc_compiler.program.spans import DisjointSpans, SpanIndex, is_within_lines
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.unknown import LIBRARY
-from skillc_compiler.program.written import calls_of, skill_of
+from skillc_compiler.program.written import calls_of, names_declared_in, skill_of
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -136,7 +136,7 @@ class Marks:
     def _meant(self) -> frozenset[Span]:
         """The declared names that unknown names probably mean, so that they may be used."""
         meant = {name for unknown in self._program.unknown for name in unknown.close}
-        names = (name for d in self._declarations for name in _declared_names(d)) if meant else ()
+        names = (name for d in self._declarations for name in names_declared_in(d)) if meant else ()
         return frozenset(name.span for name in names if name.text in meant)
 
     @cached_property
@@ -213,11 +213,3 @@ class Marks:
 
     def _lines_of(self, span: Span) -> str:
         return "\n".join(self._texts.get(span.path, [])[span.line - 1 : span.end_line])
-
-
-def _declared_names(declaration: s.Declaration) -> Iterator[s.Name]:
-    """Yield the name of a declaration, and those that its members declare."""
-    yield declaration.name
-    if isinstance(declaration, s.SkillDeclaration | s.ImplementationDeclaration):
-        kinds = s.Parameter | s.Let | s.Refinement
-        yield from (member.name for member in declaration.members if isinstance(member, kinds))

@@ -74,16 +74,18 @@ class LostNames:
     """What other errors may have removed: names by skill and of the library, and lines from the headers of files.
 
     `declarations` are the files of which whole declarations may be missing; `twice` are the names that are declared
-    more than once.
+    more than once. `nameless` has the keywords of declarations of the library that may have another name, empty where
+    the keyword may be another one, too.
     """
 
     names: Mapping[str, frozenset[str]] = field(default_factory=dict)
     headers: frozenset[str] = frozenset()
     declarations: frozenset[str] = frozenset()
     twice: frozenset[str] = frozenset()
+    nameless: tuple[str, ...] = ()
 
     def explains(self, unknown: UnknownName) -> bool:
-        """Whether the declaration of a name, or the line that makes it visible, may be what is missing."""
+        """Whether errors have removed a name, or may have removed the line that makes it visible."""
         if unknown.owner is None:
             return False
         if unknown.passed and unknown.owner in self.twice:
@@ -92,15 +94,21 @@ class LostNames:
         lost = self.names.get(unknown.owner, frozenset()) | self.names.get(LIBRARY, frozenset())
         if text in lost or unknown.written.text in lost:
             return True
-        if unknown.kind == "implementation" and self.declarations:
-            return not unknown.is_misspelt
+        if self.may_be_renamed(unknown) or unknown.is_misspelt:
+            return False
         if unknown.owner != LIBRARY:
-            return unknown.owner in self.names and not unknown.is_misspelt
-        if unknown.written.span.path in self.headers and not unknown.is_misspelt:
-            return True
-        missing = bool(self.declarations or self.twice)
-        is_lost = unknown.line is None or unknown.written.span.path in self.declarations
-        return missing and is_lost and not unknown.is_misspelt
+            return unknown.owner in self.names
+        return unknown.written.span.path in self.headers
+
+    def may_be_renamed(self, unknown: UnknownName) -> bool:
+        """Whether one of the `nameless` declarations, or of those that are there `twice`, may be that of a name."""
+        if unknown.is_misspelt:
+            return False
+        if unknown.owner != LIBRARY:
+            return unknown.kind == "implementation" and bool(self.declarations)
+        path = unknown.written.span.path
+        is_lost = unknown.line is None or path in self.declarations
+        return path not in self.headers and is_lost and bool(self.declarations or self.twice)
 
 
 def find_lost(files: Sequence[s.File]) -> LostNames:
@@ -116,6 +124,7 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
     headers: set[str] = set()
     outside: set[str] = set()
     broken: set[str] = set()
+    keywords: list[str | None] = []
     for file in files:
         for error in file.errors:
             owner = next((d for d in file.declarations if is_within_lines(error.span, d.span)), None)
@@ -125,18 +134,34 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
                 case s.TaskDeclaration(name=name):
                     names[f"task {name.text}"] |= error.names
                     broken.add(name.text)
-                case None if _is_in_header(error, file.declarations):
+                case None if _is_in_header(error, file):
                     headers.add(file.path)
                 case _:
                     pass
             if owner is None:
                 outside.add(file.path)
+                keywords.append(error.keyword)
                 names[LIBRARY] |= error.names
     names[LIBRARY] = (names[LIBRARY] - skills) | broken
     return LostNames(
-        {owner: frozenset(found) for owner, found in names.items()}, frozenset(headers), frozenset(outside)
+        {owner: frozenset(found) for owner, found in names.items()},
+        frozenset(headers),
+        frozenset(outside),
+        nameless=_find_nameless(keywords),
     )
 
 
-def _is_in_header(error: s.ErrorNode, declarations: Sequence[s.Declaration]) -> bool:
-    return all(error.span.line < declaration.span.line for declaration in declarations)
+def _is_in_header(error: s.ErrorNode, file: s.File) -> bool:
+    """Whether an error is above all declarations, and not in one that was dropped."""
+    line = error.span.line
+    dropped = any(each.keyword and each.span.line == line for each in file.errors)
+    return not dropped and all(line < declaration.span.line for declaration in file.declarations)
+
+
+def _find_nameless(keywords: Sequence[str | None]) -> tuple[str, ...]:
+    """Return the keywords of what was dropped, and an empty one for each syntax error at which nothing was.
+
+    An error with None stands for each syntax error, and one with a keyword for what was dropped there.
+    """
+    dropped = [each for each in keywords if each is not None]
+    return (*dropped, *("" for _ in range(len(keywords) - 2 * len(dropped))))

@@ -36,3 +36,11 @@ def calls_of(declaration: s.Declaration) -> Iterator[s.CallSkill]:
                 todo += node.children
             case s.Wait() | s.WaitUntil() | s.CheckNode() | s.ApplyPosts():
                 pass
+
+
+def names_declared_in(declaration: s.Declaration) -> Iterator[s.Name]:
+    """Yield the name of a declaration, and those that its members declare."""
+    yield declaration.name
+    if isinstance(declaration, s.SkillDeclaration | s.ImplementationDeclaration):
+        kinds = s.Parameter | s.Let | s.Refinement
+        yield from (member.name for member in declaration.members if isinstance(member, kinds))

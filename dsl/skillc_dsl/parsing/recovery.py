@@ -223,9 +223,12 @@ class Recovery:
 
     def _leave_error(self, index: int, skipped: Sequence[Token]) -> None:
         """Record the error at `index`, with the names in the tokens that were dropped or skipped."""
-        words = (str(token).rstrip(":") for token in (*self._dropped, *skipped))
+        tokens = (*self._dropped, *skipped)
+        words = (str(token).rstrip(":") for token in tokens)
         names = frozenset(word for word in words if word.replace(":", "_").isidentifier())
-        self.errors.append(s.ErrorNode(token_span(self.tokens[index], self.path), names))
+        span = token_span(self.tokens[index], self.path)
+        here = [str(token) for token in tokens if token.type in DECLARATIONS and token.line == span.line]
+        self.errors.append(s.ErrorNode(span, names, here[-1] if here else ""))
         self._dropped.clear()
 
     def _drop(self, level: int) -> None:

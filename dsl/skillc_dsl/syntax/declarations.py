@@ -152,10 +152,15 @@ Declaration: TypeAlias = (
 
 
 class ErrorNode(msgspec.Struct, frozen=True):
-    """A place with a syntax error, and the names in what was dropped there: whatever declares them may be missing."""
+    """A place with a syntax error, and the names in what was dropped there: whatever declares them may be missing.
+
+    `keyword` is that of the declaration in which something was dropped, empty if that is not clear; None if nothing
+    was dropped.
+    """
 
     span: Span
     names: frozenset[str] = frozenset()
+    keyword: str | None = None
 
 
 class File(msgspec.Struct, frozen=True):
