@@ -67,4 +67,4 @@ async def language_server(environment: Mapping[str, str], folder: str) -> AsyncI
     finally:
         with suppress(ProcessLookupError):
             process.kill()
-        await process.wait()  # wait ends: it was killed
+        await process.communicate()  # wait ends: it was killed; `wait` alone never ends while there is output to read
