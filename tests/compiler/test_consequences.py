@@ -281,3 +281,59 @@ def test_an_output_without_a_value_is_one_error_where_it_is_read() -> None:
     text += "impl one of Go {\n do seq {\n  Weigh()\n  if mass > 1 g {\n   wait 1 s\n  }\n }\n}\n"
     errors = [found.name for found in problems(text) if found.severity == "error"]
     assert errors == ["out-unassigned"]
+
+
+SHARED = """\
+use rparts, skillc
+skill Fill {
+    in  arm:   ArmDevice
+    opt limit: Mass
+    out mass:  Mass
+    post done: arm.deviceState == Idle
+    noplan
+}
+impl once of Fill {
+    do seq {
+        Measure(arm) -> mass
+        if given limit {
+            check(limit > 1 g)
+        }
+        apply done
+    }
+}
+impl twice of Fill {
+    prefer 1
+    do seq {
+        Measure(arm) -> mass
+        apply done
+    }
+}
+skill Measure {
+    in  arm:  ArmDevice
+    out mass: Mass
+    noplan
+}
+impl one of Measure { run python "skillc.primitives:StandIn" }
+skill Ask {
+    in  arm: ArmDevice
+    post arm.deviceState == Idle
+    noplan
+}
+impl one of Ask { do Fill(arm) -> mass }
+"""
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "found"),
+    [
+        ("given limit {", "given limmit {", ("unknown-parameter", 12)),
+        ("    post done: arm.deviceState == Idle\n    noplan", "    noplan", ("unknown-label", 14)),
+        ("out mass:  Mass\n    post", "out maass:  Mass\n    post", ("out-never-assigned", 9)),
+    ],
+)
+def test_what_several_implementations_or_callers_miss_is_one_error(
+    before: str, after: str, found: tuple[str, int]
+) -> None:
+    assert problems(SHARED) == []
+    wrong = SHARED.replace(before, after, 1)
+    assert [(d.name, d.span.line) for d in problems(wrong) if d.severity == "error"] == [found]

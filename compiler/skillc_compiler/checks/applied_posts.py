@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Requirement, TypedNode
+from skillc_compiler.program.typed import Program, Requirement, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -22,30 +22,38 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for implementation in program.implementations:
         if isinstance(implementation.body, TypedNode):
             requirements = (*implementation.skill.requirements, *implementation.requirements)
-            yield from _check_labels(implementation.body, requirements)
+            yield from _check_labels(implementation.body, requirements, implementation.skill)
     for task in program.tasks:
         if task.body:
-            yield from _check_labels(task.body, [])
+            yield from _check_labels(task.body, ())
 
 
-def _check_labels(body: TypedNode, requirements: Sequence[Requirement]) -> Iterator[Diagnostic]:
+def _check_labels(
+    body: TypedNode, requirements: Sequence[Requirement], skill: Skill | None = None
+) -> Iterator[Diagnostic]:
     labelled = {each.label.text: each for each in requirements if each.label}
     for node in nodes_in(body):
         if isinstance(node.written, s.ApplyPosts):
             for name in node.written.labels:
-                yield from _check_label(name, labelled)
+                yield from _check_label(name, labelled, skill)
 
 
-def _check_label(name: s.Name, labelled: Mapping[str, Requirement]) -> Iterator[Diagnostic]:
+def _check_label(name: s.Name, labelled: Mapping[str, Requirement], skill: Skill | None) -> Iterator[Diagnostic]:
     found = labelled.get(name.text)
     if found is None or found.kind != "post":
         posts = [label for label, each in labelled.items() if each.kind == "post"]
+        meant = did_you_mean(name.text, posts)
+        labels: tuple[Label, ...] = ()
+        if found is not None:
+            labels = (Label(found.span, f"this is a `{found.kind}`", is_cause=True),)
+        elif skill is not None and not meant:
+            labels = (Label(skill.name_span, f"`{skill.name}` has no such post", is_cause=True),)
         yield Diagnostic(
             "unknown-label",
             name.span,
             f"no post has the label `{name.text}`",
-            help=did_you_mean(name.text, posts) or f"label the post: `post {name.text}: ..`",
-            labels=(Label(found.span, f"this is a `{found.kind}`", is_cause=True),) if found else (),
+            help=meant or f"label the post: `post {name.text}: ..`",
+            labels=labels,
         )
     elif found.sensed:
         yield Diagnostic(

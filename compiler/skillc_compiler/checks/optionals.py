@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
@@ -18,6 +18,7 @@ from skillc_compiler.program.typed import (
 from skillc_compiler.program.walk import implementation_values, node_values, skill_values, values_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.spelling import close_names
 from skillc_model.conditions import And, Given, Not, Or, Variable
 
 NAMES = ("unset-optional",)
@@ -41,7 +42,7 @@ def _report(parameters: Sequence[Parameter], read: Iterator[tuple[TypedExpressio
         return
     for value, guards in read:
         name = value.meaning.name if isinstance(value.meaning, Variable) else ""
-        if name in unset and name not in guards:
+        if name in unset and name not in guards and not _is_misspelt(name, guards, unset):
             yield Diagnostic(
                 "unset-optional",
                 value.span,
@@ -49,6 +50,11 @@ def _report(parameters: Sequence[Parameter], read: Iterator[tuple[TypedExpressio
                 help=f"give it a default, or read it only under `given {name}`",
                 labels=(Label(unset[name].span, "declared without a default", is_cause=True),),
             )
+
+
+def _is_misspelt(name: str, guards: Guards, unset: Collection[str]) -> bool:
+    """Whether a guard is no parameter, and probably means one of this name."""
+    return any(name in close_names(guard, unset) for guard in guards if guard not in unset)
 
 
 def _in_skill(skill: Skill) -> Iterator[tuple[TypedExpression, Guards]]:

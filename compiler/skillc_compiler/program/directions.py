@@ -15,16 +15,17 @@ def find_right_directions(program: Program) -> frozenset[Span]:
     """Return the places of these parameters.
 
     An optional one is left out of a call or asked for with `given`, an output is taken or assigned, another one is
-    passed by most calls.
+    passed by most calls. An output to which no body gives a value may have another name there.
     """
     uses = Counter(use for call in all_calls(program) if call.skill for use in _uses(call, call.skill))
     found = {span for span, is_right in uses if is_right and uses[span, True] > uses[span, False]}
     for skill in program.skills.values():
         asked = {name for each in skill.requirements for name in _asked(conditions_in(each.condition))}
         found |= {each.span for each in skill.parameters if each.direction == "opt" and each.name in asked}
-    for implementation in program.implementations:
-        found |= set(_used_in(implementation))
-    return frozenset(found)
+    used = {span for each in program.implementations for span in _used_in(each)}
+    bodies = (each.skill for each in program.implementations if isinstance(each.body, TypedNode))
+    outputs = {each.span for skill in bodies for each in skill.parameters if each.direction == "out"}
+    return frozenset((found - outputs) | used)
 
 
 def _uses(call: Call, skill: Skill) -> Iterator[tuple[Span, bool]]:
