@@ -293,11 +293,13 @@ skill Fill {
     noplan
 }
 impl once of Fill {
+    let least = 1 g
     do seq {
         Measure(arm) -> mass
         if given limit {
             check(limit > 1 g)
         }
+        check(mass > 2 * least)
         apply done
     }
 }
@@ -326,8 +328,9 @@ impl one of Ask { do Fill(arm) -> mass }
 @pytest.mark.parametrize(
     ("before", "after", "found"),
     [
-        ("given limit {", "given limmit {", ("unknown-parameter", 12)),
-        ("    post done: arm.deviceState == Idle\n    noplan", "    noplan", ("unknown-label", 14)),
+        ("given limit {", "given limmit {", ("unknown-parameter", 13)),
+        ("let least", "let limit", ("duplicate-name", 10)),
+        ("    post done: arm.deviceState == Idle\n    noplan", "    noplan", ("unknown-label", 16)),
         ("out mass:  Mass\n    post", "out maass:  Mass\n    post", ("out-never-assigned", 9)),
     ],
 )

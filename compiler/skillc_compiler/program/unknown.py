@@ -35,7 +35,8 @@ class UnknownName(msgspec.Struct, frozen=True, dict=True):
 
     `candidates` could stand in its place; `otherwise` is the help if none is close. `owner` is the skill or `task NAME`
     that should declare it, LIBRARY, or None if there is nothing to declare. `line` is what its file lacks, if that is
-    known. `passed` if it is the name of an argument.
+    known. `passed` if it is the name of an argument, `repeats` if it may be meant where another name is declared a
+    second time.
     """
 
     kind: UnknownKind
@@ -47,6 +48,7 @@ class UnknownName(msgspec.Struct, frozen=True, dict=True):
     owner: str | None = None
     line: HeaderLine | None = None
     passed: bool = False
+    repeats: bool = False
 
     @property
     def diagnostic(self) -> str:
@@ -88,7 +90,7 @@ class LostNames:
         """Whether errors have removed a name, or may have removed the line that makes it visible."""
         if unknown.owner is None:
             return False
-        if unknown.passed and unknown.owner in self.twice:
+        if (unknown.passed and unknown.owner in self.twice) or (unknown.repeats and not unknown.close):
             return True
         text = unknown.written.text.rpartition(":")[2]
         lost = self.names.get(unknown.owner, frozenset()) | self.names.get(LIBRARY, frozenset())

@@ -36,11 +36,13 @@ class Scope:
     """Local names; `owner` is what they belong to, as shown in messages: "skill `Pick`".
 
     `skill` is the skill that declares the parameters among them, `task NAME` for a task; None if nothing does.
+    `repeats` if a name was taken when it was declared: another one may be meant there.
     """
 
     owner: str
     variables: Mapping[str, LocalName] = field(default_factory=dict)
     skill: str | None = None
+    repeats: bool = False
 
     def with_name(self, name: str, variable: LocalName) -> Scope:
         """Return the scope with one more name."""
@@ -74,11 +76,14 @@ class FileContext:
         *labels: Label,
         owner: str | None = None,
         passed: bool = False,
+        repeats: bool = False,
     ) -> None:
-        """Record that a name is unknown; `owner` is the skill that should declare it, `passed` if it is an argument."""
-        self.names.unknown.append(
-            UnknownName(kind, wrong, message, tuple(candidates), otherwise, labels, owner, passed=passed)
-        )
+        """Record that a name is unknown; `owner` is the skill that should declare it, `passed` if it is an argument.
+
+        `repeats` if it may be meant where another name is declared a second time.
+        """
+        found = UnknownName(kind, wrong, message, tuple(candidates), otherwise, labels, owner, None, passed, repeats)
+        self.names.unknown.append(found)
 
     def bind(self, scope: Scope, name: s.Name, variable: LocalName) -> Scope:
         """Return the scope with a new name; a name that is taken is reported.
@@ -94,5 +99,6 @@ class FileContext:
                 "choose another name",
                 Label(former.span, "declared here", is_cause=variable.origin == "output"),
             )
-            return scope.with_name(name.text, structs.replace(former, type=UNKNOWN, is_assigned=True))
+            known = scope.with_name(name.text, structs.replace(former, type=UNKNOWN, is_assigned=True))
+            return replace(known, repeats=True)
         return scope.with_name(name.text, variable)

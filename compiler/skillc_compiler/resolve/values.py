@@ -107,6 +107,7 @@ def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, 
         fitting,
         "an individual is written with its prefix: `lab:Board-1`",
         owner=scope.skill,
+        repeats=scope.repeats,
     )
 
 
