@@ -340,3 +340,9 @@ def test_what_several_implementations_or_callers_miss_is_one_error(
     assert problems(SHARED) == []
     wrong = SHARED.replace(before, after, 1)
     assert [(d.name, d.span.line) for d in problems(wrong) if d.severity == "error"] == [found]
+
+
+def test_a_relation_with_the_name_of_a_skill_hides_no_unknown_name() -> None:
+    text = f"{HEADER}relation Go(ArmDevice, Location)\nskill Go {{\n in arm: ArmDevice\n pre arm leansAgainst arm\n"
+    found = problems(text + " noplan\n}\n" + RUN.format("Go"))
+    assert [d.name for d in found if d.severity == "error"] == ["unknown-relation"]

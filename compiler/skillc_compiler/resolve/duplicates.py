@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from typing import assert_never
+from typing import NamedTuple, TypeAlias
 
 from msgspec import structs
 
@@ -13,28 +12,42 @@ from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations
 from skillc_compiler.resolve.names import KINDS
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
+from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 
+_Problem: TypeAlias = tuple[str, str, Diagnostic]
+"""The kind and the name of a declaration, and what is wrong with it."""
 
-def remove_duplicates(
-    files: Sequence[ParsedFile], declared: Mapping[str, FileDeclarations]
-) -> Outcome[tuple[ParsedFile, ...]]:
-    """Return the files with the first skill, implementation and task of each name; report the others.
+
+class UniqueDeclarations(NamedTuple):
+    """The files with the first skill, implementation and task of each name, and the problems with the others.
+
+    `twice` are the names of the terms, functions and skills with a problem: it is not clear which of the two is meant.
+    """
+
+    files: tuple[ParsedFile, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    twice: frozenset[str]
+
+
+def remove_duplicates(files: Sequence[ParsedFile], declared: Mapping[str, FileDeclarations]) -> UniqueDeclarations:
+    """Keep the first skill, implementation and task of each name; report the others.
 
     Nothing is reported of a declaration with a syntax error, as a line that was typed twice may be all there is of it.
     Implementations that follow a second skill of a name in its file were written for it, so they are removed with it.
     Second declarations of terms and functions stay, as they add to the first.
     """
     first: dict[tuple[str, ...], Span] = {}
-    problems: list[Diagnostic] = []
+    problems: list[_Problem] = []
     broken = {name for unit in files for name in _incomplete(unit.file)}
     kept = []
     for unit in files:
         declarations = tuple(_first_declarations(unit.file, declared[unit.file.path], first, problems))
         kept.append(structs.replace(unit, file=structs.replace(unit.file, declarations=declarations)))
-    whole = (each for each in problems if broken.isdisjoint({each.span, *(label.span for label in each.labels)}))
-    return Outcome(tuple(kept), tuple(whole))
+    found = (problem for _, _, problem in problems)
+    whole = (each for each in found if broken.isdisjoint({each.span, *(label.span for label in each.labels)}))
+    twice = frozenset(name for kind, name, _ in problems if kind not in ("implementation", "task"))
+    return UniqueDeclarations(tuple(kept), tuple(whole), twice)
 
 
 def _incomplete(file: s.File) -> Iterator[Span]:
@@ -44,33 +57,8 @@ def _incomplete(file: s.File) -> Iterator[Span]:
             yield declaration.name.span
 
 
-def find_twice(files: Sequence[ParsedFile]) -> frozenset[str]:
-    """Return the names that are declared more than once: it is not clear which declaration is meant.
-
-    Relations and properties may be declared for several classes.
-    """
-    kinds: dict[str, list[object]] = defaultdict(list)
-    for declaration in (d for unit in files for d in unit.file.declarations):
-        match declaration:
-            case s.RelationDeclaration(name=name, domain=domain, range=range_):
-                kinds[name.text].append(("relation", domain.text, range_.text))
-            case s.PropertyDeclaration(name=name, domain=domain):
-                kinds[name.text].append(("property", domain.text))
-            case s.ClassDeclaration(name=name) | s.FunctionDeclaration(name=name) | s.SkillDeclaration(name=name):
-                kinds[name.text].append(type(declaration))
-            case s.ImplementationDeclaration() | s.TaskDeclaration():
-                pass
-            case _:
-                assert_never(declaration)
-    return frozenset(name for name, each in kinds.items() if len(each) > len({*each}) or len({*map(_kind, each)}) > 1)
-
-
-def _kind(key: object) -> object:
-    return key[0] if isinstance(key, tuple) else key
-
-
 def _first_declarations(
-    file: s.File, declared: FileDeclarations, first: dict[tuple[str, ...], Span], problems: list[Diagnostic]
+    file: s.File, declared: FileDeclarations, first: dict[tuple[str, ...], Span], problems: list[_Problem]
 ) -> Iterator[s.Declaration]:
     """Yield the declarations that stay; the place of each is added to `first`."""
     second_skills: set[str] = set()
@@ -78,11 +66,11 @@ def _first_declarations(
         if isinstance(declaration, s.ImplementationDeclaration) and declaration.skill.text in second_skills:
             continue
         key, name = _identity(declaration, declared), declaration.name
-        problems += _other_kinds(key, name, first)
+        problems += ((key[0], name.text, problem) for problem in _other_kinds(key, name, first))
         if first.setdefault(key, name.span) == name.span:
             yield declaration
             continue
-        problems.append(_problem(key[0], name, first[key]))
+        problems.append((key[0], name.text, _problem(key[0], name, first[key])))
         match declaration:
             case s.SkillDeclaration():
                 second_skills.add(name.text)

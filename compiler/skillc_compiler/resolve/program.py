@@ -18,7 +18,7 @@ from skillc_compiler.resolve.declarations import (
     merge_imported,
     prefixes_in,
 )
-from skillc_compiler.resolve.duplicates import find_twice, remove_duplicates
+from skillc_compiler.resolve.duplicates import remove_duplicates
 from skillc_compiler.resolve.implementations import resolve_implementation
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.memo import NOTHING, Findings, ResolveMemo, Resolver
@@ -51,9 +51,9 @@ def resolve_program(
     read = memo.keep_declarations(read)
     bare = bare_names_in(read, base, memo.bare)
     declared = collect_declarations(read, base, bare)
-    repeats = remove_duplicates(read, declared)
-    files = repeats.value
-    lost = replace(_find_lost(read, base), twice=find_twice(read))
+    unique = remove_duplicates(read, declared)
+    files = unique.files
+    lost = replace(_find_lost(read, base), twice=unique.twice)
     names = _names(files, declared, bare, base, memo)
     vocabulary, of_terms = _terms(files, declared, names, base, memo)
     resolver = Resolver(memo, {path: [found] for path, found in of_terms.items()})
@@ -73,7 +73,7 @@ def resolve_program(
         lost=lost,
     )
     problems = (problem for found in resolver.found.values() for each in found for problem in each.problems)
-    return Outcome(program, (*_headers(files, base), *repeats.diagnostics, *problems))
+    return Outcome(program, (*_headers(files, base), *unique.diagnostics, *problems))
 
 
 def _terms(
