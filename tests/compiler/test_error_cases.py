@@ -53,7 +53,6 @@ def found(path: Path) -> list[tuple[int, str, str]]:
     return [(d.span.line, d.name, f"{d.message} | {d.help}") for d in diagnostics_of(path, path.read_text())]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_case(path: Path) -> None:
     lines = path.read_text().split("\n")

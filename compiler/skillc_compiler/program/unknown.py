@@ -126,7 +126,7 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
     headers: set[str] = set()
     outside: set[str] = set()
     broken: set[str] = set()
-    keywords: list[str | None] = []
+    wrong, dropped = 0, list[str]()
     for file in files:
         for error in file.errors:
             owner = next((d for d in file.declarations if is_within_lines(error.span, d.span)), None)
@@ -142,14 +142,15 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
                     pass
             if owner is None:
                 outside.add(file.path)
-                keywords.append(error.keyword)
+                wrong += error.keyword is None
+                dropped += () if error.keyword is None else (error.keyword,)
                 names[LIBRARY] |= error.names
     names[LIBRARY] = (names[LIBRARY] - skills) | broken
     return LostNames(
         {owner: frozenset(found) for owner, found in names.items()},
         frozenset(headers),
         frozenset(outside),
-        nameless=_find_nameless(keywords),
+        nameless=(*dropped, *([""] * (wrong - len(dropped)))),  # each drop has a syntax error beside it
     )
 
 
@@ -158,12 +159,3 @@ def _is_in_header(error: s.ErrorNode, file: s.File) -> bool:
     line = error.span.line
     dropped = any(each.keyword and each.span.line == line for each in file.errors)
     return not dropped and all(line < declaration.span.line for declaration in file.declarations)
-
-
-def _find_nameless(keywords: Sequence[str | None]) -> tuple[str, ...]:
-    """Return the keywords of what was dropped, and an empty one for each syntax error at which nothing was.
-
-    An error with None stands for each syntax error, and one with a keyword for what was dropped there.
-    """
-    dropped = [each for each in keywords if each is not None]
-    return (*dropped, *("" for _ in range(len(keywords) - 2 * len(dropped))))

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
 from skillc_compiler.program.types import UNKNOWN, Type, fits
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
 from skillc_dsl import syntax as s
@@ -67,14 +68,16 @@ def _report_argument(
     needed = [each for each in free if (found := skill.parameter(each)) and found.direction == "in"]
     is_value = own is not None and len(needed) == 1 and not close_names(name, free)
     context.report_unknown(
-        "argument",
-        argument.name,
-        f"the skill `{skill.name}` has no parameter `{name}`",
-        () if is_value else free,
-        f"write `{needed[0]}: {name}`" if is_value else f"it takes {_format_parameters(skill)}",
-        Label(skill.name_span, "declared here"),
-        owner=skill.name,
-        passed=True,
+        UnknownName(
+            "argument",
+            argument.name,
+            f"the skill `{skill.name}` has no parameter `{name}`",
+            () if is_value else tuple(free),
+            f"write `{needed[0]}: {name}`" if is_value else f"it takes {_format_parameters(skill)}",
+            (Label(skill.name_span, "declared here"),),
+            owner=skill.name,
+            passed=True,
+        )
     )
 
 
@@ -96,7 +99,7 @@ def _implementation(context: FileContext, written: s.CallSkill, skill: Skill | N
     known = context.implementations.get(skill.name) or ()
     if name.text not in known:
         message = f"the skill `{skill.name}` has no implementation `{name.text}`"
-        context.report_unknown("implementation", name, message, known, owner=skill.name)
+        context.report_unknown(UnknownName("implementation", name, message, tuple(known), owner=skill.name))
     return name.text
 
 

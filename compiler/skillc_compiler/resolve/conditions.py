@@ -8,6 +8,7 @@ from typing import assert_never
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.typed import TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
 from skillc_dsl import syntax as s
@@ -207,9 +208,9 @@ def _resolve_given(context: FileContext, scope: Scope, name: s.Name, span: Span)
         label = Label(known.span, "declared here", is_cause=True)
         context.report("out-unassigned", name.span, message, "declare it with `opt`", label)
     elif known is None or known.origin != "parameter":
-        parameters = [n for n, v in scope.variables.items() if v.origin == "parameter"]
-        message = f"{scope.owner} has no parameter `{name.text}`"
-        context.report_unknown("parameter", name, message, parameters, "declare it with `opt`", owner=scope.skill)
+        parameters = tuple(n for n, v in scope.variables.items() if v.origin == "parameter")
+        message, help_ = f"{scope.owner} has no parameter `{name.text}`", "declare it with `opt`"
+        context.report_unknown(UnknownName("parameter", name, message, parameters, help_, owner=scope.skill))
     return TypedCondition(Given(name.text), span)
 
 

@@ -8,6 +8,7 @@ from msgspec import structs
 
 from skillc_compiler.program.typed import Body, Implementation, Let, Parameter, Property, Refinement, Skill
 from skillc_compiler.program.types import type_of
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.members import resolve_constant, resolve_duration, resolve_requirements, single_member
 from skillc_compiler.resolve.nodes import assume_outputs_assigned, resolve_node
 from skillc_compiler.resolve.properties import resolve_verify
@@ -81,13 +82,14 @@ def _find_parameter(context: FileContext, member: s.Refinement, skill: Skill) ->
     parameter = skill.parameter(member.name.text)
     if parameter is None:
         context.report_unknown(
-            "parameter",
-            member.name,
-            f"the skill `{skill.name}` has no parameter `{member.name.text}` to refine",
-            [p.name for p in skill.parameters],
-            "",
-            Label(skill.name_span, "declared here"),
-            owner=skill.name,
+            UnknownName(
+                "parameter",
+                member.name,
+                f"the skill `{skill.name}` has no parameter `{member.name.text}` to refine",
+                tuple(each.name for each in skill.parameters),
+                labels=(Label(skill.name_span, "declared here"),),
+                owner=skill.name,
+            )
         )
     return parameter
 

@@ -231,24 +231,17 @@ def _tasks(
 
 def _headers(files: Sequence[ParsedFile], base: Vocabulary) -> Iterator[Diagnostic]:
     """Report unknown vocabularies, and prefixes that already denote something else."""
-    for unit in files:
-        for line in unit.file.header:
-            match line:
-                case s.Use(vocabularies=vocabularies):
-                    for name in (n for n in vocabularies if n.text not in base.prefixes):
-                        yield Diagnostic(
-                            "unknown-vocabulary",
-                            name.span,
-                            f"there is no vocabulary `{name.text}`",
-                            did_you_mean(name.text, base.prefixes),
-                            fix=suggest_fix(name, base.prefixes),
-                        )
-                case s.Prefix(name=name, iri=iri) if base.prefixes.get(name.text, iri) != iri:
-                    yield Diagnostic(
-                        "duplicate-prefix",
-                        name.span,
-                        f"the prefix `{name.text}` already denotes the vocabulary <{base.prefixes[name.text]}>",
-                        "choose another prefix",
-                    )
-                case _:
-                    pass
+    for line in (line for unit in files for line in unit.file.header):
+        match line:
+            case s.Use(vocabularies=names):
+                yield from (_unknown_vocabulary(each, base) for each in names if each.text not in base.prefixes)
+            case s.Prefix(name=name, iri=iri) if base.prefixes.get(name.text, iri) != iri:
+                message = f"the prefix `{name.text}` already denotes the vocabulary <{base.prefixes[name.text]}>"
+                yield Diagnostic("duplicate-prefix", name.span, message, "choose another prefix")
+            case _:
+                pass
+
+
+def _unknown_vocabulary(name: s.Name, base: Vocabulary) -> Diagnostic:
+    meant, fix = did_you_mean(name.text, base.prefixes), suggest_fix(name, base.prefixes)
+    return Diagnostic("unknown-vocabulary", name.span, f"there is no vocabulary `{name.text}`", meant, fix=fix)

@@ -12,7 +12,7 @@ from msgspec import structs
 from skillc_compiler.program.memo import NameTable
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
-from skillc_compiler.program.unknown import UnknownKind, UnknownName
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.names import Names
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -66,24 +66,9 @@ class FileContext:
         """Record a problem."""
         self.names.problems.append(Diagnostic(name, span, message, help, labels=labels))
 
-    def report_unknown(
-        self,
-        kind: UnknownKind,
-        wrong: s.Name,
-        message: str,
-        candidates: Sequence[str],
-        otherwise: str = "",
-        *labels: Label,
-        owner: str | None = None,
-        passed: bool = False,
-        repeats: bool = False,
-    ) -> None:
-        """Record that a name is unknown; `owner` is the skill that should declare it, `passed` if it is an argument.
-
-        `repeats` if it may be meant where another name is declared a second time.
-        """
-        found = UnknownName(kind, wrong, message, tuple(candidates), otherwise, labels, owner, None, passed, repeats)
-        self.names.unknown.append(found)
+    def report_unknown(self, unknown: UnknownName) -> None:
+        """Record that a name is unknown."""
+        self.names.unknown.append(unknown)
 
     def bind(self, scope: Scope, name: s.Name, variable: LocalName) -> Scope:
         """Return the scope with a new name; a name that is taken is reported.

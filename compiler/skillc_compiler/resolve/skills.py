@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.typed import Parameter, Pause, Skill
 from skillc_compiler.program.types import Measure, type_of
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.members import (
     resolve_constant,
     resolve_duration,
@@ -120,4 +121,6 @@ def _devices(
                 context.report("unknown-parameter", member.span, message, f"write which device it is{such}")
                 continue
             message = f"the skill `{written.name.text}` has no parameter `{member.parameter.text}`"
-            context.report_unknown("parameter", member.parameter, message, names, owner=written.name.text)
+            context.report_unknown(
+                UnknownName("parameter", member.parameter, message, tuple(names), owner=written.name.text)
+            )

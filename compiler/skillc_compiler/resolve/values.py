@@ -22,6 +22,7 @@ from skillc_compiler.program.types import (
     fits,
     type_of,
 )
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
@@ -95,19 +96,22 @@ def _resolve_reference(
 
 def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> None:
     message = f"`{name.text}` is not a value of this property"
-    context.report_unknown("value", name, message, wanted.values, f"it is {' or '.join(wanted.values)}")
+    help_ = f"it is {' or '.join(wanted.values)}"
+    context.report_unknown(UnknownName("value", name, message, tuple(wanted.values), help_))
 
 
 def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType) -> None:
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
     context.report_unknown(
-        "parameter",
-        written.name,
-        f"{scope.owner} has no parameter or other name `{written.name.text}`",
-        fitting,
-        "an individual is written with its prefix: `lab:Board-1`",
-        owner=scope.skill,
-        repeats=scope.repeats,
+        UnknownName(
+            "parameter",
+            written.name,
+            f"{scope.owner} has no parameter or other name `{written.name.text}`",
+            tuple(fitting),
+            "an individual is written with its prefix: `lab:Board-1`",
+            owner=scope.skill,
+            repeats=scope.repeats,
+        )
     )
 
 
@@ -136,7 +140,8 @@ def _class_of(context: FileContext, written: s.NameReference, iri: str, wanted: 
         return Thing(known[iri])
     fitting = [other for other, cls in known.items() if fits(context.vocabulary, Thing(cls), wanted.type)]
     message = f"there is no `{written.name.text}` in the scene"
-    context.report_unknown("individual", written.name, message, [context.names.shorten(i) for i in fitting])
+    candidates = tuple(context.names.shorten(each) for each in fitting)
+    context.report_unknown(UnknownName("individual", written.name, message, candidates))
     return UNKNOWN
 
 

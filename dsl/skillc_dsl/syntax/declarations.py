@@ -154,8 +154,8 @@ Declaration: TypeAlias = (
 class ErrorNode(msgspec.Struct, frozen=True):
     """A place with a syntax error, and the names in what was dropped there: whatever declares them may be missing.
 
-    `keyword` is that of the declaration in which something was dropped, empty if that is not clear; None if nothing
-    was dropped.
+    `keyword` is None at a syntax error. Where something was dropped, it is the keyword of that declaration, or empty if
+    that is not clear.
     """
 
     span: Span

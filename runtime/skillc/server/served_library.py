@@ -89,7 +89,7 @@ class ServedLibrary:
         log("library", path=self.path, hash=self.checked.hash, problem=self.refused)
 
     def _ask(self) -> Answer:
-        """Check the library in a process of its own; it is killed if it takes too long."""
+        """Check the library in a process of its own; it is killed if it takes too long, or the server ends."""
         try:
             worker = WorkerProcess(check_again, "spawn")
         except OSError as error:

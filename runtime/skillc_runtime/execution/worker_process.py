@@ -83,7 +83,9 @@ class WorkerProcess:
 
     `ask` sends a request, `poll` returns its result and never blocks; after `poll` found none, `report` is how far the
     function is, as it has said last. `kill` ends the process and the programs that it started in sandboxes. A process
-    that has died stays so. One thread at a time uses it: one that waits in `answer` is told to end by its token.
+    that has died stays so.
+
+    Use a worker in one thread at a time. To end a wait in `answer` from another thread, cancel its token.
     """
 
     def __init__(self, function: WorkerFunction, start: StartMethod = DEFAULT_START) -> None:
