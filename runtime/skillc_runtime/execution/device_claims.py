@@ -12,7 +12,7 @@ from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrar
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
-from skillc_runtime.execution.tree.locks import DeviceLocks
+from skillc_runtime.execution.tree.locks import DeviceLocks, Holders
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, HAS_A, ROBOT
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -53,6 +53,10 @@ class DeviceClaims:
             own = self._held.get(run, frozenset())
             self._held[run] = None if own is None or devices is None else own | devices
         return busy
+
+    def is_held_by_other(self, run: str, device: str) -> bool:
+        """Whether another run than `run` holds a device."""
+        return _find_conflict(run, frozenset({device}), self._held, held=True) is not None
 
     def wait_for(self, run: str, devices: frozenset[str] | None) -> DevicesBusy | None:
         """Give devices to a run that begins, or return for what it waits, and then it holds none.
@@ -110,6 +114,16 @@ class ClaimedLocks(DeviceLocks):
             if self._claims.claim(self._run, frozenset({device})) is not None:
                 return device
         return super().acquire(wanted, holder, enclosing)
+
+    def find_conflict(
+        self, devices: Iterable[str], enclosing: tuple[object, ...], freed: Holders = frozenset()
+    ) -> str | None:
+        """Return a device that another call or run would hold if the calls `freed` held none; claim nothing."""
+        wanted = tuple(devices)
+        for device in wanted:
+            if self._claims.is_held_by_other(self._run, device):
+                return device
+        return super().find_conflict(wanted, enclosing, freed)
 
 
 def find_claim(body: tree.Node, library: SkillLibrary, state: WorldState) -> frozenset[str] | None:

@@ -9,15 +9,17 @@ from typing import TypeAlias, assert_never, cast
 from skillc_model import tree
 from skillc_model.skills import Compound, Implementation, Primitive, Skill
 from skillc_runtime.execution.selection.arguments import check_value
-from skillc_runtime.execution.selection.binding import BoundImplementation, check_requirements, describe_unmet_condition
+from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.inverse_changes import inverse_changes
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_not_sensed
 from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
+from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure, FailureKind, Rejection, Stage
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
@@ -98,7 +100,7 @@ class Activation:
 
     def posts_hold(self) -> bool:
         """Whether all posts are true in this tick's state."""
-        return all(evaluate(post.condition, self._context.state, self.frame) for post in self.implementation.post)
+        return _posts_hold(self.implementation, self._context.state, self.frame)
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -158,37 +160,54 @@ def activate(
     scope: LexicalScope,
     build: BuildNode,
 ) -> Activation | Rejection:
-    """Check the holds, acquire the locks, compute the lets and build the body; a rejection leaves nothing locked.
+    """Acquire the locks, compute the lets and build the body; a rejection leaves nothing locked.
 
-    Raises EvaluationError if a hold or a let cannot be evaluated.
+    Raises EvaluationError if a let cannot be evaluated.
     """
-    implementation, frame = bound.implementation, bound.bindings
-    rejected = check_requirements(implementation, implementation.hold, "hold", frame, context.state)
-    rejected = rejected or _acquire_locks(context, skill, bound, holder, scope)
-    if rejected is not None:
-        return rejected
+    locked = context.locks.acquire(_used_devices(skill, bound), holder, scope.calls)
+    if locked is not None:
+        reason = f"{context.library.vocabulary.short(locked)} is in use by another skill"
+        return _reject(bound.implementation, "lock", reason)
     try:
-        for let in implementation.lets:
-            frame[let.name] = value_of(let.value, context.state, frame)
         body = _build_body(context, skill, bound, holder, scope, build)
     except PrimitiveError as error:
         context.locks.release(holder)
-        return _reject(implementation, "start", str(error))
+        return _reject(bound.implementation, "start", str(error))
     except FOREIGN_ERRORS:
         context.locks.release(holder)
         raise
     return Activation(context, skill, bound, holder, body, context.cell.world.ledger.count)
 
 
-def _acquire_locks(
-    context: TreeContext, skill: Skill, bound: BoundImplementation, holder: object, scope: LexicalScope
-) -> Rejection | None:
-    devices = [str(bound.bindings[name]) for name in skill.uses if name in bound.bindings]
-    locked = context.locks.acquire(devices, holder, scope.calls)
-    if locked is None:
+def foresee_activation(
+    context: TreeContext,
+    skill: Skill,
+    bound: BoundImplementation,
+    holder: object,
+    scope: LexicalScope,
+    build: BuildNode,
+    freed: Holders,
+) -> Status | None:
+    """Return how an implementation would begin if the calls `freed` held no locks; None if others hold one it needs.
+
+    Nothing is locked or started.
+
+    Raises EvaluationError if a let cannot be evaluated.
+    """
+    if context.locks.find_conflict(_used_devices(skill, bound), scope.calls, freed) is not None:
         return None
-    reason = f"{context.library.vocabulary.short(locked)} is in use by another skill"
-    return _reject(bound.implementation, "lock", reason)
+    status = _build_body(context, skill, bound, holder, scope, build).dry_start(freed)
+    if status is Status.SUCCESS and not _posts_hold(bound.implementation, context.state, bound.bindings):
+        return Status.FAILURE
+    return status
+
+
+def _used_devices(skill: Skill, bound: BoundImplementation) -> list[str]:
+    return [str(bound.bindings[name]) for name in skill.uses if name in bound.bindings]
+
+
+def _posts_hold(implementation: Implementation, state: WorldState, frame: Frame) -> bool:
+    return all(evaluate(post.condition, state, frame) for post in implementation.post)
 
 
 def _build_body(
@@ -199,7 +218,10 @@ def _build_body(
     scope: LexicalScope,
     build: BuildNode,
 ) -> Node:
+    """Compute the lets and build the body; nothing starts."""
     implementation, frame = bound.implementation, bound.bindings
+    for let in implementation.lets:
+        frame[let.name] = value_of(let.value, context.state, frame)
     match implementation.body:
         case Compound(node=node):
             calls, writes = (*scope.calls, holder), context.cell.world.ledger.count

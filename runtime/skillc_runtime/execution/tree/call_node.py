@@ -8,12 +8,11 @@ from typing import ClassVar
 from msgspec import structs
 
 from skillc_model import tree
-from skillc_model.conditions import Variable
 from skillc_model.skills import Implementation, PausePolicy
-from skillc_runtime.execution.selection.binding import bind_implementation
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
-from skillc_runtime.execution.tree.activation import Activation, BuildNode, activate
+from skillc_runtime.execution.tree.activation import Activation, BuildNode, activate, foresee_activation
 from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.call_decision import bind_call, evaluate_arguments
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.event_factory import (
@@ -22,13 +21,13 @@ from skillc_runtime.execution.tree.event_factory import (
     make_failure_context,
 )
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
-from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
+from skillc_runtime.execution.tree.locks import Holders
+from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.primitive_node import PrimitiveNode
 from skillc_runtime.execution.tree.withdrawn_facts import lead_with_withdrawal
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure, Rejection, as_failure
 from skillc_runtime.recording.reasons import FailedCallContext
-from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.labelled import LabelledFact
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
@@ -85,6 +84,15 @@ class CallNode(Node):
                 yield node
             node = node.parent
 
+    def foresee(self, freed: Holders) -> Status:
+        context = self.context
+        arguments, numbered = evaluate_arguments(self.node, self._scope, context.state), context.last_id
+        foreseen = (self._foresee_implementation(each, arguments, freed) for each in self._ranked)
+        try:
+            return next((status for status in foreseen if status is not None), FAILURE)
+        finally:
+            context.last_id = numbered  # nodes that are not started have no number
+
     def on_start(self) -> Status:
         self.rejected = []
         self.activation = None
@@ -97,8 +105,8 @@ class CallNode(Node):
     def _begin(self) -> Status:
         """Choose an implementation and start it."""
         self._state_at_start = self.context.state
-        self._arguments = self._evaluate_arguments()
-        self._remaining = iter(ranked_implementations(self.context.library, self.node.skill, self.node.implementation))
+        self._arguments = evaluate_arguments(self.node, self._scope, self.context.state)
+        self._remaining = iter(self._ranked)
         return self._try_next(self._remaining)
 
     def tick(self) -> Status:
@@ -158,16 +166,22 @@ class CallNode(Node):
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
             return self.fail_with_error(error)
 
-    def _evaluate_arguments(self) -> Frame:
-        """Evaluate the arguments; an argument that is an unset optional parameter of the enclosing skill is omitted."""
-        frame, state = self._scope.frame, self.context.state
-        unset = {
-            name
-            for name, value in self.node.arguments.items()
-            if isinstance(value, Variable) and value.name not in frame and self._scope.is_optional(value.name)
-        }
-        given = {name: value for name, value in self.node.arguments.items() if name not in unset}
-        return {name: value_of(value, state, frame) for name, value in given.items()}
+    @property
+    def _ranked(self) -> tuple[Implementation, ...]:
+        return ranked_implementations(self.context.library, self.node.skill, self.node.implementation)
+
+    def _foresee_implementation(
+        self, implementation: Implementation, arguments: Frame, freed: Holders
+    ) -> Status | None:
+        """Return how an implementation would begin; None if the next one would be tried."""
+        try:
+            bound = bind_call(implementation, arguments, self.context.state, self._scope.failures)
+            if isinstance(bound, Rejection):
+                return None
+            status = foresee_activation(self.context, self.skill, bound, self, self._scope, self._build, freed)
+        except FOREIGN_ERRORS:  # the other implementations would be tried
+            return None
+        return None if status is FAILURE and self.skill.fallback else status
 
     def _try_next(self, implementations: Iterator[Implementation]) -> Status:
         for implementation in implementations:
@@ -181,15 +195,11 @@ class CallNode(Node):
             if status is not None:
                 return status
         failure = combine_rejections(self.skill.name, self.rejected, self.source)
-        tried = ranked_implementations(self.context.library, self.node.skill, self.node.implementation)
-        return self.fail(lead_with_withdrawal(failure, tried, self._arguments, self.context.cell.world))
+        return self.fail(lead_with_withdrawal(failure, self._ranked, self._arguments, self.context.cell.world))
 
     def _activate(self, implementation: Implementation) -> Activation | Rejection:
         try:
-            repeated = self._reject_repeated(implementation)
-            if repeated is not None:
-                return repeated
-            bound = bind_implementation(implementation, self._arguments, self.context.state)
+            bound = bind_call(implementation, self._arguments, self.context.state, self._scope.failures)
             if isinstance(bound, Rejection):
                 return bound
             for note in bound.notes:
@@ -232,15 +242,6 @@ class CallNode(Node):
         self._facts = None
         return self._try_next(self._remaining)
 
-    def _reject_repeated(self, implementation: Implementation) -> Rejection | None:
-        """Reject an implementation that failed in an earlier attempt and can only fail again."""
-        failures, name = self._scope.failures, implementation.name
-        earlier = failures and failures.find_repeated(self.skill.name, self._arguments, name, self.context.state)
-        if not earlier:
-            return None
-        reason = f"it has failed, and nothing that it depends on has changed since: {earlier.message}"
-        return Rejection(implementation=name, stage="run", reason=reason, source=implementation.source, failure=earlier)
-
     def _remember_failure(self, implementation: str, failure: Failure) -> None:
         """Record a failure for later attempts."""
         if self._scope.failures is not None:
@@ -282,8 +283,7 @@ class CallNode(Node):
     def _record_facts(self) -> None:
         """Record the facts that the conditions read, once per failure, before undoing changes them."""
         if self.context.emit is not None and self._facts is None:
-            tried = ranked_implementations(self.context.library, self.node.skill, self.node.implementation)
-            self._facts = collect_facts_at_failure(tried, self.activation, self._arguments, self.context.state)
+            self._facts = collect_facts_at_failure(self._ranked, self.activation, self._arguments, self.context.state)
 
     def _emit_choice(self, activation: Activation) -> None:
         if self.context.emit is not None:

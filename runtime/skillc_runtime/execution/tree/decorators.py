@@ -9,9 +9,12 @@ from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import EPSILON_S, TreeContext
 from skillc_runtime.execution.tree.leaf_nodes import evaluate_seconds
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
+
+_INVERTED = {SUCCESS: FAILURE, FAILURE: SUCCESS}
 
 
 class TimeoutNode(Node):
@@ -25,6 +28,9 @@ class TimeoutNode(Node):
         self.node = node
         self.child = child
         self.frame = scope.frame
+
+    def foresee(self, freed: Holders) -> Status:
+        return self.child.dry_start(freed)
 
     def on_start(self) -> Status:
         seconds = evaluate_seconds(self.node.seconds, self.context, self.frame)
@@ -60,6 +66,10 @@ class TryNode(Node):
         super().__init__(context, node.source, (child,))
         self.child = child
 
+    def foresee(self, freed: Holders) -> Status:
+        status = self.child.dry_start(freed)
+        return SUCCESS if status is FAILURE else status
+
     def on_start(self) -> Status:
         return self.on_child_ended(self.child.start())
 
@@ -87,6 +97,10 @@ class InvertNode(Node):
     def __init__(self, context: TreeContext, node: tree.Invert, child: Node) -> None:
         super().__init__(context, node.source, (child,))
         self.child = child
+
+    def foresee(self, freed: Holders) -> Status:
+        status = self.child.dry_start(freed)
+        return _INVERTED.get(status, status)
 
     def on_start(self) -> Status:
         return self.on_child_ended(self.child.start())
@@ -120,9 +134,15 @@ class OnceNode(Node):
         super().__init__(context, node.source, (child,))
         self.child = child
 
+    def foresee(self, freed: Holders) -> Status:
+        return self.child.status if self._has_result else self.child.dry_start(freed)
+
     def on_start(self) -> Status:
-        done = self.child.status is SUCCESS or self.child.status is FAILURE
-        return self.on_child_ended(self.child.status if done else self.child.start())
+        return self.on_child_ended(self.child.status if self._has_result else self.child.start())
+
+    @property
+    def _has_result(self) -> bool:
+        return self.child.status in (SUCCESS, FAILURE)
 
     def active_leaf(self) -> Node:
         return self.child.active_leaf()

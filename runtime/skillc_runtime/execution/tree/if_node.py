@@ -7,6 +7,7 @@ from typing import ClassVar
 from skillc_model import tree
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.eval.conditions import evaluate
@@ -27,6 +28,10 @@ class IfNode(Node):
         self.then = then
         self.orelse = orelse
         self.frame = scope.frame
+
+    def foresee(self, freed: Holders) -> Status:
+        branch = self._branch()
+        return SUCCESS if branch is None else branch.dry_start(freed)
 
     def on_start(self) -> Status:
         self._chosen = self._branch()

@@ -9,7 +9,8 @@ from skillc_model import tree
 from skillc_model.conditions import Expression
 from skillc_runtime.execution.tree.context import EPSILON_S, TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
-from skillc_runtime.execution.tree.node import RUNNING, Node
+from skillc_runtime.execution.tree.locks import Holders
+from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
@@ -39,6 +40,9 @@ class WaitNode(Node):
         self.node = node
         self.frame = scope.frame
 
+    def foresee(self, freed: Holders) -> Status:
+        return RUNNING if evaluate_seconds(self.node.seconds, self.context, self.frame) > EPSILON_S else SUCCESS
+
     def on_start(self) -> Status:
         self._late = self.context.find_step_end()
         self._until = self.context.now + evaluate_seconds(self.node.seconds, self.context, self.frame) - EPSILON_S
@@ -61,6 +65,9 @@ class WaitUntilNode(Node):
         super().__init__(context, node.source, name=f"wait until {node.text}")
         self.node = node
         self.frame = scope.frame
+
+    def foresee(self, freed: Holders) -> Status:
+        return SUCCESS if self.remains_satisfied() else RUNNING
 
     def on_start(self) -> Status:
         self._seen: object = None
@@ -91,6 +98,9 @@ class CheckNode(Node):
         super().__init__(context, node.source, name=f"check {node.text}")
         self.node = node
         self.frame = scope.frame
+
+    def foresee(self, freed: Holders) -> Status:
+        return SUCCESS if self.remains_satisfied() else FAILURE
 
     def on_start(self) -> Status:
         state = self.context.state

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TypeAlias
+
+Holders: TypeAlias = frozenset[object]
+"""Calls that may hold locks."""
 
 
 class DeviceLocks:
@@ -17,12 +21,20 @@ class DeviceLocks:
     def acquire(self, devices: Iterable[str], holder: object, enclosing: tuple[object, ...]) -> str | None:
         """Lock all devices or none; return a device that another call than `enclosing` holds, or None on success."""
         wanted = tuple(dict.fromkeys(devices))
-        for device in wanted:
-            holders = self._holders.get(device)
+        conflict = self.find_conflict(wanted, enclosing)
+        if conflict is None:
+            for device in wanted:
+                self._holders.setdefault(device, []).append(holder)
+        return conflict
+
+    def find_conflict(
+        self, devices: Iterable[str], enclosing: tuple[object, ...], freed: Holders = frozenset()
+    ) -> str | None:
+        """Return a device that another call would hold if the calls `freed` held none; nothing is locked."""
+        for device in devices:
+            holders = [holder for holder in self._holders.get(device, ()) if holder not in freed]
             if holders and holders[-1] not in enclosing:
                 return device
-        for device in wanted:
-            self._holders.setdefault(device, []).append(holder)
         return None
 
     def release(self, holder: object) -> None:

@@ -9,7 +9,8 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
-from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
+from skillc_runtime.execution.tree.locks import Holders
+from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.conditions import evaluate
@@ -48,6 +49,10 @@ class LoopNode(Node):
         status = self._path.start()
         return RUNNING if status is RUNNING else self.on_child_ended(status)
 
+    def foresee_round(self, freed: Holders) -> Status:
+        """Return how the first round would begin; what follows a round begins in another tick."""
+        return FAILURE if self.child.dry_start(freed) is FAILURE else RUNNING
+
     def next_round(self) -> Status:
         """Start a round, or end if none is left."""
         raise NotImplementedError
@@ -62,6 +67,9 @@ class RetryNode(LoopNode):
     def __init__(self, context: TreeContext, node: tree.Retry, child: Node) -> None:
         super().__init__(context, node.source, child, f"retry {node.count}")
         self.count = node.count
+
+    def foresee(self, freed: Holders) -> Status:
+        return self.child.dry_start(freed)
 
     def next_round(self) -> Status:
         return self.start_round()
@@ -85,6 +93,9 @@ class RepeatNode(LoopNode):
         super().__init__(context, node.source, child, f"repeat {node.count}")
         self.count = node.count
 
+    def foresee(self, freed: Holders) -> Status:
+        return SUCCESS if self.count == 0 else self.foresee_round(freed)
+
     def next_round(self) -> Status:
         return self.start_round() if self.rounds < self.count else self.succeed()
 
@@ -104,6 +115,11 @@ class WhileNode(LoopNode):
         super().__init__(context, node.source, child, f"while {node.text}")
         self.node = node
         self.frame = scope.frame
+
+    def foresee(self, freed: Holders) -> Status:
+        if not evaluate(self.node.condition, self.context.state, self.frame):
+            return SUCCESS
+        return FAILURE if self.node.limit == 0 else self.foresee_round(freed)
 
     def next_round(self) -> Status:
         if not evaluate(self.node.condition, self.context.state, self.frame):
@@ -135,19 +151,21 @@ class ForEachNode(LoopNode):
         self.inner = inner
         self._items: tuple[Value, ...] = ()
 
+    def foresee(self, freed: Holders) -> Status:
+        items = self._evaluate_items()
+        if not items:
+            return SUCCESS
+        self._enter(items[0])
+        return self.foresee_round(freed)
+
     def on_start(self) -> Status:
-        items = value_of(self.node.items, self.context.state, self.outer)
-        if not isinstance(items, tuple):
-            raise TypeError(f"`for {self.node.variable}` needs a list, not {items!r}")
-        self._items = items
+        self._items = self._evaluate_items()
         return super().on_start()
 
     def next_round(self) -> Status:
         if self.rounds == len(self._items):
             return self.succeed()
-        self.inner.clear()
-        self.inner.update(self.outer)
-        self.inner[self.node.variable] = self._items[self.rounds]
+        self._enter(self._items[self.rounds])
         return self.start_round()
 
     def on_child_ended(self, status: Status) -> Status:
@@ -157,3 +175,15 @@ class ForEachNode(LoopNode):
             return RUNNING
         self.outer.update({name: value for name, value in self.inner.items() if name != self.node.variable})
         return self.succeed()
+
+    def _evaluate_items(self) -> tuple[Value, ...]:
+        items = value_of(self.node.items, self.context.state, self.outer)
+        if not isinstance(items, tuple):
+            raise TypeError(f"`for {self.node.variable}` needs a list, not {items!r}")
+        return items
+
+    def _enter(self, item: Value) -> None:
+        """Let the child see an item, and nothing of earlier rounds."""
+        self.inner.clear()
+        self.inner.update(self.outer)
+        self.inner[self.node.variable] = item

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import ClassVar
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
@@ -22,7 +24,8 @@ class Node:
     A subclass implements `on_start`. A node with work in each tick, such as ticking several children or evaluating a
     condition, also implements `tick`. A node that only passes ticks on to one child at a time implements `active_leaf`
     and `on_child_ended` instead, and is skipped while the child runs. `on_start`, `tick` and `on_child_ended` return
-    RUNNING or the result of `succeed` or `fail`. Children start in the order of `children`.
+    RUNNING or the result of `succeed` or `fail`. Children start in the order of `children`. `foresee` says what can
+    be said of a start without starting anything.
     """
 
     kind: ClassVar[str]
@@ -41,6 +44,27 @@ class Node:
         self.ended: float | None = None
         for child in children:
             child.parent = self
+
+    def dry_start(self, freed: Holders) -> Status:
+        """Return how `start` would end its first tick, as far as its leading part decides that; nothing is changed.
+
+        RUNNING if it would begin to do something, of which only doing it shows how it ends; FAILURE if an exception is
+        raised. The devices that the calls `freed` hold count as free.
+        """
+        try:
+            return self.foresee(freed)
+        except FOREIGN_ERRORS:  # a start would fail with it, and then report it
+            return FAILURE
+
+    def foresee(self, freed: Holders) -> Status:
+        """Evaluate the leading part without side effects; called by `dry_start`."""
+        return RUNNING
+
+    def descendants(self) -> Iterator[Node]:
+        """Yield the node and all nodes below it."""
+        yield self
+        for child in self.children:
+            yield from child.descendants()
 
     def start(self) -> Status:
         """Start the node, do the work of the first tick and return the status; an exception becomes a failure."""

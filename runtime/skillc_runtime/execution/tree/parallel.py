@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import ClassVar
 
 from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.selector import combine_failures
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.failure import Failure
 
 
 class ParallelNode(Node):
@@ -16,6 +17,14 @@ class ParallelNode(Node):
 
     kind: ClassVar[str] = "par"
     __slots__ = ("_running", "_started")
+
+    def foresee(self, freed: Holders) -> Status:
+        statuses = []
+        for child in self.children:
+            statuses.append(child.dry_start(freed))
+            if statuses[-1] is not RUNNING and self.decides(child, statuses[-1]):
+                return statuses[-1]
+        return self.joint_result(statuses)
 
     def on_start(self) -> Status:
         self._running: list[ActivePath] = []
@@ -25,27 +34,27 @@ class ParallelNode(Node):
             path = ActivePath(child)
             if path.start() is RUNNING:
                 self._running.append(path)
-            elif self.decides(child):
+            elif self.decides(child, child.status):
                 return self._finish_with(child)
-        return RUNNING if self.joint_result() is None else self._finish_jointly()
+        return self._finish_or_go_on()
 
     def tick(self) -> Status:
         finished = False
         for path in self._running:
             status = path.tick_leaf()
             if status is not RUNNING and path.propagate(status) is not RUNNING:
-                if self.decides(path.top):
+                if self.decides(path.top, path.top.status):
                     return self._finish_with(path.top)
                 finished = True
         return self._drop_finished() if finished else RUNNING
 
-    def decides(self, child: Node) -> bool:
-        """Whether a child that just ended decides the result at once."""
+    def decides(self, child: Node, status: Status) -> bool:
+        """Whether a child that just ended with `status` decides the result at once."""
         raise NotImplementedError
 
-    def joint_result(self) -> Status | None:
-        """Return the result after all running children were ticked, or None to continue."""
-        return None if self._running else SUCCESS
+    def joint_result(self, statuses: Collection[Status]) -> Status:
+        """Return the result after all running children were ticked, given the status of each."""
+        return RUNNING if RUNNING in statuses else SUCCESS
 
     def remains_satisfied(self) -> bool:
         if self.status is not SUCCESS:
@@ -54,19 +63,20 @@ class ParallelNode(Node):
 
     def _drop_finished(self) -> Status:
         self._running = [path for path in self._running if path.top.status is RUNNING]
-        return RUNNING if self.joint_result() is None else self._finish_jointly()
+        return self._finish_or_go_on()
+
+    def _finish_or_go_on(self) -> Status:
+        status = self.joint_result({child.status for child in self.children})
+        return RUNNING if status is RUNNING else self.finish_jointly(status)
 
     def _finish_with(self, child: Node) -> Status:
         outcome = "finished" if child.status is SUCCESS else "failed"
         self.stop(f"{child.name}, which runs in parallel, {outcome}")
         return self.succeed() if child.status is SUCCESS else self.fail(child.failure)
 
-    def _finish_jointly(self) -> Status:
-        return self.succeed() if self.joint_result() is SUCCESS else self.fail(self.joint_failure())
-
-    def joint_failure(self) -> Failure:
-        """Return the failure of the node if no single child decided the result."""
-        return combine_failures(self)
+    def finish_jointly(self, status: Status) -> Status:
+        """End if no single child has decided the result."""
+        return self.succeed() if status is SUCCESS else self.fail(combine_failures(self))
 
 
 class ParallelAll(ParallelNode):
@@ -75,8 +85,8 @@ class ParallelAll(ParallelNode):
     kind: ClassVar[str] = "par all"
     __slots__ = ()
 
-    def decides(self, child: Node) -> bool:
-        return child.status is FAILURE
+    def decides(self, child: Node, status: Status) -> bool:
+        return status is FAILURE
 
 
 class ParallelAny(ParallelNode):
@@ -85,11 +95,11 @@ class ParallelAny(ParallelNode):
     kind: ClassVar[str] = "par any"
     __slots__ = ()
 
-    def decides(self, child: Node) -> bool:
-        return child.status is SUCCESS
+    def decides(self, child: Node, status: Status) -> bool:
+        return status is SUCCESS
 
-    def joint_result(self) -> Status | None:
-        return None if self._running else FAILURE
+    def joint_result(self, statuses: Collection[Status]) -> Status:
+        return RUNNING if RUNNING in statuses else FAILURE
 
 
 class ParallelLead(ParallelNode):
@@ -98,7 +108,7 @@ class ParallelLead(ParallelNode):
     kind: ClassVar[str] = "par lead"
     __slots__ = ()
 
-    def decides(self, child: Node) -> bool:
+    def decides(self, child: Node, status: Status) -> bool:
         return child is self.children[0]
 
 
@@ -108,13 +118,12 @@ class ParallelRace(ParallelNode):
     kind: ClassVar[str] = "par race"
     __slots__ = ()
 
-    def decides(self, child: Node) -> bool:
+    def decides(self, child: Node, status: Status) -> bool:
         return False
 
-    def joint_result(self) -> Status | None:
-        ended = {child.status for child in self.children}
-        return FAILURE if FAILURE in ended else SUCCESS if SUCCESS in ended or not self._running else None
+    def joint_result(self, statuses: Collection[Status]) -> Status:
+        first = (status for status in (FAILURE, SUCCESS, RUNNING) if status in statuses)
+        return next(first, SUCCESS)
 
-    def _finish_jointly(self) -> Status:
-        decisive = next(child for child in self.children if child.status is self.joint_result())
-        return self._finish_with(decisive)
+    def finish_jointly(self, status: Status) -> Status:
+        return self._finish_with(next(child for child in self.children if child.status is status))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
@@ -18,11 +19,23 @@ def combine_failures(node: Node) -> Failure:
     return Failure(kind="body", message=message, source=node.source, causes=causes)
 
 
+def foresee_alternatives(children: tuple[Node, ...], freed: Holders) -> Status:
+    """Return how children that are tried in order would begin: as the first that would not fail at once."""
+    for child in children:
+        status = child.dry_start(freed)
+        if status is not FAILURE:
+            return status
+    return FAILURE
+
+
 class SelectorNode(Node):
     """A selector with memory: a child that failed is not tried again."""
 
     kind: ClassVar[str] = "sel"
     __slots__ = ("_current", "_index")
+
+    def foresee(self, freed: Holders) -> Status:
+        return foresee_alternatives(self.children, freed)
 
     def on_start(self) -> Status:
         self._index = -1
@@ -45,28 +58,54 @@ class SelectorNode(Node):
 
 
 class ReactiveSelectorNode(Node):
-    """Tries the children in order in each tick, even failed ones; an earlier one that can run halts a later one."""
+    """Looks in each tick whether a child before the one that runs could start, and lets the first such one take over.
+
+    The child that runs is halted before the other starts. A child that failed although it could start takes over only
+    after a tick in which it could not: else one that can only fail would halt what comes after it in each tick.
+    """
 
     kind: ClassVar[str] = "reactive sel"
-    __slots__ = ("_active", "_paths")
+    __slots__ = ("_active", "_failed", "_path")
+
+    def foresee(self, freed: Holders) -> Status:
+        return foresee_alternatives(self.children, freed)
 
     def on_start(self) -> Status:
-        self._paths = [ActivePath(child) for child in self.children]
-        self._active = 0
-        return self.tick()
+        self._failed: set[int] = set()
+        return self._start_from(0)
 
     def tick(self) -> Status:
-        for index, path in enumerate(self._paths):
-            status = path.tick() if path.top.status is RUNNING else path.start()
-            if status is not FAILURE:
-                return self._continue_at(index, status)
-        return self.fail(combine_failures(self))
+        earlier = self._find_earlier() if self._active > 0 else None
+        if earlier is not None:
+            self._path.top.halt(f"{self.children[earlier].name}, which comes before it, can run")
+            self.context.refresh_state()
+            return self._start_from(earlier)
+        return self._continue_with(self._path.tick())
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and self.children[self._active].remains_satisfied()
 
-    def _continue_at(self, index: int, status: Status) -> Status:
-        if index < self._active:
-            self.children[self._active].halt(f"{self.children[index].name}, which comes before it, can run")
+    def _find_earlier(self) -> int | None:
+        """Return the first child before the one that runs that is to take over, if any."""
+        freed = frozenset(self._path.top.descendants())
+        for index in range(self._active):
+            if self.children[index].dry_start(freed) is FAILURE:
+                self._failed.discard(index)
+            elif index not in self._failed:
+                return index
+        return None
+
+    def _start_from(self, index: int) -> Status:
         self._active = index
+        if index == len(self.children):
+            return self.fail(combine_failures(self))
+        self._path = ActivePath(self.children[index])
+        return self._continue_with(self._path.start())
+
+    def _continue_with(self, status: Status) -> Status:
+        """Continue after the active child was started or ticked."""
+        if status is FAILURE:
+            if self.children[self._active].dry_start(frozenset()) is not FAILURE:
+                self._failed.add(self._active)
+            return self._start_from(self._active + 1)
         return RUNNING if status is RUNNING else self.succeed()

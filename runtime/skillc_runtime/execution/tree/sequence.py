@@ -5,9 +5,19 @@ from __future__ import annotations
 from typing import ClassVar
 
 from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
+
+
+def foresee_steps(children: tuple[Node, ...], freed: Holders) -> Status:
+    """Return how children that run one after the other would begin: as the first that would not succeed at once."""
+    for child in children:
+        status = child.dry_start(freed)
+        if status is not SUCCESS:
+            return status
+    return SUCCESS
 
 
 class SequenceNode(Node):
@@ -15,6 +25,9 @@ class SequenceNode(Node):
 
     kind: ClassVar[str] = "seq"
     __slots__ = ("_current", "_index")
+
+    def foresee(self, freed: Holders) -> Status:
+        return foresee_steps(self.children, freed)
 
     def on_start(self) -> Status:
         self._index = -1
@@ -37,42 +50,53 @@ class SequenceNode(Node):
 
 
 class ReactiveSequenceNode(Node):
-    """Visits the children in order in each tick; a succeeded child starts again if its result is no longer valid."""
+    """Looks in each tick whether the results of all children before the one that runs are still valid.
+
+    The first whose result is not runs again, after the child that ran was halted; those after it then start afresh.
+    """
 
     kind: ClassVar[str] = "reactive seq"
-    __slots__ = ("_active", "_done", "_paths")
+    __slots__ = ("_active", "_done", "_path")
+
+    def foresee(self, freed: Holders) -> Status:
+        return foresee_steps(self.children, freed)
 
     def on_start(self) -> Status:
-        self._paths = [ActivePath(child) for child in self.children]
         self._done = [False] * len(self.children)
-        self._active = 0
-        return self.tick()
+        return self._start_from(0)
 
     def tick(self) -> Status:
         try:
-            return self._tick_children()
+            earlier = self._find_outdated(0, self._active)
+            if earlier == self._active:
+                return self._continue_with(self._path.tick())
+            self._path.top.halt(f"{self.children[earlier].name}, which comes before it, runs again")
+            self.context.refresh_state()
+            return self._start_from(earlier)
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
             return self.fail_with_error(error)
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and all(child.remains_satisfied() for child in self.children)
 
-    def _tick_children(self) -> Status:
-        for index, path in enumerate(self._paths):
-            if path.top.status is RUNNING:
-                status = path.tick()
-            elif self._done[index] and path.top.remains_satisfied():
-                continue
-            else:
-                self._done[index] = False
-                status = path.start()
-            if status is not SUCCESS:
-                return self._continue_at(index, status)
-            self._done[index] = True
-        return self.succeed()
+    def _start_from(self, index: int) -> Status:
+        self._active = self._find_outdated(index, len(self.children))
+        if self._active == len(self.children):
+            return self.succeed()
+        self._done[self._active] = False
+        self._path = ActivePath(self.children[self._active])
+        return self._continue_with(self._path.start())
 
-    def _continue_at(self, index: int, status: Status) -> Status:
-        if index < self._active:
-            self.children[self._active].halt(f"{self.children[index].name}, which comes before it, runs again")
-        self._active = index
-        return RUNNING if status is RUNNING else self.fail(self.children[index].failure)
+    def _continue_with(self, status: Status) -> Status:
+        """Continue after the active child was started or ticked."""
+        if status is SUCCESS:
+            self._done[self._active] = True
+            return self._start_from(self._active + 1)
+        return RUNNING if status is RUNNING else self.fail(self._path.top.failure)
+
+    def _find_outdated(self, first: int, end: int) -> int:
+        """Return the first child from `first` on that has no valid result; `end` if all before that have one."""
+        outdated = (
+            index for index in range(first, end) if not (self._done[index] and self.children[index].remains_satisfied())
+        )
+        return next(outdated, end)

@@ -6,7 +6,9 @@ from typing import ClassVar
 
 from skillc_model import tree
 from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import RUNNING, SUCCESS, Node
+from skillc_runtime.execution.tree.sequence import foresee_steps
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
@@ -23,6 +25,9 @@ class WithNode(Node):
         self.call = call
         self.body = body
         self.undo = undo
+
+    def foresee(self, freed: Holders) -> Status:
+        return foresee_steps(self.children, freed)
 
     def on_start(self) -> Status:
         self._current = self.call
