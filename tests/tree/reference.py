@@ -5,21 +5,22 @@ Closing a generator halts it. Nothing here is fast, reports, or survives anythin
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from skillc_model import tree
 from skillc_model.conditions import Literal as Constant
 from tree.reference_calls import call
-from tree.reference_model import Child, Life, Model, Result, Scope, close, true
+from tree.reference_model import Child, Life, Model, Result, Scope, all_still, close, none_worked, true
+from tree.reference_reactive import reactive_selector, reactive_sequence
 
 
 def run(node: tree.Node, model: Model, scope: Scope) -> Life:
     """Return the life of a node."""
     match node:
-        case tree.Sequence(reactive=False):
-            return _sequence(node, model, scope)
-        case tree.Selector(reactive=False):
-            return _selector(node, model, scope)
-        case tree.Sequence() | tree.Selector():
-            return _reactive(node, model, scope)
+        case tree.Sequence(reactive=reactive):
+            return reactive_sequence(node, model, scope, run) if reactive else _sequence(node, model, scope)
+        case tree.Selector(reactive=reactive):
+            return reactive_selector(node, model, scope, run) if reactive else _selector(node, model, scope)
         case tree.Parallel():
             return _parallel(node, model, scope)
         case tree.Retry() | tree.Repeat() | tree.While():
@@ -46,11 +47,7 @@ def _sequence(node: tree.Sequence, model: Model, scope: Scope) -> Life:
         if not result.ok:
             return result
         results.append(result)
-    return _all_still(results)
-
-
-def _all_still(results: list[Result]) -> Result:
-    return Result(still=lambda: all(result.still() for result in results))
+    return all_still(results)
 
 
 def _selector(node: tree.Selector, model: Model, scope: Scope) -> Life:
@@ -60,42 +57,7 @@ def _selector(node: tree.Selector, model: Model, scope: Scope) -> Life:
         if result.ok:
             return result
         results.append(result)
-    return _none_worked(results)
-
-
-def _none_worked(results: list[Result]) -> Result:
-    return Result("body", hold=any(result.hold for result in results))
-
-
-def _reactive(node: tree.Sequence | tree.Selector, model: Model, scope: Scope) -> Life:
-    going_on = isinstance(node, tree.Sequence)
-    children: list[Child | None] = [None] * len(node.children)
-    try:
-        while True:
-            results: list[Result] = []
-            for index, child in enumerate(node.children):
-                current = children[index]
-                former = current.result if current is not None else None
-                if going_on and former is not None and former.ok and former.still():
-                    results.append(former)
-                    continue
-                if current is None or current.result is not None:
-                    current = children[index] = Child(run(child, model, scope))
-                result = current.step()
-                if result is None or result.ok != going_on:
-                    close(children[index + 1 :])
-                    children[index + 1 :] = [None if c and c.result is None else c for c in children[index + 1 :]]
-                    if result is not None:
-                        return result
-                    break
-                results.append(result)
-            else:
-                if not going_on:
-                    return _none_worked(results)
-                return _all_still(results)
-            yield
-    finally:
-        close(children)
+    return none_worked(results)
 
 
 def _parallel(node: tree.Parallel, model: Model, scope: Scope) -> Life:
@@ -137,7 +99,7 @@ def _late(node: tree.Parallel, children: list[Child | None]) -> Result | None:
         return (failed or ended)[0] if ended else None if running else Result()
     if running or node.policy == "lead":
         return Result() if not children else None
-    return Result() if node.policy == "all" else _none_worked(ended)
+    return Result() if node.policy == "all" else none_worked(ended)
 
 
 def _with_still(result: Result, children: list[Child | None]) -> Result:
@@ -158,7 +120,7 @@ def _loop(node: tree.Retry | tree.Repeat | tree.While, model: Model, scope: Scop
         result = yield from run(node.child, model, scope)
         rounds += 1
         if isinstance(node, tree.Retry):
-            if result.ok or rounds == node.count:
+            if result.ok or rounds == node.count or model.dry:
                 return result
         elif not result.ok:
             return result
@@ -169,12 +131,12 @@ def _loop(node: tree.Retry | tree.Repeat | tree.While, model: Model, scope: Scop
 
 def _timeout(node: tree.Timeout, model: Model, scope: Scope) -> Life:
     assert isinstance(node.seconds, Constant)
-    deadline = model.now + float(node.seconds.value) - 1e-9
+    deadline = model.now + float(node.seconds.value) + 1e-4
     child = Child(run(node.child, model, scope))
     try:
         while child.step() is None:
             yield
-            if model.now >= deadline:
+            if model.now > deadline:
                 return Result("timeout")
         assert child.result is not None
         return child.result
@@ -213,7 +175,7 @@ def _if(node: tree.If, model: Model, scope: Scope) -> Life:
 def _leaf(node: tree.Wait | tree.WaitUntil | tree.Check, model: Model, scope: Scope) -> Life:
     match node:
         case tree.Wait(seconds=Constant(value=seconds)):
-            until = model.now + float(seconds) - 1e-9
+            until = model.now + float(seconds) - 1e-4
             while model.now < until:
                 yield
             return Result()
@@ -228,7 +190,7 @@ def _leaf(node: tree.Wait | tree.WaitUntil | tree.Check, model: Model, scope: Sc
 
 
 def _with(node: tree.With, model: Model, scope: Scope) -> Life:
-    inner = Scope(scope.bindings, scope.once, [], scope.calls)
+    inner = replace(scope, undo=[])
     try:
         result = yield from run(node.call, model, inner)
         if not result.ok:

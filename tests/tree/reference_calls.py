@@ -36,15 +36,17 @@ def _implementation(skill: Skill, implementation: Implementation, model: Model, 
     if not all(true(pre.condition, model, scope) for pre in implementation.pre):
         return Result("pre", refused=True)
     if not all(true(hold.condition, model, scope) for hold in implementation.hold):
-        return Result("hold", hold=True, refused=True)
+        return Result("hold", hold=not model.dry, refused=True)
     if device and holders and holders[-1] not in scope.calls:
         return Result("lock", refused=True)
-    key = object()
-    holders.append(key)
+    key = (object(), *scope.branch)
+    if not model.dry:
+        holders.append(key)
     try:
         result = yield from _held(skill, implementation, model, replace(scope, calls=(*scope.calls, key)), run)
     finally:
-        holders.remove(key)
+        if key in holders:
+            holders.remove(key)
     return _written(implementation, model, scope) if result.ok else result
 
 
@@ -86,6 +88,8 @@ def _watched(life: Life, holds: list[Condition], model: Model, scope: Scope) -> 
 
 
 def _primitive(scoped: bool, model: Model, scope: Scope) -> Life:
+    while model.dry:
+        yield
     name = str(scope.bindings["name"])
     script = model.next_script(name)
     model.tell("start", name)

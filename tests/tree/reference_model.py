@@ -31,7 +31,11 @@ Life: TypeAlias = Generator[None, None, Result]
 
 @dataclass
 class Model:
-    """The whole world of the reference: flags, time, scripts, locks, and the log."""
+    """The whole world of the reference: flags, time, scripts, locks, and the log.
+
+    The key of a lock names the branches of reactive selectors that it is in. In a `dry` one nothing is done: primitives
+    run for ever, and nothing is locked.
+    """
 
     library: SkillLibrary
     scripts: dict[str, list[Script]]
@@ -39,7 +43,8 @@ class Model:
     now: float = 0.0
     log: list[tuple[float, str, str]] = field(default_factory=list)
     starts: dict[str, int] = field(default_factory=dict)
-    locks: dict[str, list[object]] = field(default_factory=dict)
+    locks: dict[str, list[tuple[object, ...]]] = field(default_factory=dict)
+    dry: bool = False
 
     def tell(self, what: str, name: str) -> None:
         self.log.append((self.now, what, name))
@@ -52,12 +57,13 @@ class Model:
 
 @dataclass
 class Scope:
-    """What is around a node: bindings, results of `once`, things to release, the calls that hold locks."""
+    """What is around a node: bindings, results of `once`, things to release, the calls that hold locks, branches."""
 
     bindings: dict[str, object] = field(default_factory=dict)
     once: dict[object, Result] = field(default_factory=dict)
     undo: list[tuple[str, object]] = field(default_factory=list)
     calls: tuple[object, ...] = ()
+    branch: tuple[object, ...] = ()
 
 
 class Child:
@@ -80,6 +86,16 @@ def close(children: list[Child | None]) -> None:
     for child in reversed(children):
         if child is not None and child.result is None:
             child.life.close()
+
+
+def all_still(results: list[Result]) -> Result:
+    """Return the success of all."""
+    return Result(still=lambda: all(result.still() for result in results))
+
+
+def none_worked(results: list[Result]) -> Result:
+    """Return the failure of all."""
+    return Result("body", hold=any(result.hold for result in results))
 
 
 def true(condition: Condition, model: Model, scope: Scope) -> bool:

@@ -18,6 +18,14 @@ FLAGS = ALL_FLAGS[:2]
 
 ENDINGS = ("success", "success", "success", "fail", "fail", "crash", "refuse", "crash at start")
 
+CONTESTED_ENDINGS = ("success", "success", "success", "fail", "refuse")
+
+KINDS = ("leaf", "several", "several", "several", "loop", "decorator", "around", "branch")
+
+SKILLS = ("Act", "Act", "Setup", "Kept", "Kept", "Lit", "Set", "Use", "Either", "Another", "", "")
+
+CONTESTED_SKILLS = ("Use", "Use", "Use", "Use", "Act", "Kept", "Lit", "Set", "Another", "")
+
 
 @dataclass(frozen=True)
 class Play:
@@ -31,19 +39,24 @@ class Play:
 
 
 @st.composite
-def plays(draw: st.DrawFn, size: int = 12, python: str = SCRIPTED) -> Play:
-    """Draw a tree of about so many leaves; `python` is the class of every primitive."""
-    writer = _Writer(draw, size, python)
-    body = writer.node(4)
-    switch = st.tuples(st.integers(1, 6), st.sampled_from(FLAGS), st.booleans())
-    switches = draw(st.lists(switch, max_size=8))
+def plays(draw: st.DrawFn, size: int = 12, python: str = SCRIPTED, contested: bool = False) -> Play:
+    """Draw a tree of about so many leaves; `python` is the class of every primitive.
+
+    In a `contested` one, branches of reactive nodes need the same devices, under conditions that flip often.
+    """
+    writer = _Writer(draw, size, python, contested)
+    body = writer.contest(3) if contested else writer.node(4)
+    switch = st.tuples(st.integers(1, 12 if contested else 6), st.sampled_from(FLAGS), st.booleans())
+    switches = draw(st.lists(switch, min_size=4 if contested else 0, max_size=16 if contested else 8))
     halt_at = draw(st.one_of(st.none(), st.none(), st.integers(1, 12)))
     return Play(body, writer.library.build(), writer.scripts, tuple(switches), halt_at)
 
 
 class _Writer:
-    def __init__(self, draw: st.DrawFn, size: int, python: str) -> None:
+    def __init__(self, draw: st.DrawFn, size: int, python: str, contested: bool) -> None:
         self.draw = draw
+        self.skills, self.kinds = (CONTESTED_SKILLS, (*KINDS, "contest")) if contested else (SKILLS, KINDS)
+        self.endings, self.longest = (CONTESTED_ENDINGS, 9) if contested else (ENDINGS, 4)
         self.left = size
         self.library = Library(python)
         self.scripts: dict[str, list[Script]] = {}
@@ -51,21 +64,20 @@ class _Writer:
     def node(self, depth: int) -> tree.Node:
         if depth == 0 or self.left <= 0:
             return self.leaf()
-        kinds = ("leaf", "several", "several", "several", "loop", "decorator", "around", "branch")
-        kind = self.draw(st.sampled_from(kinds))
+        kind = self.draw(st.sampled_from(self.kinds))
         make = {
             "several": self.several,
             "loop": self.loop,
             "decorator": self.decorator,
             "around": self.around,
             "branch": self.branch,
+            "contest": self.contest,
         }
         return self.leaf() if kind == "leaf" else make[kind](depth - 1)
 
     def leaf(self) -> tree.Node:
         self.left -= 1
-        skills = ("Act", "Act", "Setup", "Kept", "Kept", "Lit", "Set", "Use", "Either", "Another", "", "")
-        skill = self.draw(st.sampled_from(skills))
+        skill = self.draw(st.sampled_from(self.skills))
         if not skill:
             return self.condition_leaf()
         more: dict[str, str | bool] = {}
@@ -93,6 +105,23 @@ class _Writer:
             return par(self.draw(st.sampled_from(("all", "any", "race", "lead"))), *children)
         reactive = self.draw(st.booleans())
         return seq(*children, reactive=reactive) if kind == "seq" else sel(*children, reactive=reactive)
+
+    def contest(self, depth: int) -> tree.Node:
+        """Draw a reactive node whose branches begin with a condition."""
+        branches = [self.guarded(depth) for _ in range(self.draw(st.integers(1, 2)))]
+        make = self.draw(st.sampled_from((sel, sel, seq)))
+        return make(*branches, self.node(depth - 1), reactive=True)
+
+    def guarded(self, depth: int) -> tree.Node:
+        test = tree.Check(condition=self.condition(), text="on", source=here())
+        rest = self.node(depth - 1)
+        match self.draw(st.sampled_from(("seq", "seq", "if", "alone"))):
+            case "seq":
+                return seq(test, rest)
+            case "if":
+                return tree.If(condition=self.condition(), text="on", then=rest, orelse=test, source=here())
+            case _:
+                return rest
 
     def loop(self, depth: int) -> tree.Node:
         child, count = self.node(depth), self.draw(st.integers(1, 3))
@@ -129,6 +158,6 @@ class _Writer:
 
     def name(self) -> str:
         name = f"a{len(self.scripts)}"
-        script = st.builds(Script, st.sampled_from(ENDINGS), st.integers(1, 4))
+        script = st.builds(Script, st.sampled_from(self.endings), st.integers(1, self.longest))
         self.scripts[name] = self.draw(st.lists(script, min_size=1, max_size=3))
         return name

@@ -16,8 +16,11 @@ from skillc_runtime.recording.events import Listener, Note
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.world_state import WorldState
 
-EPSILON_S = 1e-9
-"""What is due so much later than now is due now: times are sums of ticks."""
+EPSILON_S = 1e-4
+"""What is due so much later than now is due now: times are sums of ticks, whose errors add up over hours.
+
+It is far below the period of a tick and of control.
+"""
 
 
 class TreeContext:

@@ -18,7 +18,7 @@ _INVERTED = {SUCCESS: FAILURE, FAILURE: SUCCESS}
 
 
 class TimeoutNode(Node):
-    """Halts the child and fails if it still runs after the given time."""
+    """Halts the child and fails in the first tick after the given time; a child that ends just then is in time."""
 
     kind: ClassVar[str] = "timeout"
     __slots__ = ("_deadline", "_path", "child", "frame", "node")
@@ -35,12 +35,12 @@ class TimeoutNode(Node):
     def on_start(self) -> Status:
         seconds = evaluate_seconds(self.node.seconds, self.context, self.frame)
         self.name = f"timeout {seconds:g} s"
-        self._deadline = self.context.now + seconds - EPSILON_S
+        self._deadline = self.context.now + seconds + EPSILON_S
         self._path = ActivePath(self.child)
         return self.on_child_ended(self._path.start())
 
     def tick(self) -> Status:
-        if self.context.now >= self._deadline:
+        if self.context.now > self._deadline:
             message = f"{self.child.name} was not done after {self.name.removeprefix('timeout ')}"
             self.stop(message)
             return self.fail(Failure(kind="timeout", message=message, source=self.source))
