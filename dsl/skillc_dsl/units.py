@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+from decimal import Decimal
 from types import MappingProxyType
 
 import msgspec
@@ -125,8 +126,11 @@ _SPELLINGS = MappingProxyType(
 
 
 def to_si(value: float, unit: str) -> float:
-    """Return `value` in the SI unit of its dimension. Raises KeyError for a unit that is not in UNITS."""
-    return value * UNITS[unit].in_si
+    """Return `value` in the SI unit of its dimension, rounded once: 9 mm is the same number as 0.009 m.
+
+    Raises KeyError for a unit that is not in UNITS.
+    """
+    return float(Decimal(repr(value)) * Decimal(repr(UNITS[unit].in_si)))
 
 
 def dimension_of(unit: str) -> Dimension:

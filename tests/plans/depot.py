@@ -61,10 +61,14 @@ def goal(text: str, state: WorldState) -> Condition:
 
 @dataclass
 class Depot(OwnBackend):
-    """The cell; `meanwhile` happens once, when its time has come; `fails` says which start of which step fails."""
+    """The cell; `meanwhile` happens once, when its time has come; `fails` says which start of which step fails.
+
+    `sensed` is what the step that runs at some time senses.
+    """
 
     world: WorldModel
     meanwhile: dict[float, Callable[[WorldModel], object]] = field(default_factory=dict)
+    sensed: dict[float, Callable[[WorldModel], object]] = field(default_factory=dict)
     fails: Callable[[str, int], bool] = lambda step, number: False
     now: float = 0.0
     watchdog: HeartbeatWatchdog = field(default_factory=HeartbeatWatchdog)
@@ -85,8 +89,12 @@ class Depot(OwnBackend):
     def advance(self, seconds: float) -> None:
         """Let time pass."""
         self.now += seconds
-        for time in [time for time in self.meanwhile if time <= self.now]:
-            self.meanwhile.pop(time)(self.world)
+        self.let_happen(self.meanwhile)
+
+    def let_happen(self, due: dict[float, Callable[[WorldModel], object]]) -> None:
+        """Do once what is due."""
+        for time in [time for time in due if time <= self.now]:
+            due.pop(time)(self.world)
 
 
 class Scripted(Primitive):
@@ -106,6 +114,7 @@ class Scripted(Primitive):
         self._ends = self._depot.now + self._lasts
 
     def tick(self) -> Status:
+        self._depot.let_happen(self._depot.sensed)
         if self._depot.now < self._ends:
             return Status.RUNNING
         if self._fails:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from plans.depot import LAB, Depot, carried_out, contain, iri, library, world
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.primitives.primitive import Status
@@ -9,6 +11,7 @@ from skillc_runtime.recording.events import Event, Replanned
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure, list_details
 from skillc_runtime.world.state.changes import RemoveIndividual
+from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.model import WorldModel
 
 SLIPPED = Failure(kind="body", message="it slipped")
@@ -157,3 +160,28 @@ def test_a_goal_that_holds_already_needs_no_step() -> None:
     depot = Depot(WorldModel(state))
     assert carried_out(MOVED, state, depot).status == "succeeded"
     assert depot.log == []
+
+
+TURNED = "lab:crate.turned == true and lab:b contain lab:crate"
+
+
+def test_what_a_running_step_undoes_for_a_moment_is_no_reason_for_another_plan() -> None:
+    model, state = one_robot()
+    execution = carried_out(TURNED, state, Depot(model))
+    assert execution.status == "succeeded", execution.failure
+    assert len(execution.attempts) == 1
+
+
+@pytest.mark.parametrize("who", ["meanwhile", "sensed"])
+def test_what_comes_from_elsewhere_meanwhile_is_a_reason_at_once(who: str) -> None:
+    """While the crate stands for a moment, another one turns out to be elsewhere that the plan takes next."""
+    state = world({"carl": "a"}, {"crate": "a", "box": "a"})
+    evidence: Evidence = "sensed" if who == "sensed" else "assumed"
+    away = {3.0: lambda world: world.commit([contain("d", "box")], "somebody", evidence)}
+    depot = Depot(WorldModel(state), **{who: away})
+    events: list[Event] = []
+    execution = carried_out(f"{TURNED} and lab:b contain lab:box", state, depot, events)
+    assert execution.status == "succeeded", execution.failure
+    (replanned,) = [event for event in events if isinstance(event, Replanned)]
+    assert replanned.time < 3.1
+    assert "Load is no longer possible" in replanned.reason and "box" in replanned.reason

@@ -14,6 +14,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, UNITS
 from skillc_model.rewriting import constant_number
+from skillc_model.rounding import is_above
 
 NAMES = ("out-of-range", "empty-range")
 NEEDS = Need.NAMES
@@ -65,7 +66,7 @@ def _check_outside(
         or low is None
         or high is None
         or low > high
-        or low <= known <= high
+        or not (is_above(low, known) or is_above(known, high))
     ):
         return
     bounds = f"{_format_si(low, parameter.type)} .. {_format_si(high, parameter.type)}"

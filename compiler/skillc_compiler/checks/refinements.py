@@ -10,6 +10,7 @@ from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedE
 from skillc_compiler.program.types import describe_type, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.rewriting import constant_number
+from skillc_model.rounding import is_above
 
 NAMES = ("not-narrower",)
 NEEDS = Need.TYPES
@@ -40,8 +41,8 @@ def _problem(new: Refinement, of: Parameter, reason: str) -> Diagnostic:
 
 def _is_wider(new: Refinement, of: Parameter) -> bool:
     low, high, old_low, old_high = (_number(v) for v in (new.low, new.high, of.low, of.high))
-    below = low is not None and old_low is not None and low < old_low
-    above = high is not None and old_high is not None and high > old_high
+    below = low is not None and old_low is not None and is_above(old_low, low)
+    above = high is not None and old_high is not None and is_above(high, old_high)
     return below or above
 
 

@@ -10,7 +10,8 @@ from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PlannedSteps, PreparedTask
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
-from skillc_runtime.execution.plans.progress import invalidation_reason, measure_progress
+from skillc_runtime.execution.plans.monitor import PlanMonitor
+from skillc_runtime.execution.plans.progress import measure_progress
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
@@ -92,9 +93,8 @@ class AttemptResult:
         planned = self.prepared.planned
         if planned is None:
             return ()
-        return tuple(
-            step for step, outcome in measure_progress(planned.steps, self.tree).steps if outcome.status in statuses
-        )
+        progress = measure_progress(planned.steps, self.tree)
+        return tuple(step for step, outcome in progress if outcome.status in statuses)
 
 
 class Attempt:
@@ -121,14 +121,14 @@ class Attempt:
         )
         self.ticking, self.ended = True, False
         self._invalidated: str | None = None
-        self._seen = cell.world.snapshot()
+        self._monitor = self._watch_plan()
         self._settling_ticks = 0
         self._asked: tuple[Prompt, ...] = ()
 
     def tick(self, devices: frozenset[str] | None) -> None:
         """Tick the tree once, or wait for `devices`, all if None, to come to rest after its end."""
-        if self.ticking and self.tree.tick() is Status.RUNNING:
-            self._halt_if_invalid()
+        if self.ticking:
+            self._tick_tree()
         self._tell_prompts()
         if self.tree.status is Status.RUNNING:
             return
@@ -171,17 +171,25 @@ class Attempt:
         """Secure devices once, after the tree has ended."""
         if self.ticking:
             self.ticking = False
+            if self._monitor is not None:
+                self._monitor.stop()
             self._context.emit_notes(self._context.backend.secure(devices))
 
-    def _halt_if_invalid(self) -> None:
-        """Halt the tree if the world has changed so that the plan no longer leads to the goal."""
-        state = self._context.backend.cell.world.snapshot()
-        if state is self._seen:
-            return
-        self._seen = state
+    def _watch_plan(self) -> PlanMonitor | None:
         match self.prepared:
             case PreparedTask(Assignment(objective=AchieveGoal(goal)), planned=PlannedSteps(steps=steps)):
-                progress = measure_progress(steps, self.tree.outcome)
-                reason = invalidation_reason(progress, goal, self._context.library, state)
-                if reason is not None:
-                    self.invalidate(reason)
+                world = self._context.backend.cell.world
+                return PlanMonitor(steps, goal, self._context.library, world, lambda: self.tree.outcome)
+            case _:
+                return None
+
+    def _tick_tree(self) -> None:
+        """Tick the tree; halt it if the world has changed so that the plan no longer leads to the goal."""
+        if self._monitor is None:
+            self.tree.tick()
+            return
+        with self._monitor.tick():
+            status = self.tree.tick()
+        reason = self._monitor.find_invalidation() if status is Status.RUNNING else None
+        if reason is not None:
+            self.invalidate(reason)

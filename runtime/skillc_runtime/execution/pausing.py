@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias, assert_never
 
 from skillc_runtime.devices.backend import Clock
 from skillc_runtime.execution.attempt import SETTLE_S
+from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.execution.tree.gate import Gate, keep_s
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.recording.commands import Pause, Resume, StepInto, StepOut, StepOver
@@ -71,5 +72,5 @@ class PauseControl:
         passed = self._clock.now - self._since
         if self.state == "pausing" and (tree.is_still or passed > SETTLE_S):
             self.state = "paused"
-        if passed >= self._keep_s and not tree.withdrawn:
+        if passed >= self._keep_s - EPSILON_S and not tree.withdrawn:
             tree.withdraw()

@@ -23,6 +23,7 @@ from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPre
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.run_status import RunStatus
 from skillc_runtime.execution.task_state import Ending, RefusedCommand, refusal
+from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoint
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
@@ -220,7 +221,7 @@ class TaskRun(RunStatus):
     def _check_limits(self) -> None:
         """Fail if the deadline has passed, nobody has decided, or the cell is broken before an attempt has begun."""
         limit, broken = self.settings.deadline_s, self._context.backend.broken
-        if limit is not None and self._now - self._submitted_at >= limit:
+        if limit is not None and self._now - self._submitted_at > limit + EPSILON_S:
             self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
         elif self.waits_for_person and self._now - self._state_since >= DECISION_LIMIT_S:
             why = f"nobody has decided for {DECISION_LIMIT_S:g} s how it goes on"

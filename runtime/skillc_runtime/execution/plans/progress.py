@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
@@ -20,20 +19,9 @@ STEP_KINDS = ("call", "if")
 """The kinds of nodes that run a step in the body of a plan: a call, or one that is skipped if nothing is left to do."""
 
 
-@dataclass(frozen=True, slots=True)
-class Progress:
-    """The steps of a plan in the order of its body, each with the outcome of its node."""
-
-    steps: tuple[tuple[Step, NodeOutcome], ...]
-
-    def with_status(self, status: str) -> tuple[Step, ...]:
-        """Return the steps with a status: idle, running, success, failure or halted."""
-        return tuple(step for step, outcome in self.steps if outcome.status == status)
-
-
-def measure_progress(steps: Sequence[Step], tree: NodeOutcome) -> Progress:
-    """Return the progress of steps, given in the order of the body that `tree` is the outcome of."""
-    return Progress(tuple(zip(steps, find_step_outcomes(tree), strict=True)))
+def measure_progress(steps: Sequence[Step], tree: NodeOutcome) -> tuple[tuple[Step, NodeOutcome], ...]:
+    """Return steps, given in the order of the body that `tree` is the outcome of, each with the outcome of its node."""
+    return tuple(zip(steps, find_step_outcomes(tree), strict=True))
 
 
 def find_step_outcomes(tree: NodeOutcome) -> Iterator[NodeOutcome]:
@@ -45,17 +33,19 @@ def find_step_outcomes(tree: NodeOutcome) -> Iterator[NodeOutcome]:
             yield from find_step_outcomes(child)
 
 
-def invalidation_reason(progress: Progress, goal: Condition, library: SkillLibrary, state: WorldState) -> str | None:
+def invalidation_reason(
+    begun: Sequence[Step], left: Sequence[Step], goal: Condition, library: SkillLibrary, state: WorldState
+) -> str | None:
     """Return why the plan no longer leads to the goal from `state`, None if it does.
 
-    Running steps are expected to have their effects; the remaining ones must then be able to start in order.
+    Steps that have begun are expected to have their effects; those that are left must then be able to start in order.
     """
     try:
-        for step in progress.with_status("running"):
+        for step in begun:
             state = apply_effects(step, library, state)
     except (EvaluationError, WorldError):
         return None  # in the middle of a step the world may be in a state in which its effects make no sense yet
-    for step in progress.with_status("idle"):
+    for step in left:
         achieved = achieved_condition(step, library)
         try:
             state = (

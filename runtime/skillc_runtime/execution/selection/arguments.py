@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_model.format_type import format_type
+from skillc_model.rounding import is_above
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import THING, ClassType, DirectionType, ValueType, Vocabulary, local_name
 from skillc_runtime.world.state.labelled import label_value
@@ -29,9 +30,9 @@ def _check_range(parameter: Parameter, value: float, vocabulary: Vocabulary) -> 
     def text(number: float) -> str:
         return format_value(label_value(number, parameter.type, vocabulary))
 
-    if parameter.low is not None and value < parameter.low:
+    if parameter.low is not None and is_above(parameter.low, value):
         return f"{text(value)} is below {text(parameter.low)}, the minimum"
-    if parameter.high is not None and value > parameter.high:
+    if parameter.high is not None and is_above(value, parameter.high):
         return f"{text(value)} is above {text(parameter.high)}, the maximum"
     return None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from skillc_model.rounding import is_above
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import MANIPULATABLE, OPENING, SLIDE_FRICTION, TRAVEL
 from skillc_runtime.world.state.world_state import WorldState
@@ -32,6 +33,6 @@ def read_slide(state: WorldState, individual: str) -> Slide | None:
     travel_m = number_of(state, individual, TRAVEL)
     if state.is_a(individual, MANIPULATABLE):
         raise SheetError(f"{short(individual)} lies free, as a thing to handle, and has a {short(TRAVEL)} of a drawer")
-    if opening_m > travel_m:
+    if is_above(opening_m, travel_m):
         raise SheetError(f"{short(individual)} is {opening_m:g} m open, but slides {travel_m:g} m at most")
     return Slide(travel_m, opening_m, number_of(state, individual, SLIDE_FRICTION, default=SLIDE_FRICTION_N))
