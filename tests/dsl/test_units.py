@@ -42,6 +42,11 @@ def test_values_in_si(value: float, unit: str, si: float, dimension: str) -> Non
     assert dimension_of(unit).name == dimension
 
 
+@pytest.mark.parametrize(("unit", "per_si"), [("mm", 1000), ("cm", 100), ("ms", 1000), ("g", 1000), ("mm2", 10**6)])
+def test_a_quantity_is_the_number_that_it_is_in_si(unit: str, per_si: int) -> None:
+    assert [n for n in range(1, 2000) if to_si(float(n), unit) != n / per_si] == []
+
+
 def test_every_unit_has_a_dimension_with_a_name() -> None:
     assert {unit.dimension.name for unit in UNITS.values()} == set(DIMENSIONS) - {"Number"}
 

@@ -57,6 +57,12 @@ def test_a_fixed_choice_leaves_no_other() -> None:
     assert isinstance(result, NoneSelected) and [each.implementation for each in result.rejected] == ["robotiq"]
 
 
+@pytest.mark.parametrize("force", [0.1 * 50, 80 * (0.1 + 0.2) / 0.3, 80 * (1 + 1e-12), 5 * (1 - 1e-12)])
+def test_rounding_takes_no_value_out_of_its_range(force: float) -> None:
+    result = select_implementation(library(), "Actuate", GRIPPER | {"force": force}, scene(), fixed="wsg")
+    assert isinstance(result, SelectedImplementation)
+
+
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
