@@ -72,14 +72,14 @@ class ReactiveSelectorNode(Node):
 
     def on_start(self) -> Status:
         self._failed: set[int] = set()
-        return self._start_from(0)
+        return self._continue_with(self._start_child(0))
 
     def tick(self) -> Status:
         earlier = self._find_earlier() if self._active > 0 else None
         if earlier is not None:
             self._path.top.halt(f"{self.children[earlier].name}, which comes before it, can run")
             self.context.refresh_state()
-            return self._start_from(earlier)
+            return self._continue_with(self._start_child(earlier))
         return self._continue_with(self._path.tick())
 
     def remains_satisfied(self) -> bool:
@@ -95,17 +95,16 @@ class ReactiveSelectorNode(Node):
                 return index
         return None
 
-    def _start_from(self, index: int) -> Status:
-        self._active = index
-        if index == len(self.children):
-            return self.fail(combine_failures(self))
-        self._path = ActivePath(self.children[index])
-        return self._continue_with(self._path.start())
+    def _start_child(self, index: int) -> Status:
+        self._active, self._path = index, ActivePath(self.children[index])
+        return self._path.start()
 
     def _continue_with(self, status: Status) -> Status:
         """Continue after the active child was started or ticked."""
-        if status is FAILURE:
-            if self.children[self._active].dry_start(frozenset()) is not FAILURE:
+        while status is FAILURE:
+            if self._path.top.dry_start(frozenset()) is not FAILURE:
                 self._failed.add(self._active)
-            return self._start_from(self._active + 1)
+            if self._active + 1 == len(self.children):
+                return self.fail(combine_failures(self))
+            status = self._start_child(self._active + 1)
         return RUNNING if status is RUNNING else self.succeed()

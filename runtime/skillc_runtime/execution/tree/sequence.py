@@ -63,7 +63,7 @@ class ReactiveSequenceNode(Node):
 
     def on_start(self) -> Status:
         self._done = [False] * len(self.children)
-        return self._start_from(0)
+        return self._continue_with(self._start_child(0))
 
     def tick(self) -> Status:
         try:
@@ -72,26 +72,25 @@ class ReactiveSequenceNode(Node):
                 return self._continue_with(self._path.tick())
             self._path.top.halt(f"{self.children[earlier].name}, which comes before it, runs again")
             self.context.refresh_state()
-            return self._start_from(earlier)
+            return self._continue_with(self._start_child(earlier))
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
             return self.fail_with_error(error)
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and all(child.remains_satisfied() for child in self.children)
 
-    def _start_from(self, index: int) -> Status:
-        self._active = self._find_outdated(index, len(self.children))
-        if self._active == len(self.children):
-            return self.succeed()
-        self._done[self._active] = False
-        self._path = ActivePath(self.children[self._active])
-        return self._continue_with(self._path.start())
+    def _start_child(self, index: int) -> Status:
+        self._active, self._path, self._done[index] = index, ActivePath(self.children[index]), False
+        return self._path.start()
 
     def _continue_with(self, status: Status) -> Status:
         """Continue after the active child was started or ticked."""
-        if status is SUCCESS:
+        while status is SUCCESS:
             self._done[self._active] = True
-            return self._start_from(self._active + 1)
+            following = self._find_outdated(self._active + 1, len(self.children))
+            if following == len(self.children):
+                return self.succeed()
+            status = self._start_child(following)
         return RUNNING if status is RUNNING else self.fail(self._path.top.failure)
 
     def _find_outdated(self, first: int, end: int) -> int:
