@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.execution.plans.progress import invalidation_reason, measure_progress
+from skillc_runtime.execution.plans.progress import Progress, invalidation_reason, measure_progress
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.changes import named_individuals
@@ -21,7 +21,8 @@ class PlanMonitor:
 
     A compound that runs may undo for a moment what they need. So they are judged in two worlds, each with the effects
     that the running steps will have: the world as it is, and the one in which these steps began, with all that has
-    come from elsewhere since. The plan leads to the goal if it does so in one of them.
+    come from elsewhere since. The plan leads to the goal if it does so in one of them; while it does so only in the
+    other world, it is judged again as soon as other steps run.
     """
 
     def __init__(
@@ -38,6 +39,7 @@ class PlanMonitor:
         self._seen = self._before = world.snapshot()
         self._ended: frozenset[int] = frozenset()
         self._running: frozenset[int] = frozenset()
+        self._pardoned: frozenset[int] | None = None
         self._ticking = False
         self.stop = world.subscribe(self._follow)
 
@@ -51,33 +53,44 @@ class PlanMonitor:
             self._ticking = False
 
     def find_invalidation(self) -> str | None:
-        """Return why the plan no longer leads to the goal, None if it does, or if the world is as at the last call."""
+        """Return why the plan no longer leads to the goal, None if it does, or if nothing has changed since it did."""
         state = self._world.snapshot()
-        if state is self._seen:
+        if state is self._seen and self._pardoned is None:
             return None
-        self._seen = state
-        left = self._select("idle").values()
-        reason = self._judge(self._select("running").values(), left, state)
+        progress = self._measure(state)
+        if state is self._seen and self._pardoned == self._running:
+            return None
+        self._seen, self._pardoned = state, None
+        left = _select(progress, "idle").values()
+        reason = self._judge(_select(progress, "running").values(), left, state)
         if reason is None or self._before is state:
             return reason
-        begun = (step for number, step in self._select("running", "success").items() if number not in self._ended)
-        return self._judge(begun, left, self._before)
+        begun = (step for number, step in _select(progress, "running", "success").items() if number not in self._ended)
+        reason = self._judge(begun, left, self._before)
+        self._pardoned = self._running if reason is None else None
+        return reason
 
     def _judge(self, begun: Iterable[Step], left: Iterable[Step], state: WorldState) -> str | None:
         return invalidation_reason(tuple(begun), tuple(left), self._goal, self._library, state)
 
     def _follow(self, event: ChangeEvent) -> None:
         """Take note of a write to the world."""
-        running = self._select("running")
-        if self._running.isdisjoint(running):
-            self._before, self._ended = event.before, frozenset(self._select("success"))
-        self._running = frozenset(running)
-        if self._is_own(event, running.values()):
+        progress = self._measure(event.before)
+        if self._is_own(event, _select(progress, "running").values()):
             return
         try:
             self._before = self._before.with_changes(event.changes)
         except (WorldError, KeyError):  # what has changed is only there because of what the steps have done
             self._before = event.after
+
+    def _measure(self, state: WorldState) -> Progress:
+        """Return the progress in `state`, in which the running steps began if none of them ran before."""
+        progress = measure_progress(self._steps, self._outcome())
+        running = _select(progress, "running")
+        if self._running.isdisjoint(running):
+            self._before, self._ended = state, frozenset(_select(progress, "success"))
+        self._running = frozenset(running)
+        return progress
 
     def _is_own(self, event: ChangeEvent, running: Iterable[Step]) -> bool:
         """Whether running steps have made a change, which they may undo, unlike what they sense of other things."""
@@ -88,7 +101,7 @@ class PlanMonitor:
             not handled.isdisjoint(named_individuals(change)) for change in event.changes
         )
 
-    def _select(self, *statuses: str) -> dict[int, Step]:
-        """Return the steps that have one of these statuses now, by number."""
-        progress = enumerate(measure_progress(self._steps, self._outcome()))
-        return {number: step for number, (step, outcome) in progress if outcome.status in statuses}
+
+def _select(progress: Progress, *statuses: str) -> dict[int, Step]:
+    """Return the steps that have one of these statuses, by number."""
+    return {number: step for number, (step, outcome) in enumerate(progress) if outcome.status in statuses}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TypeAlias
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
@@ -15,12 +16,15 @@ from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
+Progress: TypeAlias = tuple[tuple[Step, NodeOutcome], ...]
+"""The steps of a plan in the order of its body, each with the outcome of its node."""
+
 STEP_KINDS = ("call", "if")
 """The kinds of nodes that run a step in the body of a plan: a call, or one that is skipped if nothing is left to do."""
 
 
-def measure_progress(steps: Sequence[Step], tree: NodeOutcome) -> tuple[tuple[Step, NodeOutcome], ...]:
-    """Return steps, given in the order of the body that `tree` is the outcome of, each with the outcome of its node."""
+def measure_progress(steps: Sequence[Step], tree: NodeOutcome) -> Progress:
+    """Return the progress of steps, given in the order of the body that `tree` is the outcome of."""
     return tuple(zip(steps, find_step_outcomes(tree), strict=True))
 
 
