@@ -160,7 +160,7 @@ class Player:
 
     def _timeout(self, node: Node) -> Outcome | None:
         until = float(str(node.state.setdefault("until", self.stage.now + self._seconds(node))))
-        if node.running and self.stage.now >= until - 1e-9:
+        if node.running and self.stage.now > until + 1e-9:
             node.children[0].halt()
             return Outcome(False)
         return node.children[0].tick()

@@ -49,9 +49,10 @@ class LoopNode(Node):
         status = self._path.start()
         return RUNNING if status is RUNNING else self.on_child_ended(status)
 
-    def foresee_round(self, freed: Holders) -> Status:
-        """Return how the first round would begin; what follows a round begins in another tick."""
-        return FAILURE if self.child.dry_start(freed) is FAILURE else RUNNING
+    def foresee_round(self, freed: Holders, is_only: bool) -> Status:
+        """Return how the first round would begin; unless it is the only one, what follows begins in another tick."""
+        status = self.child.dry_start(freed)
+        return RUNNING if status is SUCCESS and not is_only else status
 
     def next_round(self) -> Status:
         """Start a round, or end if none is left."""
@@ -94,7 +95,7 @@ class RepeatNode(LoopNode):
         self.count = node.count
 
     def foresee(self, freed: Holders) -> Status:
-        return SUCCESS if self.count == 0 else self.foresee_round(freed)
+        return SUCCESS if self.count == 0 else self.foresee_round(freed, is_only=self.count == 1)
 
     def next_round(self) -> Status:
         return self.start_round() if self.rounds < self.count else self.succeed()
@@ -119,7 +120,7 @@ class WhileNode(LoopNode):
     def foresee(self, freed: Holders) -> Status:
         if not evaluate(self.node.condition, self.context.state, self.frame):
             return SUCCESS
-        return FAILURE if self.node.limit == 0 else self.foresee_round(freed)
+        return FAILURE if self.node.limit == 0 else self.foresee_round(freed, is_only=False)
 
     def next_round(self) -> Status:
         if not evaluate(self.node.condition, self.context.state, self.frame):
@@ -156,7 +157,7 @@ class ForEachNode(LoopNode):
         if not items:
             return SUCCESS
         self._enter(items[0])
-        return self.foresee_round(freed)
+        return self.foresee_round(freed, is_only=len(items) == 1)
 
     def on_start(self) -> Status:
         self._items = self._evaluate_items()
