@@ -20,7 +20,8 @@ from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.table import list_table_rows
-from skillc_runtime.evaluation.report.work_kinds import list_figures, measure_work
+from skillc_runtime.evaluation.report.work_figures import list_figures
+from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.evaluation.report.work_result import PushResult
 from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task

@@ -11,7 +11,8 @@ from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.figure_files import render_figure
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
-from skillc_runtime.evaluation.report.work_kinds import list_figures, measure_work
+from skillc_runtime.evaluation.report.work_figures import list_figures
+from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.evaluation.report.work_result import GraspResult, GuidanceResult, PushResult, SearchResult
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.world.state.model import WorldModel

@@ -32,7 +32,7 @@ from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import check_writable
 from skillc.services.planning import prepare_planners, with_minimal_makespan
 from skillc.services.recordings import find_mcap
-from skillc.services.run_report import PRIMITIVE_LOOKS
+from skillc.services.run_result import PRIMITIVE_LOOKS
 from skillc.services.running import RunOptions, run_task
 from skillc.services.signal_files import SignalFormat
 from skillc.services.task_loading import LoadedTask, load_task

@@ -1,131 +1,43 @@
-"""Makes the result of a run, and writes its report, figure, film and stills."""
+"""Writes the result of a run with its report, figures, film and stills into a folder."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.simulation import Simulation
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.film_story import make_story
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.run_trace import RunTrace
-from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
-from skillc_runtime.evaluation.report.work_kinds import list_figures, measure_work
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+from skillc_runtime.evaluation.report.work_figures import list_figures
 from skillc_runtime.evaluation.report.write import write_figure, write_report, write_result
-from skillc_runtime.execution.execute import Execution
 from skillc_runtime.film.film import Film, FilmFiles, Story
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError
 
-PRIMITIVE_LOOKS = "primitive"
 
-
-@dataclass(frozen=True, slots=True)
-class RunResult:
-    """The result of a task, and the drawings of its wipings for the report (none without a report).
-
-    `written` is False if a report was requested and could not be written.
-    """
-
-    result: TaskResult
-    drawings: tuple[WipingDrawing, ...] = ()
-    written: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class RunSamples:
-    """What is sampled during a run: the pictures of the film, unless there is to be none, and what devices do."""
-
-    film: Film | None
-    trace: RunTrace
-
-    def sample(self) -> None:
-        """Sample what is due; called in every tick."""
-        if self.film is not None:
-            self.film.sample()
-        self.trace.sample()
-
-
-def check_film(looks: str, film: bool, gif: bool) -> None:
-    """RequestError if something is wanted of a film that is not to be made."""
-    if film:
-        return
-    if looks != PRIMITIVE_LOOKS:
-        raise RequestError(f"--looks {looks} applies to films and stills, which --no-film leaves out")
-    if gif:
-        raise RequestError("--gif writes a film, which --no-film leaves out")
-
-
-def make_samples(simulation: Simulation, looks: str, filmed: bool, loop: bool = False) -> RunSamples:
-    """Return what to sample: the film with the meshes of that name, also as a loop if that is wanted.
-
-    ServiceError if there are no such meshes.
-    """
-    if not filmed:
-        return RunSamples(None, RunTrace(simulation))
-    spec = None if looks == PRIMITIVE_LOOKS else _describe_with_meshes(simulation, looks)
-    return RunSamples(Film(simulation, spec, loop), RunTrace(simulation))
-
-
-def report_run(
-    execution: Execution[Simulation],
-    choices: ChoiceListener,
-    library: SkillLibrary,
-    samples: RunSamples,
-    folder: Path | None,
-    reporter: Reporter,
-) -> RunResult:
-    """Make the result of a run, and write it with the report, and a film if it was sampled, to a folder, if any."""
-    simulation = execution.backend
-    trees = [attempt.tree for attempt in execution.attempts]
-    state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
-    record = RunRecord(trees, choices, state, truth, samples.trace)
-    works, began_s = measure_work(record), samples.trace.began_s
-    result = summarise_run(execution, choices, library, record.wipings, simulation, works, began_s)
-    if folder is None:
-        return RunResult(result)
-    drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in record.wipings)
-    try:
-        with writing_to(folder):
-            write_result(folder, result)
-            filmed = None
-            if samples.film is not None:
-                moments = find_moments(record.wipings, trees, choices, state, truth)
-                story = make_story(moments, trees, choices, library, result, state)
-                filmed = _write_film(samples.film, folder, story, reporter)
-            write_report(folder, result, trees, list_figures(record), filmed)
-    except ServiceError as error:
-        reporter.say(f"error: {error}")
-        return RunResult(result, drawings, written=False)
-    return RunResult(result, drawings)
+def write_run(
+    folder: Path, result: TaskResult, record: RunRecord, library: SkillLibrary, film: Film | None, reporter: Reporter
+) -> None:
+    """Write a run, and its film if it was sampled. ServiceError if the folder cannot be written to."""
+    with writing_to(folder):
+        write_result(folder, result)
+        filmed = None
+        if film is not None:
+            moments = find_moments(record.wipings, record.trees, record.choices, record.state, record.truth)
+            story = make_story(moments, record.trees, record.choices, library, result, record.state)
+            filmed = _write_film(film, folder, story, reporter)
+        write_report(folder, result, record.trees, list_figures(record), filmed)
 
 
 def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | None:
     """Write the figure that compares the wipings of several runs and return its file; None without wipings."""
     with writing_to(folder):
         return folder / "wiping.png" if write_figure(folder, drawings) is not None else None
-
-
-def _describe_with_meshes(simulation: Simulation, looks: str) -> Any:
-    """Return the `mujoco.MjSpec` of a cell with the meshes of that name. ServiceError if there are none."""
-    from skillc_runtime.film.look_meshes import add_looks
-    from skillc_runtime.film.looks import LooksError, read_looks
-
-    try:
-        wanted = read_looks(simulation.cell.world.snapshot(), simulation.drawing.prefixes, looks)
-        return add_looks(simulation.drawing.describe_model(), wanted)
-    except LooksError as error:
-        raise ServiceError(str(error)) from error
 
 
 def _write_film(film: Film, folder: Path, story: Story, reporter: Reporter) -> FilmFiles | None:

@@ -17,7 +17,7 @@ from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
 from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
-from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, RunSamples, check_film, make_samples, report_run
+from skillc.services.run_result import PRIMITIVE_LOOKS, RunResult, RunSamples, check_film, make_samples, report_run
 from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
 from skillc.services.store_polling import StorePoller
 from skillc.services.task_loading import LoadedTask

@@ -11,7 +11,7 @@ from skillc.services.files import writing_to
 from skillc.services.recordings import NAME
 from skillc.services.reporting import Reporter
 from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
-from skillc.services.run_report import RunResult
+from skillc.services.run_result import RunResult
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.write import write_report, write_result

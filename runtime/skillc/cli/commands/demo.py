@@ -5,12 +5,17 @@ Exit code 3 if a task does not succeed.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from skillc.cli.command import Command
 from skillc.cli.options import FOLDER, gif_option, looks_option
+
+if TYPE_CHECKING:
+    from skillc.services.run_result import RunResult
 
 SEED = 1
 """With this seed both surfaces are more than 1 cm away from their poses in the world model."""
@@ -36,7 +41,6 @@ def command(robot: str, out: Path | None, seed: int, looks: str, gif: bool, as_j
     from skillc.cli.console import Terminal, print_json
     from skillc.cli.run_output import print_results, run_with_progress
     from skillc.services.files import check_writable
-    from skillc.services.run_report import RunResult, write_comparison
     from skillc.services.running import RunOptions
     from skillc.services.task_loading import TaskRequest, load_task
 
@@ -52,9 +56,17 @@ def command(robot: str, out: Path | None, seed: int, looks: str, gif: bool, as_j
             print_results([runs[-1].result], folder if runs[-1].written else None)
     if as_json:
         print_json([run.result for run in runs])
-    figure = out and write_comparison(out, [drawing for run in runs for drawing in run.drawings])
-    if figure and not as_json:
-        click.echo(f"side by side: {figure}")
+    if out is not None:
+        _compare(out, runs, as_json)
     if any(run.result.status != "succeeded" for run in runs):
         return 3
     return 0 if all(run.written for run in runs) else 1
+
+
+def _compare(folder: Path, runs: Sequence[RunResult], quiet: bool) -> None:
+    """Write the figure that compares the wipings of the runs, and say where unless `quiet`."""
+    from skillc.services.run_report import write_comparison
+
+    figure = write_comparison(folder, [drawing for run in runs for drawing in run.drawings])
+    if figure is not None and not quiet:
+        click.echo(f"side by side: {figure}")

@@ -10,7 +10,7 @@ from skillc.services.files import writing_to
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
-from skillc.services.run_report import PRIMITIVE_LOOKS, RunResult, check_film, make_samples, report_run
+from skillc.services.run_result import PRIMITIVE_LOOKS, RunResult, check_film, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.execution.execute import describe_execution

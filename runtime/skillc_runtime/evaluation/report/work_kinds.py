@@ -1,170 +1,39 @@
-"""All kinds of work that a report knows: what each measures, and the figures that it draws.
+"""All kinds of work that a report knows, and what each measures; `work_figures.py` has their figures.
 
 A kind is recognised by what was done in a run: activities of primitives, samples of devices, ground truth. A new kind
-is a module that finds and measures it, a module with its figure, and an entry in `KINDS`.
+is a module that finds and measures it, an entry in `KINDS`, a module with its figure, and an entry in `FIGURES` there.
+The two lists are apart because a run without a report draws nothing, and what draws takes long to import.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import partial
 
-from skillc_runtime.evaluation.report.drive_figure import draw_drive
-from skillc_runtime.evaluation.report.drives import find_drives, measure_drives
+from skillc_runtime.evaluation.report.drives import measure_drives
 from skillc_runtime.evaluation.report.grasps import measure_grasp
-from skillc_runtime.evaluation.report.grip_figure import draw_grips
-from skillc_runtime.evaluation.report.guidance_figure import draw_guidance
 from skillc_runtime.evaluation.report.guidances import find_free_periods, measure_guidance
-from skillc_runtime.evaluation.report.handling_drawing import make_handling_drawings
-from skillc_runtime.evaluation.report.path_figure import choose_axes, draw_path
-from skillc_runtime.evaluation.report.push_figure import draw_push, make_push_drawing
 from skillc_runtime.evaluation.report.pushes import PushRecord, find_pushes, measure_push
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.search_figure import draw_search, make_search_drawing
 from skillc_runtime.evaluation.report.searches import find_searches, measure_search
-from skillc_runtime.evaluation.report.wiping_drawing import make_wiping_drawing
-from skillc_runtime.evaluation.report.wiping_figure import draw_figure
-from skillc_runtime.evaluation.report.work_figure import WorkFigure
 from skillc_runtime.evaluation.report.work_result import WorkResult
-from skillc_runtime.world.state.labelled import display_name
-
-MOST_FIGURES = 8
-"""At most so many figures of one kind are drawn; the numbers of all work are in the result."""
-
-
-@dataclass(frozen=True, slots=True)
-class WorkKind:
-    """A kind of work: `measure` yields the numbers of each piece of it in a run, `draw` the figures."""
-
-    measure: Callable[[RunRecord], Iterator[WorkResult]]
-    draw: Callable[[RunRecord], Iterator[WorkFigure]]
 
 
 def measure_work(record: RunRecord) -> tuple[WorkResult, ...]:
     """Return the numbers of all work in a run."""
-    return tuple(result for kind in KINDS for result in kind.measure(record))
+    return tuple(result for measure in KINDS for result in measure(record))
 
 
-def list_figures(record: RunRecord) -> tuple[WorkFigure, ...]:
-    """Return the figures of all work in a run."""
-    return tuple(figure for kind in KINDS for figure in _take(kind.draw(record)))
-
-
-def _take(figures: Iterator[WorkFigure]) -> Iterator[WorkFigure]:
-    yield from (figure for _, figure in zip(range(MOST_FIGURES), figures, strict=False))
-
-
-def _measure_nothing(record: RunRecord) -> Iterator[WorkResult]:
-    """Yield nothing: `TaskResult.wipings` has the numbers of wiping."""
-    yield from ()
-
-
-def _draw_wipings(record: RunRecord) -> Iterator[WorkFigure]:
-    drawings = tuple(make_wiping_drawing(each, record.state, record.truth) for each in record.wipings)
-    if drawings:
-        overlaid = any(each.overlay_period_s is not None for each in drawings)
-        yield WorkFigure(
-            "wiping",
-            "Path, contact time, speed and force on the surface",
-            "The shade of a cell is how long it lay under the pressed tool." + (SWINGING if overlaid else ""),
-            "Path of the tool over the contact time of each cell, speed along the lanes, normal force",
-            lambda: draw_figure(drawings),
-        )
-
-
-def _pushes(record: RunRecord) -> Iterator[PushRecord]:
+def find_other_pushes(record: RunRecord) -> Iterator[PushRecord]:
     """Yield the pushes besides those on surfaces that were wiped, whose numbers say more."""
     wiped = {each.surface for each in record.wipings}
     yield from (push for push in find_pushes(record) if not wiped.intersection(push.on))
 
 
-def _draw_pushes(record: RunRecord) -> Iterator[WorkFigure]:
-    """Yield the figures of pushes besides those in which something was searched for, which have another one."""
-    searching = {(each.push.arm, each.push.start_s) for each in find_searches(record)}
-    for push in (each for each in _pushes(record) if (each.arm, each.start_s) not in searching):
-        drawing = make_push_drawing(push, record)
-        yield WorkFigure(
-            "push",
-            f"Force of {_describe(push)}",
-            "Forces against the push. The arm measures or estimates them; its travel follows from its joints.",
-            "Force of the tool over time and over its travel",
-            partial(draw_push, drawing),
-        )
-
-
-def _draw_searches(record: RunRecord) -> Iterator[WorkFigure]:
-    for search in find_searches(record):
-        drawing = make_search_drawing(search, record)
-        yield WorkFigure(
-            "search",
-            f"Search of {_describe(search.push)}",
-            "The path is to scale, seen against the push.",
-            "Path of the tool while it searched, force and depth over time",
-            partial(draw_search, drawing),
-        )
-
-
-def _draw_guidances(record: RunRecord) -> Iterator[WorkFigure]:
-    for period in find_free_periods(record):
-        yield WorkFigure(
-            "guidance",
-            f"{display_name(period.arm)} guided by hand",
-            "While the arm yields in all directions, whoever leads its tool decides where it goes.",
-            "Path of the tool from above and from the side, force of the person, speed",
-            partial(draw_guidance, period),
-        )
-
-
-def _draw_handlings(record: RunRecord) -> Iterator[WorkFigure]:
-    drawings = make_handling_drawings(record.handlings, record.trace.hands, record.state, record.truth)
-    across = choose_axes(drawings)
-    for drawing in drawings:
-        yield WorkFigure(
-            "path",
-            f"Path of {drawing.hand}",
-            "A dashed outline is where a thing was believed to be, if that is more than 5 mm off.",
-            "Path of the hand from above and from the side, and the things it moved",
-            partial(draw_path, drawing, across),
-        )
-        yield WorkFigure(
-            "grips",
-            f"Grip of {drawing.hand}",
-            "Skills see only what the sensor of the fingers measures. A gripper has no sensor of force: the force is "
-            "that of its motor in the simulator, and while a thing is held, that with which it was grasped.",
-            "Opening and force of the fingers during each pick",
-            partial(draw_grips, drawing),
-        )
-
-
-def _draw_drives(record: RunRecord) -> Iterator[WorkFigure]:
-    for robot, path in find_drives(record).items():
-        yield WorkFigure(
-            "drive",
-            f"Path of {display_name(robot)}",
-            "Where the base says it is.",
-            "Path of the mobile base from above",
-            partial(draw_drive, path, record),
-        )
-
-
-def _describe(push: PushRecord) -> str:
-    """Return which skill pressed, and on what: `PressButton on Button 1`."""
-    on = " and ".join(map(display_name, push.on))
-    return f"{push.within.skill} on {on}" if on else f"{push.within.skill} by {display_name(push.arm)}"
-
-
-SWINGING = (
-    " An overlay makes the tool faster and slower along the lanes all the time; the thick line is the speed without "
-    "that, the mean over one period of the overlay."
+KINDS: tuple[Callable[[RunRecord], Iterator[WorkResult]], ...] = (
+    lambda record: (measure_push(each, record) for each in find_other_pushes(record)),
+    lambda record: (measure_search(each, record) for each in find_searches(record)),
+    lambda record: (measure_guidance(each, record) for each in find_free_periods(record)),
+    lambda record: (measure_grasp(each, record) for each in record.handlings),
+    measure_drives,
 )
-
-KINDS = (
-    WorkKind(_measure_nothing, _draw_wipings),
-    WorkKind(lambda record: (measure_push(each, record) for each in _pushes(record)), _draw_pushes),
-    WorkKind(lambda record: (measure_search(each, record) for each in find_searches(record)), _draw_searches),
-    WorkKind(lambda record: (measure_guidance(each, record) for each in find_free_periods(record)), _draw_guidances),
-    WorkKind(lambda record: (measure_grasp(each, record) for each in record.handlings), _draw_handlings),
-    WorkKind(measure_drives, _draw_drives),
-)
-"""All kinds of work, in the order of the report."""
+"""What measures each kind of work, in the order of the report; `TaskResult.wipings` has the numbers of wiping."""

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc_runtime.evaluation.report import page
 from skillc_runtime.evaluation.report.figure_files import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure, number_files
@@ -37,10 +36,12 @@ def write_report(
 
     `trees` are those of all attempts.
     """
+    from skillc_runtime.evaluation.report.page import render_page
+
     drawn = tuple(DrawnFigure(each, render_figure(each.draw)) for each in number_files(figures))
     for each in drawn:
         _write_files(directory, each.of.file, each.files)
-    _write_atomically(directory / REPORT, page.render_page(result, trees, drawn, filmed).encode())
+    _write_atomically(directory / REPORT, render_page(result, trees, drawn, filmed).encode())
 
 
 def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFiles | None:
