@@ -39,7 +39,7 @@ from skillc_rdf.vocabulary.types import Vocabulary, local_name
 NAMES = ("wrong-type", "wrong-dimension", "missing-unit")
 NEEDS = Need.NAMES
 READS = Reads.DECLARATION
-_QUANTITY = re.compile(r"\s*(-?\d+(?:\.\d+)?)\s*([A-Za-z/0-9]*)\s*$")
+_QUANTITY = re.compile(r"\s*+(-?\d++(?:\.\d++)?+)\s*+([A-Za-z/0-9]*+)\s*$")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

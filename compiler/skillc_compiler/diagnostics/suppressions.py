@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 import msgspec
 
@@ -56,15 +56,21 @@ def find_suppressions(source: Source) -> Iterator[Suppression]:
     if "allow" not in source.text:
         return
     every = find_comments(source)
-    alone = {comment.span.line for comment in every if comment.alone}
+    below = _lines_below({comment.span.line for comment in every if comment.alone})
     for comment in every:
         match = _SUPPRESSION.fullmatch(comment.written)
         if match is None or not comment.alone or not _is_meant(match):
             continue
-        line = comment.span.line + 1
-        while line in alone:
-            line += 1
+        line = below[comment.span.line]
         yield Suppression(_name(comment, match), match["reason"].strip(), line, comment.span)
+
+
+def _lines_below(lines: Collection[int]) -> dict[int, int]:
+    """Return for each line the first one below it that is not one of them."""
+    below: dict[int, int] = {}
+    for line in sorted(lines, reverse=True):
+        below[line] = below.get(line + 1, line + 1)
+    return below
 
 
 def _is_meant(match: re.Match[str]) -> bool:

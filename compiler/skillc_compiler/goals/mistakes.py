@@ -18,7 +18,7 @@ EXAMPLES: dict[InputKind, str] = {
 }
 _COMMENT = re.compile(r"[#;].*")
 _BARE = re.compile(r"(?<![\w:.?\"-])[A-Za-z]\w*(?:-\w+)*(?![\w:(\"-])")
-_DECLARED = re.compile(r"([A-Za-z]\w*)\s*:\s")
+_DECLARED = re.compile(r"\b([A-Za-z]\w*+)\s*+:\s")
 
 
 def find_mistakes(

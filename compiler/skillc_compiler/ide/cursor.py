@@ -18,6 +18,8 @@ _HEAD = re.compile(r"\s*(class|relation|property|function|skill|impl|task)\b|(us
 _NUMBER = re.compile(r"(?<!\w)(?<!\w-)(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]+|(?=[^\W\d]))([^\W\d][\w/]*)?$")
 _WORD = re.compile(r"(?:[^\W\d]\w*:)?[^\W\d][\w-]*$|[^\W\d]\w*:$|[^\W\d]\w*$")
 _BARE = re.compile(r"[^\W\d]\w*$")
+LONGEST_WORD = 200
+"""The number of characters before the cursor in which the word at it, and a number before that, are looked for."""
 
 
 class InComment(msgspec.Struct, frozen=True):
@@ -65,15 +67,16 @@ def locate_cursor(text: str, path: str, line: int, column: int) -> Cursor:
     """Return the kind of position at `line` and `column`, both counted from 1."""
     lines = text.split("\n")
     left = (lines[line - 1] if line <= len(lines) else "")[: column - 1]
+    near = max(len(left) - LONGEST_WORD, 0)
     opened = _opened(left)
     if opened is not None and left[opened] == "#":
-        word = _BARE.search(left)
+        word = _BARE.search(left, near)
         return InComment(left[opened:], _span(path, line, word.start() if word else len(left), len(left)))
     if opened is not None:
         words = left[:opened].split()
         return InText(words[-1] if words else "", _span(path, line, opened + 1, len(left)))
-    number = _NUMBER.search(left)
-    word = _BARE.search(left) if number and not number[2] else _WORD.search(left)
+    number = _NUMBER.search(left, near)
+    word = (_BARE if number and not number[2] else _WORD).search(left, near)
     start = number.start(2) if number and number[2] else word.start() if word else len(left)
     first = _first_line(lines, line)
     before = _tokens([*lines[first - 1 : line - 1], left[:start]], path)

@@ -16,7 +16,10 @@ from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse
 from skillc_dsl.source import Source
 
 _KEYWORDS = "class|relation|property|function|skill|impl|task"
-_DECLARATION = re.compile(rf"^(?:[ \t]*#[^\n]*\n)*(?:{_KEYWORDS})\b", re.MULTILINE)
+_DECLARATION = re.compile(
+    rf"^(?:(?:[ \t]*#[^\n]*\n)++(?:(?P<below>{_KEYWORDS})\b)?|(?P<first>{_KEYWORDS})\b)", re.MULTILINE
+)
+"""A declaration with the comments above it, or comments above something else, which are not read again line by line."""
 _REMEMBERED = 3
 
 
@@ -80,7 +83,8 @@ def _ends_before(found: Outcome[s.File], following: Sequence[s.Declaration], end
 
 def _chunks(text: str) -> list[str]:
     """Return the text in parts: what is above the declarations, and each declaration with the comments above it."""
-    starts = [0, *(match.start() for match in _DECLARATION.finditer(text)), len(text)]
+    found = (match.start() for match in _DECLARATION.finditer(text) if match.lastgroup)
+    starts = [0, *found, len(text)]
     return [text[start:end] for start, end in pairwise(starts)]
 
 

@@ -24,8 +24,9 @@ CACHED = 64
 """The number of texts whose format is cached."""
 PROTEGE = "save it as Turtle or RDF/XML; Protégé and ROBOT do"
 _BY_ENDING = {".trig": ox.RdfFormat.TRIG, ".nq": ox.RdfFormat.N_QUADS, ".jsonld": ox.RdfFormat.JSON_LD}
-_COMMENTS = r"(?:\s|#[^\n]*\n)*"
-_PROLOGUE = r"\s*(?:<\?xml[^>]*\?>|<!--.*?-->|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>|\s)*"
+_COMMENTS = r"(?:\s|#[^\n]*\n)*+"
+_PROLOGUE = r"(?>\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>)*+"
+"""What may stand before the first element; no part is read in two ways, so that the time is linear."""
 _FORMATS: tuple[tuple[re.Pattern[str], Format], ...] = (
     (re.compile(rf"{_PROLOGUE}<Ontology\b", re.DOTALL), UnsupportedFormat("OWL/XML", PROTEGE)),
     (
@@ -38,9 +39,12 @@ _FORMATS: tuple[tuple[re.Pattern[str], Format], ...] = (
     (re.compile(r'\s*(?:\{\s*["}]|\[\s*[{\]])'), ox.RdfFormat.JSON_LD),
 )
 _GRAPH = re.compile(r"(?:^|[\s.}>])\{")
-_NODE = r"(?:<[^>\n]*>|_:\S+)"
+_NODE = r"(?:<[^>\n]*>|_:[^\s<>\"]+)"
+_LITERAL = r"\"(?:[^\"\\\n]|\\.)*+\"(?:@[\w-]+|\^\^<[^>\n]*>)?"
 _LINES = re.compile(rf"{_COMMENTS}{_NODE}\s")
-_QUAD = re.compile(rf"^[ \t]*{_NODE}\s+<[^>\n]*>\s+\S[^\n]*?\s+{_NODE}\s*\.\s*$", re.MULTILINE)
+_QUAD = re.compile(
+    rf"^[ \t]*+{_NODE}[ \t]*+<[^>\n]*>[ \t]*+(?:{_NODE}|{_LITERAL})[ \t]*+{_NODE}[ \t]*+\.", re.MULTILINE
+)
 
 
 @lru_cache(maxsize=CACHED)

@@ -17,7 +17,7 @@ Names: TypeAlias = Callable[[str], str]
 """Maps an IRI that is an alias to the term that it stands for; other IRIs to themselves."""
 INDENT = "    "
 _LOCAL = re.compile(r"[A-Za-z_](?:[\w-]*[\w])?")
-_PLAIN = re.compile(r"[+-]?\d+|[+-]?\d*\.\d+|[+-]?(?:\d+\.?\d*|\.\d+)[eE][+-]?\d+|true|false")
+_PLAIN = re.compile(r"[+-]?\d+|[+-]?\d*\.\d+|[+-]?(?:\d+(?:\.\d*)?|\.\d+)[eE][+-]?\d+|true|false")
 
 
 class StatementNotFound(ValueError):

@@ -21,7 +21,9 @@ _LETTER = (
 _START = f"{_LETTER}_0-9"
 _CHARACTER = f"{_START}\u00b7\u0300-\u036f\u203f\u2040\\-"
 _ESCAPED = r"%[0-9A-Fa-f]{2}|\\[_~.\-!$&'()*+,;=/?#@%]"
-_PREFIX = rf"[{_LETTER}](?:[{_CHARACTER}]|\.+(?=[{_CHARACTER}]))*"
+_MOST_DOTS = 16
+"""The most dots in a prefix: a text without a `:` is not searched for one from each of its dots to its end."""
+_PREFIX = rf"[{_LETTER}][{_CHARACTER}]*+(?:\.+[{_CHARACTER}]++){{0,{_MOST_DOTS}}}+"
 _LOCAL = rf"(?:[{_START}:]|{_ESCAPED})(?:[{_CHARACTER}:]|{_ESCAPED}|\.+(?=[{_CHARACTER}:]|{_ESCAPED}))*"
 _ESCAPE = r"\\[^\r\n]"
 _EXPONENT = r"[eE][+-]?[0-9]+"

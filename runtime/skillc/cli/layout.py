@@ -87,7 +87,7 @@ class TerminalPage(NamedTuple):
             yield text.rstrip()
             return
         line, room = "", self.width - first
-        for word in _WORD.findall(text):
+        for word in _WORD.findall(text.rstrip()):
             if line and count_cells(line + word) > room:
                 yield line
                 line, room = "", self.width - others

@@ -33,6 +33,7 @@ from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
 
+_NAME = re.compile(r"(?<![\w.-])[\w.-]*:[\w-]+")
 LABELLED = 6
 """The most individuals that are labelled in a diagnostic."""
 DisplayPath: TypeAlias = Callable[[str], str]
@@ -200,7 +201,7 @@ class _TaskDiagnostics:
         state, short = self.scene.state, self.scene.state.vocabulary.short
         if CONTAIN not in state.vocabulary.relations:
             return ""
-        words = set(re.findall(r"[\w.-]*:[\w-]+", message))
+        words = set(_NAME.findall(message))
         lost = [each for each in state.instances(MANIPULATABLE) if not state.subjects(CONTAIN, each)]
         named = sorted(short(each) for each in lost if short(each) in words)
         places = Counter(short(place) for place, thing in sorted(state.pairs(CONTAIN)) if thing not in lost)
@@ -219,7 +220,7 @@ class _TaskDiagnostics:
     def _named(self, message: str) -> list[Label]:
         """Return labels at the declarations of the individuals that a message names."""
         short = self.scene.state.vocabulary.short
-        words = set(re.findall(r"[\w.-]*:[\w-]+", message))
+        words = set(_NAME.findall(message))
         typed = {iri_of(each.subject): each for each in reversed(self.scene.said) if each.predicate == RDF_TYPE}
         found = sorted(each.subject_place for iri, each in typed.items() if short(iri) in words)
         return [Label(scene_diagnostics.with_shown_path(place), "this one") for place in found[:LABELLED]]

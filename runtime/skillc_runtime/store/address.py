@@ -10,14 +10,12 @@ from urllib.parse import SplitResult, parse_qsl, unquote, urlsplit
 from skillc_runtime.world.state.transactions import StoreError
 
 HIDDEN = "***"
-_BEFORE_HOST = re.compile(r"(?s)^(.*?://).*@")
 
 
 def without_credentials(place: str) -> str:
     """Return the place of a store without parts that may be secret: everything before an `@`, and the query."""
-    if "://" not in place:
-        return place
-    return _BEFORE_HOST.sub(r"\1", place).partition("?")[0].partition("#")[0]
+    scheme, mark, rest = place.partition("://")
+    return scheme + mark + rest.rpartition("@")[2].partition("?")[0].partition("#")[0] if mark else place
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,7 +30,7 @@ VECTORS = frozenset({XSD + "string", SKILLC + "Vector", SKILLC + "Direction"})
 TOO_LARGE, SMALLER = "this number is too large", "write a smaller number"
 MAX_INTEGER = 2**63
 """The absolute value of integers is smaller than this."""
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 
 
 class LiteralError(ValueError):

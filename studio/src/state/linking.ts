@@ -6,7 +6,7 @@ export type LinePart =
 
 /** A place, a name with a prefix, or a number of a call at the beginning of a line. */
 const NAMED =
-  /(?<path>[\w./-]+\.(?:skill|ttl)):(?<line>\d+)|[A-Za-z_][\w-]*:[\w-]+|(?<=^\s*)\d+(?:\.\d+)*(?=\s{2})/g;
+  /(?<![\w./-])(?<path>[\w./-]+\.(?:skill|ttl)):(?<line>\d+)|(?<![\w-])[A-Za-z_][\w-]*:[\w-]+|(?<=^\s*)\d+(?:\.\d+)*(?=\s{2})/g;
 
 /** Return a line in parts; those that are named are links if they are in `things` or `calls`. */
 export function linkLine(line: string, things: ReadonlySet<string>, calls: ReadonlySet<string>): LinePart[] {

@@ -12,7 +12,7 @@ const LISTED = 3;
 
 /** Return the last part of an IRI. */
 export function localName(iri: string): string {
-  return /[^#/]*$/.exec(iri)?.[0] ?? iri;
+  return iri.slice(Math.max(iri.lastIndexOf("#"), iri.lastIndexOf("/")) + 1);
 }
 
 /** Smaller numbers in SI units come from rounding. */

@@ -52,7 +52,7 @@ function LibraryMissing() {
 
 /** Return what a goal names that the world of the cell does not have. */
 function missingIn(goal: string, known: ReadonlySet<string>): string[] {
-  const names = goal.match(/\b[a-z][\w-]*:[A-Z][\w-]*/g) ?? [];
+  const names = goal.match(/(?<![\w-])[a-z][\w-]*:[A-Z][\w-]*/g) ?? [];
   return known.size === 0 ? [] : [...new Set(names)].filter((each) => !known.has(each));
 }
 

@@ -22,7 +22,7 @@ export function GoalInput({
   const [at, setAt] = useState(0);
   const [open, setOpen] = useState(false);
   const words = useWords();
-  const word = /[\w:.-]*$/.exec(value)?.[0] ?? "";
+  const word = /(?<![\w:.-])[\w:.-]*$/.exec(value)?.[0] ?? "";
   const offers =
     word.length === 0
       ? []

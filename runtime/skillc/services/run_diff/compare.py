@@ -77,7 +77,7 @@ def _describe_objective(start: TaskStarted) -> str:
     """Return the goal in the syntax of the language, or the body as JSON; by local names: no prefixes are recorded."""
     body = msgspec.json.encode(start.body).decode()
     text = body if start.goal is None else format_condition(start.goal, Vocabulary())
-    return re.sub(r"[a-z]+://[^\"\s]*[#/]", "", text)
+    return re.sub(r"(?<![a-z])[a-z]+://[^\"\s]*[#/]", "", text)
 
 
 def _list_requests(run: RecordedRunData) -> list[str]:

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 UNIT_WITHIN = 1e-3
 """The tolerance for the length of a direction, unitless: files state it with three or four decimals."""
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_NUMBER = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
 
 
 def parse_vector(text: str) -> Array | None:
