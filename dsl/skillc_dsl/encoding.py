@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import re
 import stat
 from pathlib import Path
 
@@ -15,13 +16,16 @@ MOST_CHARACTERS = 500_000
 """The maximum length of a file; longer files are not read."""
 MOST_BYTES = 4 * MOST_CHARACTERS + 4
 """More bytes than MOST_CHARACTERS can take in UTF-8."""
-_BYTE_ORDER_MARK = 2 * REPLACEMENT
+_NO_UTF_8 = re.compile("[\udc80-\udcff]")
+"""What Python puts in the place of bytes that are not UTF-8: halves of characters, which no UTF-8 has."""
 _NUL = "\0"
 
 
 def decode(path: str, data: bytes) -> Source:
     """Return the text of a file; bytes that are not UTF-8 become U+FFFD, which `parse` reports as `encoding`."""
-    return Source(path, normalise_text(data.decode("utf-8", errors="replace")))
+    text = normalise_text(data.decode("utf-8", errors="surrogateescape"))
+    unreadable = tuple(match.start() for match in _NO_UTF_8.finditer(text))
+    return Source(path, _NO_UTF_8.sub(REPLACEMENT, text) if unreadable else text, unreadable)
 
 
 def normalise_text(text: str) -> str:
@@ -56,7 +60,7 @@ def report_not_text(source: Source) -> Diagnostic | None:
     """Return the problem of a file that is in another encoding from end to end, or no text at all."""
     if _NUL not in source.text:
         return None
-    if source.text.startswith(_BYTE_ORDER_MARK) or source.text[1:2] == _NUL or source.text.startswith(_NUL):
+    if source.unreadable[:2] == (0, 1) or source.text[1:2] == _NUL or source.text.startswith(_NUL):
         return _problem(source, 0, "the file is UTF-16 or UTF-32, not UTF-8")
     return _problem(source, source.text.index(_NUL), "the file is not text: it has NUL bytes")
 
@@ -75,12 +79,11 @@ def report_too_large(source: Source) -> Diagnostic | None:
 
 def report_wrong_bytes(source: Source) -> Diagnostic | None:
     """Return the problem of a file with some bytes that are not UTF-8, at the first of them."""
-    position = source.text.find(REPLACEMENT)
-    if position < 0:
+    if not source.unreadable:
         return None
-    count = source.text.count(REPLACEMENT)
-    later = f", nor at {count - 1} later place{'s' * (count > 2)}" if count > 1 else ""
-    return _problem(source, position, f"the file is not UTF-8 here{later}")
+    first, *others = source.unreadable
+    later = f", nor at {len(others)} later place{'s' * (len(others) > 1)}" if others else ""
+    return _problem(source, first, f"the file is not UTF-8 here{later}")
 
 
 def _problem(source: Source, position: int, message: str) -> Diagnostic:

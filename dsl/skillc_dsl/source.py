@@ -6,10 +6,14 @@ from typing import NamedTuple
 
 
 class Source(NamedTuple):
-    """The text of a file and the path that diagnostics show."""
+    """The text of a file and the path that diagnostics show.
+
+    `unreadable` are the offsets of U+FFFD that stand for bytes that are not UTF-8; any other one is in the file.
+    """
 
     path: str
     text: str
+    unreadable: tuple[int, ...] = ()
 
 
 class Span(NamedTuple):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from skillc_dsl.encoding import decode
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.types import THING, NumberType, PlainType, Position, Signature
 from vocabularies.reading import HEAD, STOCK, T, beside, shipped_alone
@@ -92,13 +93,19 @@ def test_places_are_known_in_xml() -> None:
         ),
         ('{"@context": "http://example.org/far.jsonld", "@id": "http://t/"}', "unreadable-vocabulary", 1),
         ("@prefix t: <http://t/> .\nt:A a", "broken-turtle", 2),
-        ("\ufffd", "encoding", 1),
     ],
 )
 def test_files_that_cannot_be_read_are_told_with_their_line(text: str, name: str, line: int) -> None:
     outcome = beside(Source("t.owl", text))
     assert [(d.severity, d.name, d.span.line) for d in outcome.diagnostics] == [("error", name, line)]
     assert outcome.value.classes == shipped_alone().classes
+
+
+def test_bytes_that_are_not_utf_8_are_told_and_the_character_for_them_is_read() -> None:
+    text = HEAD + 't:A a owl:Class ; rdfs:comment "\ufffd" .'
+    assert [each.name for each in beside(decode("t.ttl", text.encode() + b"\xff")).diagnostics] == ["encoding"]
+    outcome = beside(decode("t.ttl", text.encode()))
+    assert f"{T}A" in outcome.value.classes and outcome.ok
 
 
 def test_class_expressions_are_used_as_far_as_they_go() -> None:

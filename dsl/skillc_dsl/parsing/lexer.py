@@ -7,7 +7,6 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
-from skillc_dsl.encoding import REPLACEMENT
 from skillc_dsl.parsing.grammar import END
 from skillc_dsl.parsing.tables import WORD, load_pattern, load_tables
 from skillc_dsl.parsing.tokens import Token
@@ -86,7 +85,7 @@ def _skip(place: LexerPosition, source: Source, tokens: list[Token], problems: l
     elif stretch.startswith("'") and len(stretch) > 1:
         tokens.append(Token("STRING", f'"{stretch[1:-1]}"', start, line, column, *end))
         problems.append(_single_quotes(span, stretch))
-    elif stretch[0] != REPLACEMENT:
+    else:
         problems.append(_unknown_character(span, stretch))
     return len(stretch)
 

@@ -11,7 +11,7 @@ from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
-from skillc_dsl.encoding import MOST_CHARACTERS, REPLACEMENT
+from skillc_dsl.encoding import MOST_CHARACTERS
 from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse
 from skillc_dsl.source import Source
 
@@ -57,7 +57,7 @@ def reparse(before: Source, file: s.File, source: Source) -> Outcome[s.File] | N
     first = 1 + sum(chunk.count("\n") for chunk in new[:above])
     end = first + sum(chunk.count("\n") for chunk in window)
     moved = end != first + sum(chunk.count("\n") for chunk in old[above : len(old) - below])
-    if moved or len(source.text) > MOST_CHARACTERS or REPLACEMENT in source.text or "\0" in source.text:
+    if moved or len(source.text) > MOST_CHARACTERS or source.unreadable or "\0" in source.text:
         return None
     found = parse(Source(source.path, "\n" * (first - 1) + "".join((*window, *rest[:1]))))
     following = [each for each in file.declarations if rest and each.span.line >= end]

@@ -85,10 +85,10 @@ def write_source(sources: Mapping[str, SourceFile], path: str, text: str, base_h
     content = _read(found, path)
     if _hash(content) != base_hash:
         raise SourceChanged(f"{path} was changed by somebody else; read it again, and make the change there")
-    before = decode(path, content).text
-    if "\ufffd" in before:
+    before = decode(path, content)
+    if before.unreadable:
         raise NotEditable(f"{path} is not encoded as UTF-8; change it with another program")
-    rewrite_file(found.file, before, normalise_newlines(text))
+    rewrite_file(found.file, before.text, normalise_newlines(text))
     return read_source(sources, path)
 
 

@@ -14,7 +14,7 @@ from skillc.services.files import rewrite_file
 from skillc.services.library_files import SHIPPED, LibraryFiles
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import apply_fixes, drop_overlapping
-from skillc_dsl.encoding import REPLACEMENT, decode, split_lines
+from skillc_dsl.encoding import decode, split_lines
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
@@ -127,7 +127,7 @@ def _chosen(found: Iterable[Diagnostic], unsafe: bool) -> Iterator[Fix]:
 
 def _fitting(source: Source, fixes: Sequence[Fix]) -> Sequence[Fix]:
     """Return the fixes that do not add syntax errors."""
-    if not fixes or REPLACEMENT in source.text:
+    if not fixes or source.unreadable:
         return ()
     most = _count_errors(source, ())
     if _count_errors(source, fixes) <= most:
@@ -156,12 +156,12 @@ def _fixes_beside(found: Iterable[Diagnostic], unsafe: bool) -> dict[Path, Seque
     for fix in _chosen(found, unsafe):
         if _is_own_turtle(Path(fix.span.path)):
             fixes[Path(fix.span.path)].append(fix)
-    readable = {path: each for path, each in sorted(fixes.items()) if REPLACEMENT not in _read(path)}
+    readable = {path: each for path, each in sorted(fixes.items()) if not _read(path).unreadable}
     return {path: drop_overlapping(dict.fromkeys(each)) for path, each in readable.items()}
 
 
 def _change(path: Path, fixes: Sequence[Fix]) -> FileChange:
-    text = _read(path)
+    text = _read(path).text
     return FileChange(path, str(path), text, apply_fixes(text, fixes))
 
 
@@ -170,5 +170,5 @@ def _is_own_turtle(path: Path) -> bool:
     return turtle and not path.resolve().is_relative_to(catalogue.ROOT.resolve())
 
 
-def _read(path: Path) -> str:
-    return decode(str(path), path.read_bytes()).text
+def _read(path: Path) -> Source:
+    return decode(str(path), path.read_bytes())

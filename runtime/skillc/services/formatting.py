@@ -55,7 +55,7 @@ def format_files(paths: Iterable[Path]) -> Iterator[FormattedFile]:
             place = library.places[source.path]
             if place.resolve() not in seen:
                 seen.add(place.resolve())
-                yield _format(Source(library.display_path(source.path), source.text), place)
+                yield _format(source._replace(path=library.display_path(source.path)), place)
 
 
 def format_text(name: Path, content: bytes) -> FormattedFile:

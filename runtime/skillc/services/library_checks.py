@@ -57,7 +57,7 @@ def check_whole(library: LibraryFiles, scene: Path | None, known: Known = NOTHIN
     found = _SceneReader(library, () if scene is None else (scene,))
     outcome = libraries.compile_library(library, found.individuals, known.parsed_by, known.memo)
     assert found.program is not None, "a compiled library has a program"
-    sources = [Source(library.display_path(each.path), each.text) for each in library.sources]
+    sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known.judge)
     problems = sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome)))
     return Checked(problems, found.program, outcome.value) if outcome.ok else Checked(problems)

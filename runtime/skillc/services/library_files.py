@@ -132,7 +132,7 @@ def read_surroundings(project: Project) -> LibraryFiles:
 def source_texts(library: LibraryFiles) -> dict[str, Source]:
     """Return every text of the library and of its possible imports, by displayed path."""
     every = (*library.sources, *library.importable.values(), *library.vocabularies)
-    shown = (Source(library.display_path(each.path), each.text) for each in every)
+    shown = (each._replace(path=library.display_path(each.path)) for each in every)
     return {each.path: each for each in shown}
 
 

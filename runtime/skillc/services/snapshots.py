@@ -81,7 +81,8 @@ def digest_views(library: SkillLibrary, skills: Iterable[str]) -> dict[str, str]
 
 def digest_of(source: Source) -> str:
     """Return the digest of a text."""
-    return hashlib.sha256(source.text.encode("utf-8", "surrogateescape")).hexdigest()
+    read = f"{source.text}{source.unreadable or ''}"
+    return hashlib.sha256(read.encode("utf-8", "surrogateescape")).hexdigest()
 
 
 def load_snapshot(around: str) -> Snapshot | None:

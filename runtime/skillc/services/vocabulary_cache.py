@@ -17,7 +17,7 @@ _MOST = 100
 @lru_cache(4)
 def load_vocabulary_once(own: tuple[Source, ...]) -> Vocabulary:
     """Return the shipped ontology together with others, from the cache if it is there."""
-    path = find_entry("vocabularies", (text for source in own for text in (source.path, source.text)))
+    path = find_entry("vocabularies", (text for each in own for text in (each.path, each.text, str(each.unreadable))))
     found = read_pickled(path, _is_part)
     if isinstance(found, Vocabulary):
         return found
