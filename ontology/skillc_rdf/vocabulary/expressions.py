@@ -6,6 +6,7 @@ class or a domain, complements, and restrictions that require at least one value
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS
 AT_LEAST = tuple(
     f"{OWL}{name}" for name in ("minCardinality", "cardinality", "minQualifiedCardinality", "qualifiedCardinality")
 )
+_COUNT = re.compile(r"[0-9]{1,9}")
 
 
 class RequiredValue(NamedTuple):
@@ -85,7 +87,7 @@ def _needed(graph: Graph, node: Node, property_: str) -> Iterator[RequiredValue]
         yield RequiredValue(property_, 1, filler.value if isinstance(filler, ox.NamedNode) else None)
     for predicate in AT_LEAST:
         count = graph.text(node, predicate)
-        if count is not None and count.isdigit() and int(count) > 0:
+        if count is not None and _COUNT.fullmatch(count) and int(count) > 0:
             yield RequiredValue(property_, int(count), next(iter(graph.iris(node, f"{OWL}onClass")), None))
 
 

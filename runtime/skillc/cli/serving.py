@@ -51,6 +51,6 @@ def require_server() -> None:
 def parse_address(bind: str) -> tuple[str, int]:
     """Return host and port; UsageError if a text is no address."""
     host, _, port = bind.rpartition(":")
-    if not host or not port.isdecimal() or int(port) > 65535:
+    if not host or not port.isdecimal() or len(port) > 5 or int(port) > 65535:
         raise click.UsageError(f"--bind {bind}: write HOST:PORT, such as {DEFAULT_BIND}")
     return host.strip("[]"), int(port)

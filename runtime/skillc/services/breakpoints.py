@@ -12,7 +12,7 @@ from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.gate import AtLine, AtSkill, Breakpoint
 
-_LINE = re.compile(r"(?P<path>.+):(?P<line>\d+)")
+_LINE = re.compile(r"(?P<path>.+):(?P<line>\d{1,9})")
 _SHOWN = 5
 """How many lines or files an error lists."""
 

@@ -90,10 +90,10 @@ def _describe_unknown(calls: Sequence[RecordedCall], text: str) -> str:
 
 def _describe_missing_number(calls: Sequence[RecordedCall], number: str) -> str:
     """Return a message with the numbers that exist: of steps, or of the calls inside a step."""
-    prefix, _, _ = number.rpartition(".")
-    enclosing = next((call for call in calls if call.number == prefix), None)
-    if prefix and enclosing is None:
-        return _describe_missing_number(calls, prefix)
+    known = {call.number: call for call in reversed(calls)}
+    while (prefix := number.rpartition(".")[0]) and prefix not in known:
+        number = prefix
+    enclosing = known.get(prefix)
     count = len(enclosing.calls) if enclosing is not None else sum("." not in call.number for call in calls)
     numbers = f"{prefix}.1 to {prefix}.{count}" if prefix else f"1 to {count}"
     if not count:

@@ -92,6 +92,6 @@ def _value(literal: ox.Literal) -> QueryValue:
         return text
     try:
         number = int(text) if kind in INTEGERS else float(text)
-    except ValueError:
+        return number if math.isfinite(number) else text
+    except (ValueError, OverflowError):
         return text
-    return number if math.isfinite(number) else text

@@ -24,7 +24,7 @@ def decode_changes(text: str) -> tuple[Change, ...]:
     """Return the changes in a line of JSON; ValueError when it is invalid."""
     try:
         return tuple(_change(*each) for each in msgspec.json.decode(text, type=list[list[object]]))
-    except (msgspec.DecodeError, KeyError, TypeError) as error:
+    except (msgspec.DecodeError, KeyError, TypeError, RecursionError) as error:
         raise ValueError(f"these are not changes of a world: {error}") from error
 
 

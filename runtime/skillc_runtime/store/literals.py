@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from decimal import Decimal
+from decimal import Decimal, InvalidOperation
 from difflib import get_close_matches
 
 import numpy as np
@@ -74,9 +74,14 @@ def _number(text: str) -> float:
 
 def _integer(text: str) -> int:
     """Return the exact value of an integer in a text."""
-    number = Decimal(text.strip())
+    try:
+        number = Decimal(text.strip())
+    except InvalidOperation as error:
+        raise LiteralError(f"`{text}` has too many digits", "write a whole number") from error
     if abs(number) >= MAX_INTEGER:
         raise LiteralError(TOO_LARGE, SMALLER)
+    if number != int(number):
+        raise LiteralError(f"`{text}` is not a whole number", "write a whole number")
     return int(number)
 
 

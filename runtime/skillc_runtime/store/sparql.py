@@ -26,6 +26,8 @@ TRIPLES = "application/n-triples"
 PATIENCE_S = 10.0
 """How long requests to a server that does not answer are repeated."""
 FIRST_PAUSE_S = 0.1
+MOST_DIGITS = 18
+"""The most digits of the number of a transaction."""
 MAX_READS = 20
 """How often a world is read until no other process writes in the meantime."""
 
@@ -136,10 +138,10 @@ class SparqlStore:
         answer = self._endpoint.query(query, ROWS)
         try:
             bindings = msgspec.json.decode(answer, type=_Answer).results.bindings
-        except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
             raise ServerUnreachable(f"{self} answers a query with an invalid result") from error
         rows = [{name: term.value for name, term in row.items()} for row in bindings]
-        if not all(row.get("n", "").isdecimal() and row.keys() >= {*names} for row in rows):
+        if not all(_is_number(row.get("n", "")) and row.keys() >= {*names} for row in rows):
             raise ServerUnreachable(f"{self} answers a query with an invalid result")
         return rows
 
@@ -161,3 +163,8 @@ class SparqlStore:
                     raise
             time.sleep(pause_s)
             pause_s *= 2
+
+
+def _is_number(text: str) -> bool:
+    """Whether a text is the number of a transaction."""
+    return text.isascii() and text.isdecimal() and len(text) <= MOST_DIGITS

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import msgspec
 
 from skillc.services.errors import ServiceError
 from skillc.services.project.project import Project, is_nested_project
+from skillc.services.project.toml_text import load_toml
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 
@@ -61,8 +61,8 @@ def check_lock(project: Project) -> Iterator[Diagnostic]:
     if not path.is_file():
         return
     try:
-        locked = msgspec.convert(tomllib.loads(path.read_text("utf-8")), dict[str, LockedLibrary])
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+        locked = msgspec.convert(load_toml(path.read_text("utf-8")), dict[str, LockedLibrary])
+    except (OSError, ValueError) as error:
         message = f"{LOCK} cannot be read: {error}"
         yield Diagnostic("outdated-lock", project.place_of("dependencies"), message, "run `skillc lock`")
         return

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 import msgspec
 
 from skillc.services.project.toml_places import TomlPlaces
+from skillc.services.project.toml_text import load_toml
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
@@ -106,8 +106,8 @@ class Manifest(Settings, frozen=True, kw_only=True):
 def read_manifest(source: Source) -> Outcome[Manifest | None]:
     """Read the text of a `skillc.toml`; None, with diagnostics, if it has errors."""
     try:
-        content = tomllib.loads(source.text)
-    except tomllib.TOMLDecodeError as error:
+        content = load_toml(source.text)
+    except ValueError as error:
         return Outcome(None, (_broken(source, str(error)),))
     places = TomlPlaces(source)
     problems = [*_unknown_keys(content, Manifest, (), places), *_wrong_types(content, places)]

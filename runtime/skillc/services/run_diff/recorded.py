@@ -82,7 +82,7 @@ def _read_files(folder: Path) -> Mapping[str, Array]:
     file = folder / read_signal_dictionary(folder).file
     try:
         columns = _read_parquet(file) if file.suffix == ".parquet" else _read_csv(file)
-    except (OSError, ValueError, ImportError) as error:
+    except (OSError, ValueError, ImportError, csv.Error) as error:
         raise ServiceError(f"{file} cannot be read: {error}") from error
     return {name: values for name, values in columns.items() if name != CLOCK.column}
 

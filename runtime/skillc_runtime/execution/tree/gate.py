@@ -10,6 +10,8 @@ from skillc_model.skills import KEEP_S, PausePolicy
 from skillc_rdf.vocabulary.types import Position
 
 StepKind: TypeAlias = Literal["into", "over", "out"]
+MOST_DIGITS = 9
+"""The most digits of a line in a breakpoint."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +171,7 @@ def format_breakpoint(breakpoint_: Breakpoint) -> str:
 def read_breakpoint(text: str) -> Breakpoint:
     """Return the breakpoint that `format_breakpoint` has written."""
     path, _, line = text.rpartition(":")
-    return AtLine(path, int(line)) if path else AtSkill(text)
+    return AtLine(path, int(line)) if path and line.isdecimal() and len(line) <= MOST_DIGITS else AtSkill(text)
 
 
 def _is_at(breakpoint_: Breakpoint, call: GatedCall) -> bool:
