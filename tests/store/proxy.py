@@ -26,6 +26,7 @@ Fault = Literal[
     "page",
     "slow",
     "other rows",
+    "long number",
     "echo",
     "trickle",
     "trickling head",
@@ -88,6 +89,9 @@ class _Handler(BaseHTTPRequestHandler):
                 self._answer(307, "text/plain", b"", ("Location", "http://ann:secret@elsewhere.invalid/x?key=secret"))
             case "other rows":
                 self._answer(200, self.headers["Accept"], b'{"results": {"bindings": [{"x": {"value": "1"}}]}}')
+            case "long number":
+                row = b'{"n": {"value": "%s"}, "beginning": {"value": ""}, "origin": {"value": ""}}' % (b"9" * 5000)
+                self._answer(200, self.headers["Accept"], b'{"results": {"bindings": [%s]}}' % row)
             case "error 500" | "error 503":
                 self._answer(int(fault[-3:]), "text/plain", b"the disk is full")
             case _:

@@ -35,6 +35,7 @@ WORDS: dict[Fault, str] = {
     "page": "answers with text/html where application/sparql-results",
     "slow": "no answer within 0.3 s",
     "other rows": "answers a query with an invalid result",
+    "long number": "answers a query with an invalid result",
     "echo": "answers 500 Internal Server Error: /",
 }
 

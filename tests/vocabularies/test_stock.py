@@ -108,6 +108,13 @@ def test_bytes_that_are_not_utf_8_are_told_and_the_character_for_them_is_read() 
     assert f"{T}A" in outcome.value.classes and outcome.ok
 
 
+@pytest.mark.parametrize("count", ["9" * 5000, "\u00b2", "-1"])
+def test_a_cardinality_that_is_no_small_number_has_no_effect(count: str) -> None:
+    restriction = f'[ a owl:Restriction ; owl:onProperty t:has ; owl:minCardinality "{count}" ]'
+    text = f"{HEAD}t:has a owl:ObjectProperty . t:A a owl:Class ; rdfs:subClassOf {restriction} ."
+    assert f"{T}A" in beside(Source("t.ttl", text)).value.classes
+
+
 def test_class_expressions_are_used_as_far_as_they_go() -> None:
     text = """
 t:A a owl:Class . t:B a owl:Class . t:C a owl:Class ; owl:disjointUnionOf ( t:A t:B ) .

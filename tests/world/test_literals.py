@@ -32,6 +32,12 @@ def test_integers_are_exact(text: str, kind: str, value: int) -> None:
     assert read_literal(literal(text, kind), COUNT) == value
 
 
+@pytest.mark.parametrize("text", ["1e-400", "5.0000000000000000000000000001", "1e-99999999999999999999999"])
+def test_a_number_that_is_whole_only_as_a_float_is_none(text: str) -> None:
+    with pytest.raises(LiteralError, match="not a whole number|too many digits"):
+        read_literal(literal(text, "decimal"), COUNT)
+
+
 @pytest.mark.parametrize(("text", "kind"), [(str(2**63), "integer"), ("-1e300", "double"), ("9" * 5000, "integer")])
 def test_an_integer_that_is_too_large_says_so(text: str, kind: str) -> None:
     with pytest.raises(LiteralError, match="this number is too large"):
