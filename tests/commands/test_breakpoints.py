@@ -50,7 +50,7 @@ def test_a_line_without_a_call_is_refused_with_the_nearest_that_have_one() -> No
         parse_breakpoints([f"{place.path}:1"], library())
 
 
-@pytest.mark.parametrize("text", ["none.skill:3", "", "Wipe:x", ":4"])
+@pytest.mark.parametrize("text", ["none.skill:3", "", "Wipe:x", ":4", "Wipe:" + "9" * 5000])
 def test_what_is_neither_is_refused(text: str) -> None:
     with pytest.raises(RequestError, match=r"breakpoint: there (is|are) no"):
         parse_breakpoints([text], library())

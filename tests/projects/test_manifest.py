@@ -16,7 +16,7 @@ MISTAKES = [
     ('name = "sorting"\nname = "twice"\n', "broken-manifest", 2, "cannot overwrite"),
     (f'name = "sorting"\n[tool.run]\nseed = {"9" * 5000}', "broken-manifest", 3, "a number has too many digits"),
     (f'name = "sorting"\nx = {"[" * 5000}', "broken-manifest", 2, "it is nested too deeply"),
-    (f'name = "sorting"\n# {"x" * 100_000}', "broken-manifest", 2, "it is longer than 100,000 characters"),
+    (f'name = "sorting"\n# {"x" * 50_000}', "broken-manifest", 2, "it is longer than 50,000 characters"),
     ('version = "1.0.0"\n', "wrong-setting", 1, "`name` is missing"),
     ('name = "My Sorting"\n', "wrong-setting", 1, "is not a name"),
     ('name = "sorting"\nversion = 1\n', "wrong-setting", 2, "`version`: expected a text, got a whole number"),

@@ -102,4 +102,5 @@ def test_a_folder_without_a_recording_is_refused_with_what_to_do(tmp_path: Path,
 
 def test_a_number_of_thousands_of_parts_is_answered(run: Path) -> None:
     asked = why(run, "1" + ".1" * 5000)
-    assert asked.exit_code == 1 and "those in 1 are" in asked.stderr or "no skill was called in step 1" in asked.stderr
+    assert asked.exit_code != 0
+    assert "there is no step 1.1;" in asked.stderr or "no skill was called in step 1" in asked.stderr

@@ -34,7 +34,7 @@ def test_integers_are_exact(text: str, kind: str, value: int) -> None:
 
 @pytest.mark.parametrize("text", ["1e-400", "5.0000000000000000000000000001", "1e-99999999999999999999999"])
 def test_a_number_that_is_whole_only_as_a_float_is_none(text: str) -> None:
-    with pytest.raises(LiteralError, match="not a whole number|too many digits"):
+    with pytest.raises(LiteralError, match=r"not a whole number|too many digits"):
         read_literal(literal(text, "decimal"), COUNT)
 
 

@@ -91,8 +91,9 @@ def _describe_unknown(calls: Sequence[RecordedCall], text: str) -> str:
 def _describe_missing_number(calls: Sequence[RecordedCall], number: str) -> str:
     """Return a message with the numbers that exist: of steps, or of the calls inside a step."""
     known = {call.number: call for call in reversed(calls)}
-    while (prefix := number.rpartition(".")[0]) and prefix not in known:
-        number = prefix
+    prefix = max((each for each in known if number.startswith(f"{each}.")), key=len, default="")
+    first = len(prefix) + 1 if prefix else 0
+    number = number[:first] + number[first:].partition(".")[0]
     enclosing = known.get(prefix)
     count = len(enclosing.calls) if enclosing is not None else sum("." not in call.number for call in calls)
     numbers = f"{prefix}.1 to {prefix}.{count}" if prefix else f"1 to {count}"
