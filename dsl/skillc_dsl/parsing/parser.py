@@ -66,9 +66,17 @@ def _one_kind_each(
 
     A missing brace makes tokens misfit, and a line that was dropped unbalances braces.
     """
+    by_line = [_by_line(problems) for problems in (braces, misfits)]
     for lines in regions:
-        both = [[each for each in problems if each.span.line in lines] for problems in (braces, misfits)]
+        both = [[each for line in lines for each in problems.get(line, ())] for problems in by_line]
         yield from min((found for found in both if found), key=lambda found: found[0].span, default=[])
+
+
+def _by_line(problems: Iterable[Diagnostic]) -> dict[int, list[Diagnostic]]:
+    found: dict[int, list[Diagnostic]] = {}
+    for each in problems:
+        found.setdefault(each.span.line, []).append(each)
+    return found
 
 
 def _first(problems: list[Diagnostic]) -> tuple[Diagnostic, ...]:
