@@ -8,16 +8,18 @@ from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.working_face import working_face
+from skillc_runtime.primitives.contradiction import contradict_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import width_between
 from skillc_runtime.world.space.grip_force import mass_of
+from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
-from skillc_runtime.world.state.terms import CONTAIN, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
+from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
 from skillc_runtime.world.state.world_state import WorldState
 
 FREE_CLEARANCE_M = 0.005
@@ -76,24 +78,36 @@ class Grasp(Primitive):
         """SkillFailure if the fingers have closed on nothing, or stand where the object's width does not put them."""
         opening = gripper.opening_m
         if not gripper.blocked:
-            raise SkillFailure(
-                "{gripper} does not hold {object}: nothing keeps its fingers from closing, they stand {opening:.0f mm} "
-                "open",
-                gripper=hand,
-                object=thing,
-                opening=Quantity(opening, "m"),
+            raise self._withdraw_place(
+                SkillFailure(
+                    "{gripper} does not hold {object}: nothing keeps its fingers from closing, they stand "
+                    "{opening:.0f mm} open",
+                    gripper=hand,
+                    object=thing,
+                    opening=Quantity(opening, "m"),
+                )
             )
         width = width_between(state, self._gripper, self._object, self._at)
         tolerance = number_of(state, self._object, WIDTH_TOLERANCE, default=WIDTH_TOLERANCE_M)
         if width is not None and abs(opening - width) > tolerance + gripper.opening_error_m:
-            raise SkillFailure(
-                "{gripper} holds something else than {object}, or holds it elsewhere: its fingers stand "
-                "{opening:.1f mm} open, {object} is {width:.1f mm} wide",
-                gripper=hand,
-                object=thing,
-                opening=Quantity(opening, "m"),
-                width=Quantity(width, "m"),
+            raise self._withdraw_place(
+                SkillFailure(
+                    "{gripper} holds something else than {object}, or holds it elsewhere: its fingers stand "
+                    "{opening:.1f mm} open, {object} is {width:.1f mm} wide",
+                    gripper=hand,
+                    object=thing,
+                    opening=Quantity(opening, "m"),
+                    width=Quantity(width, "m"),
+                )
             )
+
+    def _withdraw_place(self, failure: SkillFailure) -> SkillFailure:
+        """Withdraw where the object is, unless another hand holds it, whose fingers feel it; return the failure."""
+        world = self.cell.world
+        state = world.snapshot()
+        if any(state.is_a(each, END_EFFECTOR) for each in holders_of(state, self._object)):
+            return failure
+        return contradict_place(world, "Grasp", self._object, failure)
 
 
 class Release(Primitive):

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from contextlib import suppress
+
 import numpy as np
 
 from skillc_runtime.devices.camera import PoseEstimate
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.contradiction import contradict, contradict_place
 from skillc_runtime.primitives.pose_consensus import agreeing_estimates, mean_pose
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import move_changes, relative_pose
 from skillc_runtime.world.space.lying import lying_problem
+from skillc_runtime.world.space.whereabouts import holders_of, search_changes
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
-from skillc_runtime.world.state.terms import CONTAIN, LOCATED, WORKSTATION
+from skillc_runtime.world.state.terms import CONTAIN, LOCATED
+from skillc_runtime.world.state.world_state import WorldState
 
 BEHIND_M = 0.005
 """How far behind the middle of an object a camera must see to know that the object is not there."""
@@ -25,11 +31,15 @@ IMAGES = 5
 AGREEING = 3
 """How many estimates must agree for an object to count as located."""
 
+RECENT = 0.5
+"""Estimates that are older than this share of the patience do not count: the object may lie elsewhere by now."""
+
 
 class Locate(Primitive):
-    """Writes the pose of an object on which several images of a camera agree.
+    """Writes the pose of an object on which several images of a camera agree, the newest among them.
 
-    If there is none, and the camera sees past the place where the object is believed to be, it is no longer located.
+    That something contains it is withdrawn if it was believed to lie in there and does not. If too few agree, and the
+    camera sees past where the object is believed to be, it is withdrawn where it is.
     """
 
     moves = NOTHING
@@ -51,19 +61,26 @@ class Locate(Primitive):
 
     def tick(self) -> Status:
         """Return SUCCESS once the pose is written; SkillFailure if too few images agree on one in time."""
-        estimate = self._device.locate(self._object, self._since_s)
-        if estimate is not None and all(estimate.taken_s > each.taken_s for each in self._estimates):
-            self._estimates.append(estimate)
+        self._take_estimate()
         late = self.cell.now > self._ends
         if len(self._estimates) < IMAGES and not late:
             return Status.RUNNING
         agreeing = agreeing_estimates(self._estimates)
-        if len(agreeing) >= AGREEING and 2 * len(agreeing) > len(self._estimates):
+        enough = len(agreeing) >= AGREEING and 2 * len(agreeing) > len(self._estimates)
+        if enough and agreeing[-1] is self._estimates[-1]:  # else it may just have been moved
             self._conclude(mean_pose(agreeing))
             return Status.SUCCESS
         if late:
             raise self._gone() if self._sees_that_it_is_gone() else self._unseen(len(agreeing))
         return Status.RUNNING
+
+    def _take_estimate(self) -> None:
+        """Add an estimate from a newer image, if there is one; forget the old ones."""
+        estimate = self._device.locate(self._object, self._since_s)
+        if estimate is not None and all(estimate.taken_s > each.taken_s for each in self._estimates):
+            self._estimates.append(estimate)
+        oldest = self._device.clock_s - RECENT * self._patience_s
+        self._estimates = [each for each in self._estimates if each.taken_s >= oldest]
 
     def _sees_that_it_is_gone(self) -> bool:
         """Whether the camera sees what lies behind the place where the middle of the object should be."""
@@ -77,7 +94,30 @@ class Locate(Primitive):
         return depth_m > float(np.linalg.norm(middle)) + BEHIND_M
 
     def _conclude(self, in_camera: Pose) -> None:
-        self.cell.world.commit(self._placement(in_camera), "Locate", "sensed")
+        """Write where the object was seen, and what follows from that."""
+        world = self.cell.world
+        before = world.snapshot()
+        world.commit(self._placement(in_camera), type(self).__name__, "sensed")
+        left = self._places_left(before)
+        if left:
+            world.commit(left, type(self).__name__, "sensed")
+            self._assume_near(holders_of(before, self._object))
+
+    def _places_left(self, before: WorldState) -> list[RemoveRelation]:
+        """Return that what contains the object does not, if it lay there `before` it was seen and does not now."""
+        now, thing = self.cell.world.snapshot(), self._object
+        found = list[RemoveRelation]()
+        for each in holders_of(now, thing):
+            with suppress(FrameError):  # the extent of a place need not be known
+                if lying_problem(before, thing, each) is None and lying_problem(now, thing, each) is not None:
+                    found.append(RemoveRelation(each, CONTAIN, thing))
+        return found
+
+    def _assume_near(self, places: Sequence[str]) -> None:
+        """Assume the object in the area around places, so that it can be picked up again, if nothing contains it."""
+        assumed = search_changes(self.cell.world.snapshot(), self._object, places)
+        if assumed:
+            self.cell.world.commit(assumed, type(self).__name__, "assumed")
 
     def _placement(self, in_camera: Pose) -> list[Change]:
         """Return the changes that place the object; SkillFailure if the world model cannot say where that is."""
@@ -88,13 +128,23 @@ class Locate(Primitive):
         return [*moved, SetProperty(self._object, LOCATED, True)]
 
     def _gone(self) -> SkillFailure:
-        """Write that it is not known where the object is."""
-        self.cell.world.commit([SetProperty(self._object, LOCATED, False)], "Locate", "sensed")
-        return SkillFailure(
-            "{camera} sees that {object} is not where it is believed to be, and does not find it elsewhere",
-            camera=self._label(self._camera),
-            object=self._label(self._object),
+        """Withdraw where the object is; return the failure."""
+        return contradict_place(
+            self.cell.world,
+            type(self).__name__,
+            self._object,
+            SkillFailure(
+                "{camera} sees that {object} is not where it is believed to be, and does not find it elsewhere",
+                camera=self._label(self._camera),
+                object=self._label(self._object),
+            ),
+            self._asked_place,
         )
+
+    @property
+    def _asked_place(self) -> str | None:
+        """The place that is looked at, if the question is whether it contains the object."""
+        return None
 
     def _unseen(self, agreeing: int) -> SkillFailure:
         return SkillFailure(
@@ -119,26 +169,34 @@ class ConfirmPlaced(Locate):
         super().__init__(cell, camera=camera, object=object, patience=patience)
         self._place = place
 
+    @property
+    def _asked_place(self) -> str | None:
+        return self._place
+
     def _conclude(self, in_camera: Pose) -> None:
-        super()._conclude(in_camera)
         world = self.cell.world
+        before = world.snapshot()
+        world.commit(self._placement(in_camera), "ConfirmPlaced", "sensed")
         try:
             problem = lying_problem(world.snapshot(), self._object, self._place)
         except FrameError as error:
             raise SkillFailure(str(error)) from error
         if problem is not None:
-            world.commit([RemoveRelation(self._place, CONTAIN, self._object)], "ConfirmPlaced", "sensed")
-            world.commit(self._surroundings(), "ConfirmPlaced", "assumed")
-            raise SkillFailure(
+            raise self._elsewhere(problem, before)
+        world.commit([AddRelation(self._place, CONTAIN, self._object)], "ConfirmPlaced", "sensed")
+
+    def _elsewhere(self, problem: str, before: WorldState) -> SkillFailure:
+        """Withdraw that the place contains the object; return the failure."""
+        failure = contradict(
+            self.cell.world,
+            "ConfirmPlaced",
+            [RemoveRelation(self._place, CONTAIN, self._object), *self._places_left(before)],
+            SkillFailure(
                 "{camera} sees that {object} is not where it was put: {problem}",
                 camera=self._label(self._camera),
                 object=self._label(self._object),
                 problem=problem,
-            )
-        world.commit([AddRelation(self._place, CONTAIN, self._object)], "ConfirmPlaced", "sensed")
-
-    def _surroundings(self) -> list[Change]:
-        """Return that the object is in the workstation around the place, so that it can be picked up again."""
-        state = self.cell.world.snapshot()
-        around = sorted(state.subjects(CONTAIN, self._place) & state.instances(WORKSTATION))
-        return [AddRelation(each, CONTAIN, self._object) for each in around[:1]]
+            ),
+        )
+        self._assume_near([self._place])
+        return failure

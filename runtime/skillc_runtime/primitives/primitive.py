@@ -42,7 +42,12 @@ class SkillFailure(Exception):
 
     The values that are named in it, as in `SkillFailure("it sank {depth:.1f mm}", depth=Quantity(0.02, "m"))`, are put
     into the message and recorded beside it.
+
+    `withdrawn` is None unless what was measured contradicts the world model; then it has the facts that were believed
+    until `contradict` has withdrawn them, as text.
     """
+
+    withdrawn: tuple[str, ...] | None = None
 
     def __init__(self, message: str, **values: LabelledValue) -> None:
         super().__init__(message.format(**values) if values else message)

@@ -9,6 +9,7 @@ import numpy as np
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.arm_motion import raise_fault
+from skillc_runtime.primitives.contradiction import contradict_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
@@ -76,16 +77,21 @@ class Weigh(Primitive):
             return Status.RUNNING
         felt_kg = self._known_kg - float(np.mean(self._forces, axis=0)[2]) / GRAVITY_M_S2
         if abs(felt_kg - self._known_kg) > self._tolerance_kg:
-            raise SkillFailure(
-                "what {gripper} holds weighs {felt:.2f kg}, {object} weighs {known:.2f kg}: it is something else, or "
-                "something touches it",
-                gripper=self._hand,
-                felt=Quantity(felt_kg, "kg"),
-                object=self._thing,
-                known=Quantity(self._known_kg, "kg"),
-            )
+            raise self._withdraw_place(felt_kg)
         self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Weigh", "sensed")
         return Status.SUCCESS
+
+    def _withdraw_place(self, felt_kg: float) -> SkillFailure:
+        """Withdraw that the gripper holds the object; return the failure. What it holds instead, its fingers keep."""
+        failure = SkillFailure(
+            "what {gripper} holds weighs {felt:.2f kg}, {object} weighs {known:.2f kg}: it is something else, or "
+            "something touches it",
+            gripper=self._hand,
+            felt=Quantity(felt_kg, "kg"),
+            object=self._thing,
+            known=Quantity(self._known_kg, "kg"),
+        )
+        return contradict_place(self.cell.world, "Weigh", self._object, failure)
 
     @property
     def _hand(self) -> LabelledIri:

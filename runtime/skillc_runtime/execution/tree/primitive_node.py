@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from types import MappingProxyType
+from collections.abc import Callable
 from typing import ClassVar
 
 from skillc_rdf.vocabulary.types import Position
@@ -13,10 +12,7 @@ from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.world.state.labelled import LabelledValue
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, foreign_code
-
-NO_VALUES: Mapping[str, LabelledValue] = MappingProxyType({})
 
 
 class PrimitiveNode(Node):
@@ -68,7 +64,7 @@ class PrimitiveNode(Node):
             self._running = False
             if self._undo is not None:
                 self._undo.discard(self.release)
-            return self.fail(self._failure(str(refusal), refusal.values))
+            return self.fail(self._failure(refusal))
         self.refused_to_start = False
         self.context.active.add(primitive, self.id)
         return self.tick()
@@ -80,7 +76,7 @@ class PrimitiveNode(Node):
                 return RUNNING if self.context.now < self._late else self.fail_late()
             return self._on_finished(status)
         except SkillFailure as failure:
-            return self._halt_and_fail(str(failure), failure.values)
+            return self._halt_and_fail(failure)
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # noqa: BLE001  the boundary to skill code: it reports, halts and fails
@@ -121,12 +117,18 @@ class PrimitiveNode(Node):
             self.outputs = dict(self._primitive.outputs)
             return self.succeed()
         if status is FAILURE:
-            return self._halt_and_fail(f"{self.name} failed without a reason")
+            return self._halt_and_fail(SkillFailure(f"{self.name} failed without a reason"))
         raise TypeError(f"{self.name} returned {status!r} from tick; it may return RUNNING or SUCCESS")
 
-    def _halt_and_fail(self, message: str, values: Mapping[str, LabelledValue] = NO_VALUES) -> Status:
-        self.stop(message)
-        return self.fail(self._failure(message, values))
+    def _halt_and_fail(self, failure: SkillFailure) -> Status:
+        self.stop(str(failure))
+        return self.fail(self._failure(failure))
 
-    def _failure(self, message: str, values: Mapping[str, LabelledValue]) -> Failure:
-        return Failure(kind="body", message=message, source=self.source, values=dict(values))
+    def _failure(self, failure: SkillFailure) -> Failure:
+        return Failure(
+            kind="body" if failure.withdrawn is None else "contradiction",
+            message=str(failure),
+            detail=f"withdrawn: {', '.join(failure.withdrawn)}" if failure.withdrawn else "",
+            source=self.source,
+            values=dict(failure.values),
+        )

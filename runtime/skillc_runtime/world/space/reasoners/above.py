@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M
 from skillc_runtime.world.space.hollow import gap_below
+from skillc_runtime.world.space.whereabouts import unknown_place
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -16,6 +17,9 @@ class Above:
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
         """Return why the subject is not above the object; None when it is."""
+        unknown = unknown_place(state, subject, object_)
+        if unknown is not None:
+            return unknown
         short = state.vocabulary.short
         if subject == object_:
             return "nothing is above itself"

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M, bounding_box, solid_box
 from skillc_runtime.world.space.hollow import bin_shape, why_not_in_bin
+from skillc_runtime.world.space.whereabouts import unknown_place
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -19,6 +20,9 @@ class Inside:
 
     def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
         """Return how far the subject sticks out; None when it is inside."""
+        unknown = unknown_place(state, subject, object_)
+        if unknown is not None:
+            return unknown
         if subject == object_:
             return "nothing is inside itself"
         bin_ = bin_shape(state, object_)
