@@ -10,7 +10,7 @@ from pathlib import Path
 
 from random_cells.outcomes import BAD, classify, format_table
 from random_cells.running import CaseRunner
-from random_cells.spoiling import draw_case
+from random_cells.spoiling import SERIES
 from skillc_runtime.evaluation.trials import identity
 from skillc_runtime.evaluation.trials.journal import Heading, TrialJournal, find_missing_seeds
 from skillc_runtime.evaluation.trials.workers import run_in_processes
@@ -23,9 +23,9 @@ def main() -> int:
     """Run the cells, print their table; return 1 if one ended as none may."""
     options = _options()
     seeds = range(options.seed, options.seed + options.cells)
-    out: Path = options.out.absolute()
+    out, draw = (options.out / options.series).absolute(), SERIES[options.series]
     heading = Heading(
-        task="random cells",
+        task=f"random cells, {options.series}",
         disturbance="none",
         skillc=identity.identify_skillc(),
         library=f"{options.backend}, at most {options.parts} parts",
@@ -33,20 +33,21 @@ def main() -> int:
     )
     with TrialJournal(out, heading) as journal:
         missing = find_missing_seeds(seeds, journal.trials)
-        prepare = partial(CaseRunner, out, options.backend, options.parts)
+        prepare = partial(CaseRunner, out, options.backend, options.parts, options.series)
         for trial in run_in_processes(prepare, missing, options.jobs, CELL_LIMIT_S):
             journal.add(trial)
             said = "; ".join(trial.false_claims) if trial.is_false_success else trial.reason or ""
             print(
-                f"{trial.seed}: {draw_case(trial.seed).trouble}: {classify(trial)}: {said}", file=sys.stderr, flush=True
+                f"{trial.seed}: {draw(trial.seed, 1).trouble}: {classify(trial)}: {said}", file=sys.stderr, flush=True
             )
         trials = [each for each in journal.trials if each.seed in seeds]
-    print(format_table(trials))
+    print(format_table(trials, draw))
     return int(any(classify(each) in BAD for each in trials))
 
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="random_cells", description=__doc__)
+    parser.add_argument("series", nargs="?", choices=sorted(SERIES), default="spoilt", help="what is wrong with them")
     parser.add_argument("--cells", type=int, default=300, help="how many cells")
     parser.add_argument("--seed", type=int, default=0, help="the seed of the first cell")
     parser.add_argument("--parts", type=int, default=12, help="at most so many parts to move in a cell")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Literal, TypeAlias, get_args
 
-from random_cells.spoiling import Trouble, draw_case
+from random_cells.happening import DEEDS
+from random_cells.spoiling import FAULTS, Case, Trouble, draw_case
 from skillc_runtime.evaluation.trials.trial import Trial
 
 Outcome: TypeAlias = Literal[
@@ -31,14 +32,14 @@ def classify(trial: Trial) -> Outcome:
     return "honest failure" if trial.status == "failed" and _is_sentence(trial.reason) and trial.at_rest else "crash"
 
 
-def format_table(trials: Iterable[Trial]) -> str:
-    """Return the table, and the share of the solvable cases that succeeded."""
-    found = Counter((draw_case(each.seed).trouble, classify(each)) for each in trials)
+def format_table(trials: Iterable[Trial], draw: Callable[[int, int], Case] = draw_case) -> str:
+    """Return the table, and the share of the solvable cases that succeeded, if there were any."""
+    found = Counter((draw(each.seed, 1).trouble, classify(each)) for each in trials)
     outcomes: tuple[Outcome, ...] = get_args(Outcome)
-    troubles = [each for each in get_args(Trouble) if any(found[each, outcome] for outcome in outcomes)]
+    troubles = [each for each in ("none", *FAULTS, *DEEDS) if any(found[each, outcome] for outcome in outcomes)]
     head = f"{'trouble':14}" + "".join(f"{each:>24}" for each in outcomes)
     rows = [f"{each:14}" + "".join(f"{found[each, outcome]:24}" for outcome in outcomes) for each in troubles]
-    return "\n".join((head, *rows, _format_share(found)))
+    return "\n".join((head, *rows, *((_format_share(found),) if "none" in troubles else ())))
 
 
 def _format_share(found: Counter[tuple[Trouble, Outcome]]) -> str:

@@ -9,7 +9,8 @@ from typing import Literal, TypeAlias
 import mujoco
 
 from random_cells.drawing import TABLE_M
-from random_cells.spoiling import AWAY_M, Case, draw_case
+from random_cells.happening import Hand
+from random_cells.spoiling import AWAY_M, SERIES, Case
 from random_cells.writing import TASK, format_scene, write_cell
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.errors import DiagnosticsError
@@ -37,15 +38,16 @@ Backend: TypeAlias = Literal["mujoco", "kinematic"]
 
 @dataclass(frozen=True, slots=True)
 class CaseRunner:
-    """Runs cases; what they consist of is written into a folder for each seed."""
+    """Runs cases of a series; what they consist of is written into a folder for each seed."""
 
     out: Path
     backend: Backend = "mujoco"
     most_parts: int = 12
+    series: str = "spoilt"
 
     def run(self, seed: int) -> Trial:
         """Run the case of a seed."""
-        case = draw_case(seed, self.most_parts)
+        case = SERIES[self.series](seed, self.most_parts)
         folder = self.out / f"cell_{seed}"
         write_cell(case.believed, folder)
         try:
@@ -65,14 +67,16 @@ class CaseRunner:
             return Trial(seed=case.seed, status="refused", reason=prepared.reason)
         real, believed = _load_reality(case, folder, task), task.assignment.state
         cell = self._make_cell(real, believed, case.seed)
-        thief = Thief(case, cell)
-        execution = execute_task(prepared, task.library, cell, after_tick=thief.update)
+        somebody = _make_somebody(case, cell)
+        listeners = (somebody,) if isinstance(somebody, Hand) else ()
+        execution = execute_task(prepared, task.library, cell, listeners, somebody.update)
         return Trial(
             seed=case.seed,
             status=execution.status,
             reason=describe_failure(execution.failure) if execution.failure else None,
             verified=execution.verified,
             at_rest=cell.is_at_rest(),
+            pushed=isinstance(somebody, Hand) and somebody.acted,
             sim_time_s=cell.now,
             wall_time_s=execution.wall_time_s,
             false_claims=judge_claims(believed, cell),
@@ -95,6 +99,11 @@ def _load_reality(case: Case, folder: Path, task: LoadedTask) -> WorldState:
     scene = folder / "reality.ttl"
     scene.write_text(format_scene(case.real, folder.name), "utf-8")
     return load_scene(scene, task.library.vocabulary)
+
+
+def _make_somebody(case: Case, cell: SimulatedCell | KinematicCell) -> Hand | Thief:
+    part, bin_ = case.believed.goal[-1]
+    return Thief(case, cell) if case.happening is None else Hand(case.happening, LAB + part, LAB + bin_, cell)
 
 
 class Thief:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from random import Random
 from typing import Literal, TypeAlias, assert_never, get_args
 
 from random_cells.drawing import TABLE_M, Cell, Part, draw_cell
+from random_cells.happening import DEEDS, Deed, Happening, draw_happening, draw_watched_cell
 
-Trouble: TypeAlias = Literal[
-    "none",
+Fault: TypeAlias = Literal[
     "no support",
     "full bin",
     "slippery",
@@ -20,8 +21,9 @@ Trouble: TypeAlias = Literal[
     "taken away",
     "blocked way",
 ]
+Trouble: TypeAlias = Literal["none"] | Fault | Deed
 
-TROUBLES: tuple[Trouble, ...] = get_args(Trouble)[1:]
+FAULTS: tuple[Fault, ...] = get_args(Fault)
 
 AWAY_M = (2.0, 2.0)
 """Where a part lies on the floor that somebody has taken away."""
@@ -29,13 +31,17 @@ AWAY_M = (2.0, 2.0)
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A cell as it is believed and as it is, and when a part is taken away; its trouble is with the last part."""
+    """A cell as it is believed and as it is, and when a part is taken away; its trouble is with the last part.
+
+    `happening` is what somebody does to that part while a camera looks.
+    """
 
     seed: int
     trouble: Trouble
     believed: Cell
     real: Cell
     taken_at_s: float | None = None
+    happening: Happening | None = None
 
     @property
     def victim(self) -> str:
@@ -49,15 +55,24 @@ def draw_case(seed: int, most_parts: int = 12) -> Case:
     cell = draw_cell(rng, most_parts)
     if seed % 2 == 0:
         return Case(seed, "none", cell, cell)
-    return _spoil(rng, seed, TROUBLES[seed // 2 % len(TROUBLES)], cell)
+    return _spoil(rng, seed, FAULTS[seed // 2 % len(FAULTS)], cell)
 
 
-def _spoil(rng: Random, seed: int, trouble: Trouble, cell: Cell) -> Case:
+def draw_watched_case(seed: int, most_parts: int = 12) -> Case:
+    """Draw the case of a seed in which something happens to a part while a camera looks, each kind in turn."""
+    rng = Random(f"watched cells:{seed}")
+    cell, deed = draw_watched_cell(rng, most_parts), DEEDS[seed % len(DEEDS)]
+    return Case(seed, deed, cell, cell, happening=draw_happening(rng, deed))
+
+
+SERIES: Mapping[str, Callable[[int, int], Case]] = {"spoilt": draw_case, "watched": draw_watched_case}
+"""How the case of a seed is drawn, with at most so many parts to move, in each kind of series."""
+
+
+def _spoil(rng: Random, seed: int, trouble: Fault, cell: Cell) -> Case:
     part = next(each for each in cell.parts if each.name == cell.goal[-1][0])
     (x, y, z), (_, width, height) = part.at, part.size
     match trouble:
-        case "none":
-            return Case(seed, trouble, cell, cell)
         case "no support":
             return _known(seed, trouble, _without_bin(cell))
         case "full bin":

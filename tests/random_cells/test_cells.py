@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 from typing import get_args
 
 import pytest
 
+from random_cells.happening import DEEDS, Moment
 from random_cells.outcomes import BAD, Outcome, classify, format_table
 from random_cells.running import CaseRunner
-from random_cells.spoiling import TROUBLES, Trouble, draw_case
+from random_cells.spoiling import FAULTS, draw_case, draw_watched_case
 from random_cells.writing import write_cell
 from skillc_runtime.evaluation.trials.trial import Trial
 
@@ -20,13 +22,21 @@ SMALL = 1
 def test_half_of_the_cells_can_be_solved_and_every_trouble_occurs() -> None:
     cases = [draw_case(seed) for seed in range(300)]
     assert sum(case.trouble == "none" for case in cases) == 150
-    assert {case.trouble for case in cases} == {"none", *TROUBLES} == set(get_args(Trouble))
+    assert {case.trouble for case in cases} == {"none", *FAULTS}
     assert {len(case.believed.parts) for case in cases} >= set(range(1, 13))
     assert {case.believed.has_camera for case in cases} == {True, False}
     assert {len(case.believed.goal) for case in cases} >= set(range(1, 9))
     assert {len(case.believed.bins) for case in cases} == set(range(1, 7))
     assert {case.believed.arm for case in cases} == {"iiwa14", "ur5e", "panda"}
     assert {part.shape for case in cases for part in case.believed.parts} == {"box", "bar", "cylinder", "sphere"}
+
+
+def test_in_watched_cells_everything_happens_at_every_moment() -> None:
+    cases = [draw_watched_case(seed, SMALL) for seed in range(100)]
+    happenings = [case.happening for case in cases if case.happening is not None]
+    assert len(happenings) == 100 and all(case.believed.has_camera for case in cases)
+    assert {(each.deed, each.moment) for each in happenings} == set(product(DEEDS, get_args(Moment)))
+    assert [draw_watched_case(seed, SMALL) for seed in range(100)] == cases
 
 
 def test_a_seed_writes_the_same_cell_again(tmp_path: Path) -> None:
@@ -74,6 +84,13 @@ def test_a_displaced_part_is_grasped_where_a_camera_sees_it_and_else_not(tmp_pat
     case = next(each for each in cases if (each.trouble, each.believed.has_camera) == ("displaced", has_camera))
     trial = CaseRunner(tmp_path, "kinematic", SMALL).run(case.seed)
     assert classify(trial) == ("finished, not verified" if has_camera else "honest failure"), trial
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("seed", range(8))
+def test_what_happens_while_a_camera_looks_is_noticed(seed: int, tmp_path: Path) -> None:
+    trial = CaseRunner(tmp_path, "mujoco", SMALL, "watched").run(seed)
+    assert classify(trial) not in BAD, trial
 
 
 @pytest.mark.sim

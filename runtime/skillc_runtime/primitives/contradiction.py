@@ -12,7 +12,7 @@ from skillc_runtime.world.space.whereabouts import (
     last_known_changes,
     search_changes,
 )
-from skillc_runtime.world.state.changes import Change, RemoveRelation
+from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.evidence import describe_evidence, stated_fact
 from skillc_runtime.world.state.facts import RelationFact
 from skillc_runtime.world.state.labelled import label_fact
@@ -20,6 +20,7 @@ from skillc_runtime.world.state.labelled_text import format_fact
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.model import WorldModel
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 def contradict(world: WorldModel, skill: str, changes: Iterable[Change], failure: SkillFailure) -> SkillFailure:
@@ -36,18 +37,22 @@ def contradict(world: WorldModel, skill: str, changes: Iterable[Change], failure
 def contradict_place(
     world: WorldModel, skill: str, thing: str, failure: SkillFailure, at: str | None = None
 ) -> SkillFailure:
-    """Withdraw, as sensed, where a thing is, which was looked for in the place `at`; return the failure.
-
-    It is then assumed somewhere in the area around, where it can be looked for.
-    """
+    """Withdraw, as sensed, where a thing is, which was looked for in the place `at`; return the failure."""
     before = world.snapshot()
-    forced, near = displacement_changes(before, thing, at), holders_of(before, thing)
-    contradict(world, skill, forced, failure)
-    kept = last_known_changes(before, thing) if any(isinstance(each, RemoveRelation) for each in forced) else []
-    supposed = (*kept, *search_changes(world.snapshot(), thing, near, at))
-    if supposed:
-        world.commit(supposed, skill, "assumed")
+    contradict(world, skill, displacement_changes(before, thing, at), failure)
+    suppose_around(world, thing, before, skill, at)
     return failure
+
+
+def suppose_around(world: WorldModel, thing: str, before: WorldState, origin: str, at: str | None = None) -> None:
+    """Assume a thing, withdrawn from where it was `before`, somewhere in the area around, but not in the place `at`.
+
+    It can be looked for there: its pose in the world stays as it was, though only as the last one that is known.
+    """
+    after, near = world.snapshot(), holders_of(before, thing)
+    supposed = (*last_known_changes(before, after, thing), *search_changes(after, thing, near, at))
+    if supposed:
+        world.commit(supposed, origin, "assumed")
 
 
 def _describe_withdrawn(changes: tuple[Change, ...], world: WorldModel) -> list[str]:

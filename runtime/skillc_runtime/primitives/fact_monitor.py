@@ -11,8 +11,10 @@ import numpy as np
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import Gripper
+from skillc_runtime.primitives.contradiction import suppose_around
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.whereabouts import displacement_changes
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.evidence import describe_evidence
@@ -63,8 +65,11 @@ class FactMonitor:
 
     def _withdraw(self, fact: RelationFact, said: str, state: WorldState) -> str:
         known = self._cell.world.deciding_write(fact)
-        change = RemoveRelation(fact.subject, fact.relation, fact.object)
-        self._cell.world.commit([change], said, "reported")
+        world, changes = self._cell.world, [RemoveRelation(fact.subject, fact.relation, fact.object)]
+        lost = fact.relation == CONTAIN
+        world.commit(displacement_changes(state, fact.object) if lost else changes, said, "reported")
+        if lost:
+            suppose_around(world, fact.object, state, said)
         return f"{said}, but the world model said `{format_fact(label_fact(fact, state))}` ({describe_evidence(known)})"
 
 

@@ -50,18 +50,21 @@ def displacement_changes(state: WorldState, thing: str, at: str | None = None) -
     laid = [RemoveRelation(thing, ON, each) for each in _linked(state, thing, ON)]
     seated = (each for each in (IS_SEATED, INSERTED_DEPTH) if each in state.stored)
     cleared = [ClearProperty(thing, each) for each in seated if state.value(thing, each) is not None]
-    return [*held, *laid, *cleared, SetProperty(thing, LOCATED, False)]
+    lost = [SetProperty(thing, LOCATED, False)] if LOCATED in state.vocabulary.properties else []
+    return [*held, *laid, *cleared, *lost]
 
 
-def last_known_changes(state: WorldState, thing: str) -> list[Change]:
-    """Return the changes that state the pose of a thing on its own, for when what it follows from is withdrawn.
+def last_known_changes(before: WorldState, after: WorldState, thing: str) -> list[Change]:
+    """Return the changes after which a thing is in the world where it was `before` it was withdrawn from something.
 
-    None if it is stated so already, or is not known.
+    None if it was not, if its pose does not follow from that, or if its pose was not known.
     """
-    if state.value(thing, BASE_FRAME_ID) == WORLD_FRAME and not _linked(state, thing, ON):
+    laid = _linked(before, thing, ON)
+    left = laid != _linked(after, thing, ON) or holders_of(before, thing) != holders_of(after, thing)
+    if not left or (before.value(thing, BASE_FRAME_ID) == WORLD_FRAME and not laid):
         return []
     with suppress(FrameError):
-        changes = relocation_changes(state, thing, pose(state, thing))
+        changes = relocation_changes(before, thing, pose(before, thing))
         return [each for each in changes if not isinstance(each, RemoveRelation)]
     return []
 
