@@ -45,10 +45,10 @@ class Happening:
 
 
 def draw_watched_cell(rng: Random, most_parts: int) -> Cell:
-    """Draw a cell with a camera."""
+    """Draw a cell with a camera, and with no parts but those that are to be moved."""
     while not (cell := draw_cell(rng, most_parts)).has_camera:
         pass
-    return cell
+    return replace(cell, parts=cell.parts[: len(cell.goal)])
 
 
 def draw_happening(rng: Random, deed: Deed) -> Happening:
