@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -16,6 +17,7 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.events import Event, NodeEnded
+from skillc_runtime.recording.failure_text import list_details
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.facts import RelationFact
@@ -126,9 +128,9 @@ def test_without_a_camera_nobody_has_seen_where_the_parts_are() -> None:
     assert decided is not None and decided.evidence == "assumed"
 
 
-def with_a_thief(y: float) -> tuple[Execution, SimulatedCell, list[str]]:
+def with_a_thief(y: float, changes: Sequence[Change] = ()) -> tuple[Execution, SimulatedCell, list[str]]:
     """Return also what failed."""
-    prepared = prepare(library(), "sort_parts", FOLDER / "cell.ttl", WATCHED)
+    prepared = prepare(library(), "sort_parts", FOLDER / "cell.ttl", [*WATCHED, *changes])
     cell = SimulatedCell(WorldModel(prepared.assignment.state), 1)
     thief, events = Thief(cell, y), list[Event]()
     cell.people = (*cell.people, thief)  # type: ignore[arg-type]
@@ -142,6 +144,22 @@ def test_a_part_that_is_taken_out_of_its_bin_is_missed_and_put_there_again() -> 
     assert any("lab:Part-A is not where it was put: its middle is" in each for each in failures), failures
     assert execution.status == "succeeded" and execution.verified, execution.failure
     assert all(in_bin(cell, letter) for letter in "AB")
+
+
+ASIDE: list[Change] = placement_changes(EYE, Pose.of((0.45, 0.35, 1.9), (0.0, 1.0, 0.0, 0.0)))
+"""The camera where the hand does not hide the first bin from it."""
+
+
+def test_a_part_that_a_camera_sees_to_be_gone_is_not_believed_in_its_bin_until_it_is_seen_again() -> None:
+    execution, cell, failures = with_a_thief(-1.2, ASIDE)
+    gone = "lab:Camera-1 sees that lab:Part-A is not where it is believed to be, and does not find it elsewhere"
+    assert gone in failures and not in_bin(cell, "A")
+    assert execution.status == "failed" and execution.failure is not None
+    assert execution.failure.message == gone and execution.failure.causes
+    withdrawn = "withdrawn: `lab:Bin-A contain lab:Part-A` (assumed by Release)"
+    assert withdrawn in "\n".join(list_details(execution.failure))
+    lost = cell.world.deciding_write(RelationFact(LAB + "Bin-A", CONTAIN, PARTS[0], holds=False))
+    assert lost is not None and lost.evidence == "sensed" and lost.origin == f"ConfirmPlaced: {gone}"
 
 
 def test_a_part_that_is_hidden_under_the_hand_is_not_said_to_be_in_its_bin() -> None:

@@ -35,6 +35,7 @@ from skillc_runtime.world.state.terms import (
     CONTAIN,
     FRAME_ID,
     GRASP_WIDTH,
+    LOCATED,
     POSITION,
     SKILLC,
     WIDTH_TOLERANCE,
@@ -192,6 +193,7 @@ def test_nothing_is_grasped_where_no_eraser_is(scene: str) -> None:
     assert not there.gripper(GRIPPER[scene]).touches(ERASER)
     with pytest.raises(SkillFailure, match=r": nothing keeps its fingers from closing, they stand [01] mm open"):
         grasp(there, scene)
+    assert there.world.snapshot().value(ERASER, LOCATED) is False, "it is not believed where it was any more"
     with pytest.raises(RuntimeError):
         there.gripper(GRIPPER[scene]).attach(ERASER, pose(there.world.snapshot(), ERASER), 0.1)
     assert there.gripper(GRIPPER[scene]).holding is None

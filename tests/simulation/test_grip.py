@@ -9,7 +9,8 @@ from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import AddRelation, SetProperty
-from skillc_runtime.world.state.terms import CONTAIN, WEIGHT
+from skillc_runtime.world.state.facts import RelationFact
+from skillc_runtime.world.state.terms import CONTAIN, LOCATED, WEIGHT
 
 FORCE, FRICTION = 20.0, 1.0
 """N; of rubber pads on a painted handle, as the grippers' models have it."""
@@ -52,6 +53,9 @@ def test_a_thing_too_heavy_for_the_grip_slips_and_the_motion_fails(scene: str) -
     after = there.world.snapshot()
     assert not after.holds(GRIPPER[scene], CONTAIN, ERASER)
     assert np.linalg.norm(pose(after, ERASER).position[2] - before) < 0.06, "where it was lost, as far as is known"
+    assert after.value(ERASER, LOCATED) is False
+    told_by = there.world.deciding_write(RelationFact(GRIPPER[scene], CONTAIN, ERASER, holds=False))
+    assert told_by is not None and told_by.evidence == "reported"
 
 
 @pytest.mark.parametrize("scene", HANDS)

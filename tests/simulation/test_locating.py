@@ -11,9 +11,10 @@ from cells import ERASER, LAB, run, world
 
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.devices.disturbances import Move
 from skillc_runtime.motion.pose import Pose, log, quaternion_from_rotation
 from skillc_runtime.primitives.locate import ConfirmPlaced, Locate
-from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.space.reasoners.can_see import CanSee
@@ -235,6 +236,52 @@ def test_what_lies_elsewhere_is_not_said_to_be_there(at: tuple[float, float, flo
     assert not there.world.snapshot().holds(TRAY, CONTAIN, ERASER), "it was retracted"
     assert there.world.snapshot().holds(LAB + "Cell", CONTAIN, ERASER)
     assert there.world.snapshot().value(ERASER, LOCATED) is True, "it was seen, elsewhere"
+
+
+def test_what_a_camera_sees_to_be_gone_is_not_believed_in_its_place_any_more() -> None:
+    there = seen(0, [*tray((0.42, -0.45, 0.69)), *numbers(0.0, "falseAlarmRate")])
+    there.world.commit([AddRelation(LAB + "Cell", CONTAIN, TRAY), AddRelation(TRAY, CONTAIN, ERASER)], "Release")
+    carried_off(there)
+    with pytest.raises(SkillFailure, match="does not find it elsewhere") as failed:
+        confirm(there)
+    assert failed.value.withdrawn == ("`lab:Tray contain lab:Eraser-1` (assumed by Release)",)
+    assert there.world.snapshot().subjects(CONTAIN, ERASER) == {LAB + "Cell"}, "where it can be looked for"
+    lost = there.world.deciding_write(RelationFact(TRAY, CONTAIN, ERASER, holds=False))
+    assert lost is not None and lost.evidence == "sensed"
+    assert lost.origin.startswith("ConfirmPlaced: lab:Camera-1 sees that lab:Eraser-1 is not where it is believed")
+
+
+def test_what_is_seen_beside_its_place_is_not_in_there_whoever_looks() -> None:
+    there = seen(0, tray((0.42, -0.45, 0.69)))
+    there.world.commit([AddRelation(LAB + "Cell", CONTAIN, TRAY), AddRelation(TRAY, CONTAIN, ERASER)], "Release")
+    move(there, -0.15)
+    locate(there)
+    assert there.world.snapshot().subjects(CONTAIN, ERASER) == {LAB + "Cell"}
+    move(there, -0.03)
+    locate(there)
+    assert there.world.snapshot().subjects(CONTAIN, ERASER) == {LAB + "Cell"}, "an area contains it wherever it lies"
+
+
+def move(there: SimulatedCell, by_m: float) -> None:
+    there.disturber.disturb(Move(ERASER, (by_m, 0.0, 0.0)))
+
+
+@pytest.mark.parametrize("by_m", [0.08, 1.5], ids=["in view", "out of view"])
+def test_images_of_before_it_was_moved_decide_nothing(by_m: float) -> None:
+    there = seen(0, numbers(0.0, "falseAlarmRate", "missRate", "dropoutRate"))
+    looking = Locate(there, camera=EYE, object=ERASER, patience=2.0)
+    looking.start()
+    while there.now < 0.35:  # three or four images
+        assert looking.tick() is Status.RUNNING
+        there.advance(0.01)
+    move(there, by_m)
+    try:
+        while looking.tick() is Status.RUNNING:
+            there.advance(0.01)
+    except SkillFailure as failure:
+        assert by_m > 1 and "sees that lab:Eraser-1 is not where it is believed" in str(failure)
+    else:
+        assert by_m < 1 and errors(there)[0] < 0.005
 
 
 def test_a_place_without_a_size_cannot_be_confirmed() -> None:

@@ -10,7 +10,7 @@ from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.primitives.weigh import Weigh
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.facts import RelationFact
-from skillc_runtime.world.state.terms import CONTAIN, WEIGHT
+from skillc_runtime.world.state.terms import CONTAIN, LOCATED, WEIGHT
 
 SIM = pytest.mark.sim
 KINDS = ("iiwa_table", pytest.param("ur5e_whiteboard", marks=SIM), pytest.param("panda_desk", marks=SIM))
@@ -51,6 +51,11 @@ def test_a_thing_of_another_weight_is_something_else(scene: str, kg: float, felt
         SkillFailure, match=rf"holds weighs {felt} kg, lab:Eraser-1 weighs 0\.12 kg: it is something else"
     ):
         weigh(there, scene)
+    state, lost = there.world.snapshot(), RelationFact(GRIPPER[scene], CONTAIN, ERASER, holds=False)
+    known = there.world.deciding_write(lost)
+    assert not state.holds(GRIPPER[scene], CONTAIN, ERASER) and state.value(ERASER, LOCATED) is False
+    assert known is not None and known.evidence == "sensed" and known.origin.startswith("Weigh: what ")
+    assert there.gripper(GRIPPER[scene]).holding == ERASER, "something is still between the fingers"
 
 
 def test_a_weight_below_the_tolerance_tells_nothing() -> None:
