@@ -53,7 +53,7 @@ def failed(*implementations: str, crate: str = "crate") -> FailedSteps:
         skill, _, name = each.partition(".")
         place = {"from": iri("a")} if skill == "Load" else {"to": iri("b")}
         arguments = {"robot": iri("carl"), "crate": iri(crate), **place}
-        failures.add(skill, arguments, name, STATE if skill == "Load" else loaded, SLIPPED)
+        failures.add(skill, arguments, name, STATE if skill == "Load" else loaded, SLIPPED, 0)
     return failures
 
 

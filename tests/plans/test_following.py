@@ -85,7 +85,7 @@ def test_a_step_that_failed_is_done_in_another_way_where_there_is_one() -> None:
 def test_a_step_that_succeeded_in_another_way_has_not_failed() -> None:
     failures, arguments = FailedSteps(library()), {"robot": iri("carl"), "crate": iri("crate"), "to": iri("b")}
     state = world({"carl": "c"}, {"crate": "a"})
-    failures.add("Unload", arguments, "lower", state, SLIPPED)
+    failures.add("Unload", arguments, "lower", state, SLIPPED, 0)
     assert [step.skill for step in failures.steps] == ["Unload"]
     failures.forget_call("Unload", {**arguments, "crate": iri("box")})
     assert [step.skill for step in failures.steps] == ["Unload"]

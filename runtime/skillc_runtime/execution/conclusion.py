@@ -9,6 +9,7 @@ from typing import TypeAlias
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import AchieveGoal, ExecuteBody, NotStarted, PreparedTask, arrange_prepared
 from skillc_runtime.execution.attempt import AttemptResult
+from skillc_runtime.execution.plans.doubts import find_doubt
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.success_facts import collect_success_facts
 from skillc_runtime.planning.plan import Plan, Step
@@ -48,14 +49,18 @@ class NeedsPlan:
 Conclusion: TypeAlias = Ended | NeedsPlan
 
 
-def conclude(attempts: Sequence[AttemptResult], failures: FailedSteps, state: WorldState) -> Conclusion:
-    """Return whether a task has ended with its last attempt, after which the world is in `state`."""
+def conclude(attempts: Sequence[AttemptResult], failures: FailedSteps, world: WorldModel) -> Conclusion:
+    """Return whether a task has ended with its last attempt, after which the world is as it is now.
+
+    A goal that holds only by what a failed step assumed is not reached.
+    """
     last, ended = attempts[-1], Ended(_END_STATES[attempts[-1].status], attempts[-1].failure)
     objective = last.prepared.assignment.objective
     if not isinstance(objective, AchieveGoal) or (last.status is Status.HALTED and last.invalidated is None):
         return ended
-    if last.status is Status.SUCCESS and evaluate(objective.goal, state, {}):
-        return ended
+    if last.status is Status.SUCCESS and evaluate(objective.goal, world.snapshot(), {}):
+        doubt = find_doubt(objective.goal, failures, world)
+        return ended if doubt is None else Ended("failed", doubt)
     if last.status is Status.FAILURE and not _has_failed_step(last, failures):
         return ended
     if len(attempts) == MAX_ATTEMPTS:

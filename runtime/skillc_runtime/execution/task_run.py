@@ -208,7 +208,7 @@ class TaskRun(RunStatus):
         if self._ending is not None:
             return self._finish(self._ending.state, self._ending.failure)
         backend = self._context.backend
-        conclusion = conclude(self.attempts, self._context.failures, backend.cell.world.snapshot())
+        conclusion = conclude(self.attempts, self._context.failures, backend.cell.world)
         if self.settings.ask_after_failure and last.status is Status.FAILURE and backend.broken is None:
             self._context.gate.open()
             return self._enter("paused", last.reason)

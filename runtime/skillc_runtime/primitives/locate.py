@@ -9,12 +9,13 @@ import numpy as np
 
 from skillc_runtime.devices.camera import PoseEstimate
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.contradiction import contradict, contradict_place
 from skillc_runtime.primitives.pose_consensus import agreeing_estimates, mean_pose
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.world.space.bounding_boxes import bounding_box
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.frames import move_changes, relative_pose
+from skillc_runtime.world.space.frames import move_changes, pose
 from skillc_runtime.world.space.lying import lying_problem
 from skillc_runtime.world.space.whereabouts import holders_of, search_changes
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
@@ -23,7 +24,10 @@ from skillc_runtime.world.state.terms import CONTAIN, LOCATED
 from skillc_runtime.world.state.world_state import WorldState
 
 BEHIND_M = 0.005
-"""How far behind the middle of an object a camera must see to know that the object is not there."""
+"""How far behind a point inside an object a camera must see to know that the object is not there."""
+
+INNER = 0.5
+"""How far from the middle to the corners of its box a point is that is inside an object, whatever its shape."""
 
 IMAGES = 5
 """How many estimates are averaged."""
@@ -83,15 +87,28 @@ class Locate(Primitive):
         self._estimates = [each for each in self._estimates if each.taken_s >= oldest]
 
     def _sees_that_it_is_gone(self) -> bool:
-        """Whether the camera sees what lies behind the place where the middle of the object should be."""
+        """Whether the camera sees past where the middle of the object should be.
+
+        If something stands before the middle, past another point inside it, but nothing where the object should be.
+        """
         state = self.cell.world.snapshot()
         try:
-            middle = relative_pose(state, self._camera, self._object).position
+            box, eye = bounding_box(state, self._object), pose(state, self._camera).inverse()
         except FrameError:
             return False
-        depths = (self._device.depth_m(middle) for _ in range(IMAGES))
-        depth_m = next((each for each in depths if each is not None), 0.0)
-        return depth_m > float(np.linalg.norm(middle)) + BEHIND_M
+        middle, deep_m = box.middle.position, 2 * float(np.linalg.norm(box.half))
+        behind_m = self._depth_behind_m(eye.apply(middle))
+        if behind_m is not None and -deep_m < behind_m:
+            return behind_m > BEHIND_M
+        inner = (self._depth_behind_m(eye.apply(middle + INNER * (each - middle))) for each in box.corners)
+        seen_m = [each for each in inner if each is not None and each > -deep_m]
+        return bool(seen_m) and min(seen_m) > BEHIND_M
+
+    def _depth_behind_m(self, point: Array) -> float | None:
+        """Return how far behind a point (3,) in m in its frame the camera sees, below 0 before it; None if not."""
+        depths = (self._device.depth_m(point) for _ in range(IMAGES))
+        depth_m = next((each for each in depths if each is not None), None)
+        return None if depth_m is None else depth_m - float(np.linalg.norm(point))
 
     def _conclude(self, in_camera: Pose) -> None:
         """Write where the object was seen, and what follows from that."""

@@ -20,12 +20,16 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class FailedStep:
-    """A call with the implementation that failed, the state of the world in which it started, and its failure."""
+    """A call with the implementation that failed, the state of the world in which it started, and its failure.
+
+    `writes` is the number of writes to the world model until it failed.
+    """
 
     step: Step
     implementation: str
     state: WorldState
     failure: Failure
+    writes: int
 
 
 class FailedSteps:
@@ -49,6 +53,11 @@ class FailedSteps:
         return tuple(found)
 
     @property
+    def failed(self) -> tuple[FailedStep, ...]:
+        """The calls that failed, with each of their implementations."""
+        return tuple(self._failed)
+
+    @property
     def failures(self) -> tuple[Failure, ...]:
         """The failures of all steps, each once and named after its implementation."""
         named = (
@@ -58,10 +67,16 @@ class FailedSteps:
         return tuple({(each.alternative, each.message): each for each in named}.values())
 
     def add(
-        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, failure: Failure
+        self,
+        skill: str,
+        arguments: Mapping[str, Value],
+        implementation: str,
+        state: WorldState,
+        failure: Failure,
+        writes: int,
     ) -> None:
-        """Remember that an implementation failed for a call that started in `state`."""
-        self._failed.append(FailedStep(_step_of(skill, arguments), implementation, state, failure))
+        """Remember that an implementation failed, after so many writes, for a call that started in `state`."""
+        self._failed.append(FailedStep(_step_of(skill, arguments), implementation, state, failure, writes))
 
     def forget_call(self, skill: str, arguments: Mapping[str, Value]) -> None:
         """Forget the implementations that failed for a call, because another one succeeded."""

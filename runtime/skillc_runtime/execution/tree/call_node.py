@@ -245,7 +245,8 @@ class CallNode(Node):
     def _remember_failure(self, implementation: str, failure: Failure) -> None:
         """Record a failure for later attempts."""
         if self._scope.failures is not None:
-            self._scope.failures.add(self.skill.name, self._arguments, implementation, self._state_at_start, failure)
+            state, writes = self._state_at_start, self.context.cell.world.ledger.count
+            self._scope.failures.add(self.skill.name, self._arguments, implementation, state, failure, writes)
 
     def _check_running(self, activation: Activation) -> Failure | None:
         """Check the holds if the state is new, and the `verify` lines in each tick; return the failure, if any."""

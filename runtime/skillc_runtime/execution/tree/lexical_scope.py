@@ -20,9 +20,15 @@ class CallFailures(Protocol):
     """Remembers which calls failed, so that a call that would only fail again is skipped."""
 
     def add(
-        self, skill: str, arguments: Mapping[str, Value], implementation: str, state: WorldState, failure: Failure
+        self,
+        skill: str,
+        arguments: Mapping[str, Value],
+        implementation: str,
+        state: WorldState,
+        failure: Failure,
+        writes: int,
     ) -> None:
-        """Record that an implementation failed for a call that started in `state`."""
+        """Record that an implementation failed, after so many writes, for a call that started in `state`."""
         ...
 
     def find_repeated(
