@@ -82,6 +82,34 @@ def test_a_step_that_failed_is_done_in_another_way_where_there_is_one() -> None:
     ]
 
 
+@pytest.mark.parametrize(("evidence", "status"), [("assumed", "failed"), ("sensed", "succeeded"), (None, "succeeded")])
+def test_what_a_failed_step_assumed_on_the_way_does_not_reach_the_goal(evidence: Evidence | None, status: str) -> None:
+    state = world({"carl": "c"}, {"crate": "c", "box": "a"})
+    written = {8.0: lambda world: world.commit([contain("b", "crate")], "Release", evidence)}
+    depot = Depot(WorldModel(state), written, fails=lambda step, number: step == "carl crate b")
+    execution = carried_out(MOVED, state, depot)
+    assert depot.log[-1] == "carl crate b" and len(execution.attempts) == 2
+    assert execution.status == status
+    if status == "failed":
+        assert execution.failure is not None
+        assert describe_failure(execution.failure) == (
+            f"carl crate b failed; that `{iri('b')} contain {iri('crate')}` is only assumed: Unload has failed since"
+        )
+
+
+def test_what_is_written_after_a_step_has_failed_counts_again() -> None:
+    state = world({"carl": "c"}, {"crate": "c", "box": "a"})
+    written = {8.0: "Release", 12.0: "Push"}
+    depot = Depot(
+        WorldModel(state),
+        {time: lambda world, by=by: world.commit([contain("b", "crate")], by) for time, by in written.items()},
+        fails=lambda step, number: step == "carl crate b",
+    )
+    execution = carried_out("lab:b contain lab:crate and lab:b contain lab:box", state, depot)
+    assert execution.status == "succeeded", execution.failure
+    assert execution.verified is False
+
+
 def test_a_step_that_succeeded_in_another_way_has_not_failed() -> None:
     failures, arguments = FailedSteps(library()), {"robot": iri("carl"), "crate": iri("crate"), "to": iri("b")}
     state = world({"carl": "c"}, {"crate": "a"})
