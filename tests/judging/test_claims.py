@@ -15,10 +15,8 @@ from skillc.services.library_files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.evaluation.measures.claims import find_false_claims
-from skillc_runtime.evaluation.trials.experiment import judge_claims
+from skillc_runtime.evaluation.report.verdict import judge_claims
 from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation
-from skillc_runtime.world.space.bodies import read_bodies
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.model import WorldModel
@@ -60,7 +58,7 @@ def put(cell: KinematicCell, at: Pose) -> None:
 
 
 def false_claims(cell: KinematicCell) -> tuple[str, ...]:
-    return find_false_claims(read_bodies(start()), cell.world.snapshot(), cell.ground_truth)
+    return cell.find_false_claims()
 
 
 def test_what_is_as_the_scene_says_is_not_false() -> None:
@@ -117,5 +115,5 @@ def test_a_part_that_is_a_little_elsewhere_is_not_false() -> None:
 def test_a_part_that_falls_after_the_run_is_judged_where_it_comes_to_rest() -> None:
     cell = cell_claiming(BIN)
     put(cell, IN_BIN)
-    assert judge_claims(start(), cell) == ()
+    assert judge_claims(cell) == ()
     assert cell.now > 0.0

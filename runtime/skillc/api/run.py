@@ -22,6 +22,7 @@ from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.evaluation.report.write import REPORT
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.known_facts import format_false_claim
 from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.labelled_text import format_value
 
@@ -58,13 +59,18 @@ class Run:
 
     @property
     def succeeded(self) -> bool:
-        """Whether the task succeeded."""
-        return self.result.status == "succeeded"
+        """Whether the task succeeded, and the simulator contradicts nothing that the world model claims at its end."""
+        return self.result.is_sound
 
     @property
     def verified(self) -> bool | None:
-        """Whether a success rests on no assumption; None if the task did not succeed."""
+        """Whether a success rests on no assumption, and no claim is false; None if the task did not succeed."""
         return self.result.verified
+
+    @property
+    def false_claims(self) -> tuple[str, ...]:
+        """What the world model claims of things at the end that is not so in the simulator, a sentence each."""
+        return self.result.false_claims
 
     @property
     def failure(self) -> str | None:
@@ -158,7 +164,8 @@ class Run:
     def _repr_html_(self) -> str:
         known = {None: "", True: ", verified", False: ", not verified"}[self.verified]
         head = f"<p><b>{escape(self.task)}</b>: {self.status}{known}, {self.result.sim_time_s:.1f} s"
-        why = f"<br>{escape(self.failure)}" if self.failure else ""
+        sentences = (*map(format_false_claim, self.false_claims), *filter(None, (self.failure,)))
+        why = "".join(f"<br>{escape(each)}" for each in sentences)
         table = make_table(STEP_COLUMNS, self._step_rows()) if self.steps else ""
         pictures = "".join(path.with_suffix(".svg").read_text("utf-8") for path in (each.path for each in self.figures))
         return f"{head}{why}</p>{table}{pictures}"

@@ -48,6 +48,7 @@ def _describe(cell: str, operation: RecordedOperation, reader: JournalReader, fi
         reason=ended.failure.message if ended.failure else "",
         events=final.sequence,
         verified=ended.verified,
+        false_claims=ended.false_claims,
         failure=ended.failure,
         library_hash=started.hash,
         decisions=decisions_about(operation.id, reader) if ended.status == "interrupted" else (),

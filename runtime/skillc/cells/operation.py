@@ -48,8 +48,9 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     """An operation as it is now: `reason` says why it is in its state, or for what it waits.
 
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
-    whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
-    it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
+    whether a success rests on no fact that is only assumed, and no claim is false; None if it did not succeed.
+    `false_claims` are sentences about what the world model claimed at its end that is not so in the simulator.
+    `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
     operators. `planning` is how far its planner is; null if none works. `breakpoints` are those at which it pauses now.
     `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
     """
@@ -62,6 +63,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     allowed: tuple[str, ...] = ()
     events: int = 0
     verified: bool | None = None
+    false_claims: tuple[str, ...] = ()
     failure: Failure | None = None
     library_hash: str = ""
     devices: tuple[str, ...] | None = ()
@@ -70,6 +72,11 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     breakpoints: tuple[str, ...] = ()
     decisions: tuple[Decision, ...] = ()
     continued_by: str = ""
+
+    @property
+    def is_sound(self) -> bool:
+        """Whether it succeeded, and the simulator contradicts nothing that the world model claimed at its end."""
+        return self.state == "succeeded" and not self.false_claims
 
 
 CellState: TypeAlias = Literal["off", "operational", "protective-stop", "fault", "emergency-stop"]

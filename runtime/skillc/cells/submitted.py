@@ -26,6 +26,7 @@ class SubmittedOperation:
             allowed=run.allowed,
             events=self.publisher.sequence,
             verified=run.verified,
+            false_claims=run.false_claims,
             failure=run.failure,
             library_hash=self.library_hash,
             devices=None if (held := run.devices) is None else tuple(sorted(held)),

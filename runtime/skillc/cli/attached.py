@@ -94,7 +94,7 @@ def attach(cell: ServerCell, operation: ServerOperation) -> int:
         status = operation.status
         if find_display_obstacle() is None:
             remark_status(status)
-        return 0 if status.state == "succeeded" else 3
+        return 0 if status.is_sound else 3
     remark_going_on(operation.id)
     return 0
 

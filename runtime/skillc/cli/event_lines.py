@@ -9,7 +9,7 @@ from skillc_runtime.recording import events
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure
-from skillc_runtime.recording.known_facts import format_status
+from skillc_runtime.recording.known_facts import format_false_claim, format_status
 from skillc_runtime.world.state.labelled import IndividualAdded, IndividualRemoved, LabelledChange
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
@@ -72,8 +72,9 @@ def _describe_task(event: events.Event) -> Iterator[str]:
             yield f"planning again: {reason}"
         case events.Note(message=message):
             yield message
-        case events.TaskEnded(status=status, verified=verified, failure=failure):
-            yield f"{format_status(status, verified)}{_because(failure)}"
+        case events.TaskEnded(status=status, verified=verified, failure=failure, false_claims=claims):
+            yield f"{format_status(status, verified, claims)}{_because(failure)}"
+            yield from map(format_false_claim, claims)
         case _:
             pass
 

@@ -35,7 +35,7 @@ def describe_state(status: OperationStatus) -> str:
     from skillc_runtime.planning.progress import describe_progress
     from skillc_runtime.recording.known_facts import format_status
 
-    words = format_status(status.state, status.verified)
+    words = format_status(status.state, status.verified, status.false_claims)
     planning = "" if status.planning is None else describe_progress(status.planning)
     asked = [f"asks: {each.text} ({' | '.join(each.choices)})" for each in status.prompts]
-    return ": ".join(filter(None, (words, status.reason, planning, *asked)))
+    return ": ".join(filter(None, (words, status.reason, planning, *asked, *status.false_claims)))

@@ -7,10 +7,16 @@ from collections.abc import Iterator
 from skillc.cli.layout import Row, Style, TableCell, TerminalPage
 from skillc_runtime.evaluation.report.result import StepResult, TaskResult
 from skillc_runtime.evaluation.report.table import format_choice_reason, list_failure_details, list_table_rows
-from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
+from skillc_runtime.recording.known_facts import (
+    FALSE_SUCCESS,
+    format_false_claim,
+    format_status,
+    format_unverified,
+    unverified_facts,
+)
 from skillc_runtime.world.state.labelled_text import format_value
 
-END_STYLES: dict[str, Style] = {"succeeded": "good", "failed": "bad", "refused": "bad"}
+END_STYLES: dict[str, Style] = {"succeeded": "good", "failed": "bad", "refused": "bad", FALSE_SUCCESS: "bad"}
 STEP_STYLES: dict[str, Style] = {"success": "good", "failure": "bad", "halted": "warning"}
 
 
@@ -32,8 +38,10 @@ def format_ending(result: TaskResult, page: TerminalPage) -> str:
 
 
 def _list_ending(result: TaskResult, page: TerminalPage, verbose: bool) -> Iterator[str]:
-    words = format_status(result.status, result.verified)
+    words = format_status(result.status, result.verified, result.false_claims)
     yield f"{page.paint(result.task, 'strong')}  {page.paint(words, END_STYLES.get(words, 'warning'))}"
+    for claim in result.false_claims:
+        yield from page.wrap(format_false_claim(claim), "bad", hanging="  ")
     for fact in unverified_facts(result.facts):
         yield from page.wrap(format_unverified(fact), "warning", hanging="  ")
     if result.failure:

@@ -110,8 +110,8 @@ class RunProgress:
             case PromptsChanged(prompts=prompts) if self._live is None:
                 for each in prompts:
                     self._print(f"{self._title}: asks: {format_prompt(each, event.time)}")
-            case TaskEnded(status=status, verified=verified):
-                self.say(format_status(status, verified))
+            case TaskEnded(status=status, verified=verified, false_claims=claims):
+                self.say(format_status(status, verified, claims))
             case _:
                 pass
 

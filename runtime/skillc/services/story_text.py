@@ -11,6 +11,7 @@ from skillc_runtime.recording.history import Attempt, FailedNode, RecordedCall, 
 from skillc_runtime.recording.known_facts import (
     describe_missing_sensing,
     format_evidence,
+    format_false_claim,
     format_status,
     unverified_facts,
 )
@@ -34,6 +35,7 @@ def overview_lines(story: RunHistory) -> list[str]:
     for attempt in story.attempts:
         lines += _attempt(attempt)
     lines += _rests_on(story)
+    lines += map(format_false_claim, story.false_claims)
     if story.failure is not None:
         lines += ["", f"why: {describe_failure(story.failure)}", *_indented(list_details(story.failure))]
         lines += _indented(_chain(story.chain, story.failure.message))
@@ -49,7 +51,7 @@ def format_answer(answer: CallSelection) -> str:
 
 def _ending(story: RunHistory) -> str:
     if story.status:
-        return f"{format_status(story.status, story.verified)} after {story.last:.1f} s"
+        return f"{format_status(story.status, story.verified, story.false_claims)} after {story.last:.1f} s"
     running = [call.skill for call in story.calls if call.status == "running"]
     where = f", in {' > '.join(running)}" if running else ""
     return f"the recording ends at {story.last:.1f} s, before the task does{where}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -88,4 +88,13 @@ class Backend(Protocol):
 
     def close(self) -> None:
         """End the threads of the backend; idempotent."""
+        ...
+
+
+@runtime_checkable
+class Judge(Protocol):
+    """What a backend can do besides that knows the truth of its cell, as a simulation does."""
+
+    def find_false_claims(self) -> tuple[str, ...]:
+        """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
         ...

@@ -82,6 +82,10 @@ class Simulation(Backend, Protocol):
         """The true state of the cell."""
         ...
 
+    def find_false_claims(self) -> tuple[str, ...]:
+        """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
+        ...
+
     @property
     def disturber(self) -> Disturber:
         """Lets things happen to the cell that no skill does."""

@@ -21,7 +21,8 @@ class RunStatus:
     """The status of a task run.
 
     `attempts` are those that have ended; `failure` is why it did not succeed, `facts` what its success rests on,
-    `reason` why it is in its state.
+    `reason` why it is in its state. `false_claims` are sentences about what the world model claimed at its end that is
+    not so; only a simulation knows.
     """
 
     def __init__(
@@ -34,6 +35,7 @@ class RunStatus:
         self.attempts: list[AttemptResult] = []
         self.failure: Failure | None = None
         self.facts: tuple[KnownFact, ...] = ()
+        self.false_claims: tuple[str, ...] = ()
         self._claims, self._next = claims, following
         self._attempt: Attempt | None = None
 
@@ -100,5 +102,5 @@ class RunStatus:
 
     @property
     def verified(self) -> bool | None:
-        """Whether a success rests on no fact that is only assumed; None if the task did not succeed."""
-        return None if self.state != "succeeded" else not unverified_facts(self.facts)
+        """Whether a success rests on no fact that is only assumed, and no claim is false; None without a success."""
+        return None if self.state != "succeeded" else not unverified_facts(self.facts) and not self.false_claims

@@ -6,6 +6,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 from typing import Literal
 
+from skillc_runtime.devices.backend import Judge
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
@@ -248,8 +249,19 @@ class TaskRun(RunStatus):
         self.state = self.end = state
         self.reason, self.failure = describe_failure(failure) if failure else "", failure
         self.facts = collect_facts(self.attempts[-1], world) if state == "succeeded" else ()
-        now, task, verified = self._now, self.assignment.name, self.verified
-        self._emit(TaskEnded(time=now, task=task, status=state, failure=failure, verified=verified, facts=self.facts))
+        backend = self._context.backend
+        self.false_claims = backend.find_false_claims() if isinstance(backend, Judge) else ()
+        self._emit(
+            TaskEnded(
+                time=self._now,
+                task=self.assignment.name,
+                status=state,
+                failure=failure,
+                verified=self.verified,
+                facts=self.facts,
+                false_claims=self.false_claims,
+            )
+        )
 
     def _settle_state(self) -> None:
         """Take over how far a pause is."""

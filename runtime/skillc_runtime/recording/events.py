@@ -21,7 +21,7 @@ from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 8
+FORMAT = 9
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
@@ -241,7 +241,8 @@ class Resumed(_Event, tag="resumed", frozen=True, kw_only=True):
 class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
     """A task ended in the state `status`; `facts` are those that its success rests on.
 
-    `verified` is whether none of them is only assumed; None if the task did not succeed.
+    `verified` is whether none of them is only assumed, and no claim is false; None if the task did not succeed.
+    `false_claims` are sentences about what the world model claims of things that is not so in the simulator.
     """
 
     task: str
@@ -249,6 +250,7 @@ class TaskEnded(_Event, tag="task-ended", frozen=True, kw_only=True):
     failure: Failure | None = None
     verified: bool | None = None
     facts: tuple[KnownFact, ...] = ()
+    false_claims: tuple[str, ...] = ()
 
 
 Event: TypeAlias = (

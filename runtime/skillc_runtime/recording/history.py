@@ -108,6 +108,7 @@ class RunHistory(_Part, frozen=True, kw_only=True):
     """A run. `status` is empty if the recording ends before the task does; `last` is the time of the last event.
 
     `known` are the facts that a success rests on, `verified` is whether none of them is only assumed; None if unknown.
+    `false_claims` are sentences about what the world model claimed at its end that was not so in the simulator.
     `chain` leads from the outermost call to the node that failed.
     """
 
@@ -115,6 +116,7 @@ class RunHistory(_Part, frozen=True, kw_only=True):
     status: str = ""
     verified: bool | None = None
     known: tuple[KnownFact, ...] = ()
+    false_claims: tuple[str, ...] = ()
     library: str = ""
     hash: str = ""
     format: int = 1

@@ -75,6 +75,7 @@ class _HistoryBuilder:
             status=self._ended.status if self._ended is not None else "",
             verified=self._ended.verified if self._ended is not None else None,
             known=self._ended.facts if self._ended is not None else (),
+            false_claims=self._ended.false_claims if self._ended is not None else (),
             library=self._started.library,
             hash=self._started.hash,
             format=self._started.format,

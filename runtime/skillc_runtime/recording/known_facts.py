@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, assert_never
 
 import msgspec
@@ -18,6 +19,9 @@ from skillc_runtime.world.state.labelled_text import format_fact
 
 UNVERIFIED = "finished, not verified"
 """The status of a task that succeeded if the facts hold that are only assumed or idealised."""
+
+FALSE_SUCCESS = "false success"
+"""The status of a task that succeeded by what the world model claims, of which the simulator contradicts something."""
 
 
 class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -38,9 +42,16 @@ def format_evidence(fact: KnownFact) -> str:
     return f"{fact.known} by {fact.by}" if fact.by else fact.known
 
 
-def format_status(status: str, verified: bool | None) -> str:
-    """Return the status of a task as text; a success that is not verified is not called one."""
+def format_status(status: str, verified: bool | None, false_claims: Sequence[str] = ()) -> str:
+    """Return the status of a task as text; a success that is not verified, or that is contradicted, is not called one."""
+    if status == "succeeded" and false_claims:
+        return FALSE_SUCCESS
     return UNVERIFIED if verified is False else status
+
+
+def format_false_claim(claim: str) -> str:
+    """Return a sentence about what the world model claims that is not so in the simulator."""
+    return f"contradicted by the simulator: {claim}"
 
 
 def format_unverified(known: KnownFact) -> str:

@@ -58,7 +58,7 @@ def command(robot: str, out: Path | None, seed: int, looks: str, gif: bool, as_j
         print_json([run.result for run in runs])
     if out is not None:
         _compare(out, runs, as_json)
-    if any(run.result.status != "succeeded" for run in runs):
+    if not all(run.result.is_sound for run in runs):
         return 3
     return 0 if all(run.written for run in runs) else 1
 

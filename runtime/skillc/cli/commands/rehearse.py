@@ -68,4 +68,4 @@ def command(
         print_result(format_result(result, page_of(sys.stdout)))
     if film is not None:
         print_remark(f"the film is in {film}" if done.film else "there is no film: nothing has moved")
-    return 0 if result.status == "succeeded" else 3
+    return 0 if result.is_sound else 3

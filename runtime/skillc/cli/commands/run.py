@@ -2,7 +2,8 @@
 
 Plans if there is a goal, chooses implementations by the facts of the world model, and executes.
 
-Exit code 3 if the task does not succeed; with --strict also if its success was not sensed.
+Exit code 3 if the task does not succeed, or if the simulator contradicts what the world model claims at its end; with
+--strict also if its success was not sensed.
 """
 
 from __future__ import annotations
@@ -163,6 +164,6 @@ def command(
         print_json(ran.result)
     else:
         print_results([ran.result], out if ran.written else None)
-    if ran.result.status != "succeeded" or (strict and not ran.result.verified):
+    if not ran.result.is_sound or (strict and not ran.result.verified):
         return 3
     return 0 if ran.written else 1

@@ -143,4 +143,4 @@ def wait_for_end(operation: ServerOperation) -> int:
         remark_going_on(operation.id)
         raise
     remark_status(status)
-    return 0 if status.state == "succeeded" else 3
+    return 0 if status.is_sound else 3

@@ -25,4 +25,4 @@ def command(operation: str | None) -> int:
         found.wait_for_pause()
         status = found.status
     remark_status(status)
-    return 3 if status.state in ENDS and status.state != "succeeded" else 0
+    return 3 if status.state in ENDS and not status.is_sound else 0

@@ -102,7 +102,7 @@ def _describe_request(event: Requested | Disturbed) -> str:
 def _describe_end(run: RecordedRunData) -> str:
     if not run.history.status:
         return "not ended as far as it is recorded"
-    status = format_status(run.history.status, run.history.verified)
+    status = format_status(run.history.status, run.history.verified, run.history.false_claims)
     return f"{status}: {run.result.failure}" if run.result.failure else status
 
 

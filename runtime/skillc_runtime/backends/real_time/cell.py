@@ -143,6 +143,11 @@ class RealTimeCell:
         """Return a button; KeyError if the cell has no such button."""
         return locked(self._simulated.button(individual), self._turn)
 
+    def find_false_claims(self) -> tuple[str, ...]:
+        """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
+        with self._turn:
+            return self._simulated.find_false_claims()
+
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices, all if None, neither move nor push."""
         with self._turn:

@@ -20,6 +20,7 @@ from skillc_runtime.backends.simulation.checkpoint import (
     restore_cell,
     save_cell,
 )
+from skillc_runtime.backends.simulation.claims import find_false_claims
 from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.backends.simulation.disturber import SimulatedDisturber
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
@@ -226,6 +227,15 @@ class ModelledCell(ABC, Generic[A, G]):
         """Push the hand of an arm with a force (3,) in N in the world from now on; 0 ends it. KeyError without hand."""
         palm = part_name(self.scene.names[self._hands[arm].individual], "palm")
         self.data.body(palm).xfrc_applied[:3] = force_n
+
+    def find_false_claims(self) -> tuple[str, ...]:
+        """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each.
+
+        Nothing is judged in a cell that is broken: its physics may have diverged.
+        """
+        if self._broken is not None:
+            return ()
+        return find_false_claims(self.scene.bodies, self._world.snapshot(), self.ground_truth)
 
     def close(self) -> None:
         """Do nothing: a cell in lock step has no threads."""

@@ -67,8 +67,10 @@ def _is_device(individual: str, state: WorldState) -> bool:
 
 
 def _describe_end(result: TaskResult) -> FilmEnding | None:
-    status = format_status(result.status, result.verified)
+    status = format_status(result.status, result.verified, result.false_claims)
     match result.status:
+        case "succeeded" if result.false_claims:
+            return FilmEnding("failed", f"{status}: {result.false_claims[0]}")
         case "succeeded":
             return FilmEnding("unverified" if result.verified is False else "succeeded", status)
         case "failed":

@@ -28,6 +28,7 @@ def summarise_recording(start: TaskResult, history: RunHistory, wall_time_s: flo
         start,
         status=cast(EndState, history.status),
         verified=history.verified,
+        false_claims=history.false_claims,
         facts=history.known,
         plan=tuple(_make_step(call) for call in last.steps),
         choices=_make_choices(history.calls),

@@ -17,7 +17,7 @@ from skillc_runtime.evaluation.report.table import (
     split_placement,
 )
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure
-from skillc_runtime.recording.known_facts import format_status, format_unverified, unverified_facts
+from skillc_runtime.recording.known_facts import format_false_claim, format_status, format_unverified, unverified_facts
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
 
@@ -47,8 +47,9 @@ def render_page(
     )
     return environment.get_template("page.html.j2").render(
         result=result,
-        status=format_status(result.status, result.verified),
-        kind="assumed" if result.verified is False else result.status,
+        status=format_status(result.status, result.verified, result.false_claims),
+        kind=_kind(result),
+        claims=list(map(format_false_claim, result.false_claims)),
         unverified=shorten([format_unverified(each) for each in unverified_facts(result.facts)]),
         details=list_failure_details(result),
         rows=list_table_rows(result) if result.sim_time_s else [],
@@ -64,6 +65,13 @@ def render_page(
         reason=_reason,
         symbols=SYMBOLS,
     )
+
+
+def _kind(result: TaskResult) -> str:
+    """Return how the end of a task is marked."""
+    if result.status == "succeeded" and result.false_claims:
+        return "failed"
+    return "assumed" if result.verified is False else result.status
 
 
 def _reason(node: NodeOutcome) -> str:

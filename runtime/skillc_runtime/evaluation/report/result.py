@@ -112,8 +112,9 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `cause` is the same with all details, None if the task did not begin; `failed_calls` lead to it, outermost first.
 
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
-    which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
-    is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
+    which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
+    claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
+    in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
     was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved, `works` one for each
     other piece of work, `touches` one for each contact of a link, a hand or a base.
     """
@@ -122,6 +123,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     status: EndState | Literal["refused"]
     verified: bool | None = None
     facts: tuple[KnownFact, ...] = ()
+    false_claims: tuple[str, ...] = ()
     plan: tuple[StepResult, ...] = ()
     choices: tuple[ChoiceResult, ...] = ()
     plan_optimal: bool | None = None
@@ -143,3 +145,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     failure: str | None = None
     cause: Failure | None = None
     failed_calls: tuple[FailedCall, ...] = ()
+
+    @property
+    def is_sound(self) -> bool:
+        """Whether the task succeeded, and the simulator contradicts nothing that the world model claims."""
+        return self.status == "succeeded" and not self.false_claims

@@ -15,12 +15,12 @@ from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.measures import buttons, placements, poses, sockets, surfaces
-from skillc_runtime.evaluation.measures.claims import find_false_claims
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
+from skillc_runtime.evaluation.report.verdict import judge_claims
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushableCell, PushDisturbance
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
@@ -37,7 +37,6 @@ from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.known_facts import unverified_facts
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.space.bodies import read_bodies
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.labelled_text import format_fact
@@ -47,10 +46,6 @@ from skillc_runtime.world.state.world_state import WorldState
 
 MEASURES = (surfaces.measure, buttons.measure, sockets.measure, poses.measure)
 """The measures of the kinds of work that need evidence, in the order in which trials list them."""
-
-
-SETTLING_S = 0.5
-"""How long things may fall, roll and tip after a run before they are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +85,7 @@ class TrialRunner:
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
         trial = self._run(self._prepared, cell).measure(cell)
-        return structs.replace(trial, false_claims=judge_claims(self._state, cell))
+        return structs.replace(trial, false_claims=judge_claims(cell))
 
     def record(self, seed: int, recording: RecordTrial) -> TaskResult:
         """Run the trial of a seed again and record it; NotRecorded, SheetError or FrameError if it cannot start."""
@@ -139,14 +134,6 @@ class _Executed:
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,
         )
-
-
-def judge_claims(before: WorldState, cell: PushableCell) -> tuple[str, ...]:
-    """Return what a world model claims falsely after a run, once all lies still; `before` is the world at its start."""
-    bodies = read_bodies(before)
-    if cell.broken is None and any(each.movable for each in bodies):
-        cell.advance(SETTLING_S)
-    return find_false_claims(bodies, cell.cell.world.snapshot(), cell.ground_truth)
 
 
 def _make_assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:

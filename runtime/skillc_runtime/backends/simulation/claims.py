@@ -71,7 +71,7 @@ def is_in(thing: TrueBody, holder: TrueBody, others: Sequence[TrueBody] = ()) ->
 
 def _false_grasps(real: Mapping[str, TrueBody], state: WorldState, truth: GroundTruth) -> Iterator[str]:
     short = state.vocabulary.short
-    for gripper in _grippers(state):
+    for gripper in _grippers(state, truth):
         claimed, held = sorted(state.objects(gripper, CONTAIN)), truth.carried_by(gripper)
         for thing in claimed:
             if thing != held:
@@ -126,7 +126,7 @@ def _describe_missed(
 def _describe_place(real: Mapping[str, TrueBody], truth: GroundTruth, state: WorldState, thing: str) -> str:
     """Return where a thing really is, as the end of a sentence about it."""
     short, at = state.vocabulary.short, real[thing]
-    for gripper in _grippers(state):
+    for gripper in _grippers(state, truth):
         if truth.carried_by(gripper) == thing:
             return f"is held by {short(gripper)}"
     for name, each in sorted(real.items(), key=lambda item: (not isinstance(item[1].body.shape, Bin), item[0])):
@@ -139,9 +139,17 @@ def _describe_place(real: Mapping[str, TrueBody], truth: GroundTruth, state: Wor
     return f"is at {_coordinates(at.at.position)}"
 
 
-def _grippers(state: WorldState) -> list[str]:
-    """Return the grippers that arms have: others are not simulated."""
-    return sorted({each for _, each in state.pairs(HAS_GRIPPER)})
+def _grippers(state: WorldState, truth: GroundTruth) -> list[str]:
+    """Return the grippers that arms have: others are not simulated, nor are those that came after the cell was built."""
+    return sorted(each for each in {gripper for _, gripper in state.pairs(HAS_GRIPPER)} if _is_simulated(each, truth))
+
+
+def _is_simulated(gripper: str, truth: GroundTruth) -> bool:
+    try:
+        truth.carried_by(gripper)
+    except KeyError:
+        return False
+    return True
 
 
 def _lies_on(thing: TrueBody, other: TrueBody) -> bool:
