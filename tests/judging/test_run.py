@@ -1,4 +1,4 @@
-"""A run in simulation whose claims the simulator contradicts is no success: not printed as one, nor in its exit code."""
+"""A run whose claims the simulator contradicts is no success: not printed as one, nor in its exit code."""
 
 from __future__ import annotations
 

@@ -50,9 +50,10 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed, and no claim is false; None if it did not succeed.
     `false_claims` are sentences about what the world model claimed at its end that is not so in the simulator.
-    `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
-    operators. `planning` is how far its planner is; null if none works. `breakpoints` are those at which it pauses now.
-    `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
+    `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell.
+    `prompts` are what its skills ask operators. `planning` is how far its planner is; null if none works. `breakpoints`
+    are those at which it pauses now. `decisions` are how it can be continued if it was interrupted, `continued_by` is
+    the operation that does.
     """
 
     id: str

@@ -31,8 +31,7 @@ class CommandValidator:
 
     def __init__(self, arm: Arm, state: ArmState, limits: SafetyLimits | None = None) -> None:
         self._arm = arm
-        measures_effort = arm.capabilities.measures_effort
-        self.safety = SafetyMonitor(limits or SafetyLimits(), state, arm.interface, measures_effort)
+        self.safety = SafetyMonitor(limits or SafetyLimits(), state, arm.interface, arm.capabilities)
         self._holding = self._rest(state).copy()
 
     def check(self, state: ArmState) -> None:

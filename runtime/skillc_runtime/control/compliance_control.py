@@ -93,7 +93,7 @@ class ComplianceControl:
 
     def start_push(self, push: GuardedPush) -> ActivePush:
         """Begin to approach and then to push; the result gives the progress."""
-        active = ActivePush(push, self._task.measured.in_base(push.along))
+        active = ActivePush(push, self._task.measured.in_base(push.along), self._task.measured.felt_wrench)
         self._approach(push)
         self.active_pushes = (*self.active_pushes, active)
         return active

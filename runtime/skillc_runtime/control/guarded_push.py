@@ -11,8 +11,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias, assert_never
 
+from skillc_runtime.control.push_force import PushForceMeter
 from skillc_runtime.devices.arm import ArmState
-from skillc_runtime.devices.guarded_push import Contact, GuardedPush, Standstill, StopCondition, Travel
+from skillc_runtime.devices.guarded_push import (
+    Contact,
+    GuardedPush,
+    MeasuredForce,
+    Standstill,
+    StopCondition,
+    Travel,
+)
 from skillc_runtime.motion.pose import Array
 
 STEADY_SHARE, STEADY_S = (2 / 3, 3 / 2), 0.02
@@ -130,10 +138,14 @@ PushAction: TypeAlias = Literal["go on", "approach", "press"] | GivenUp
 
 
 class ActivePush:
-    """A push in progress, implementing `PushProgress`. axis (3,): the unit vector out of the surface, in base axes."""
+    """A push in progress, implementing `PushProgress`. axis (3,): the unit vector out of the surface, in base axes.
 
-    def __init__(self, push: GuardedPush, axis: Array) -> None:
+    felt: returns the wrench (6,) that is measured on the tool, N and N m, base axes; None where nothing measures it.
+    """
+
+    def __init__(self, push: GuardedPush, axis: Array, felt: Callable[[], Array | None]) -> None:
         self.push, self._axis = push, axis
+        self._meter = PushForceMeter(axis, felt)
         self._phase: Approach | Pressing | Held = begin_approach(push)
         self._surface_m: float | None = None
 
@@ -141,6 +153,11 @@ class ActivePush:
     def pressed_s(self) -> float | None:
         """For how long the tool has been in contact, in s; None if it is not."""
         return self._phase.lasted if isinstance(self._phase, Pressing) else None
+
+    @property
+    def force(self) -> MeasuredForce:
+        """What was measured of its force up to now."""
+        return self._meter.mean
 
     def hold(self) -> None:
         """Neither approach nor press until `approach`."""
@@ -163,6 +180,7 @@ class ActivePush:
                 return self._step_approach(self._phase, speed, height, force_n, period)
             case Pressing():
                 self._phase = advance_pressing(self._phase, speed, period)
+                self._meter.press(self._phase.lasted, period)
                 if not self._phase.falling:
                     return "go on"
                 self.approach()
@@ -176,6 +194,7 @@ class ActivePush:
         self, approach: Approach, speed: float, height: float, force_n: float, period: float
     ) -> PushAction:
         self._phase = approach = advance_approach(approach, speed, force_n, period)
+        self._meter.approach(approach.has_moved, period)
         match approach.met:
             case None:
                 return "go on"

@@ -21,11 +21,13 @@ class MeasuredArm:
 
     `base` returns the pose of the arm's base in the world; `contact_wrench` the wrench (6,) of the environment on the
     tool, N and N m, base axes. `state` is the measurement itself, in base; it is set once a control period.
+    `felt_wrench` returns what is measured of that wrench, and never what is commanded; None where nothing measures it.
     """
 
     def __init__(self, base: Callable[[], Pose], contact_wrench: Callable[[], Array], state: ArmState) -> None:
         self.base, self.state = base, state
         self._contact_wrench = contact_wrench
+        self.felt_wrench: Callable[[], Array | None] = lambda: None
 
     @property
     def pose(self) -> Pose:
@@ -41,6 +43,12 @@ class MeasuredArm:
     def wrench(self) -> Array:
         """The wrench (6,) of the environment on the tool, N and N m, world axes; measured or estimated."""
         return self._in_world(self._contact_wrench())
+
+    @property
+    def felt(self) -> Array | None:
+        """The wrench (6,) by a sensor or by the torques of the joints, N and N m, world axes; None without either."""
+        felt = self.felt_wrench()
+        return None if felt is None else self._in_world(felt)
 
     @property
     def q(self) -> Array:

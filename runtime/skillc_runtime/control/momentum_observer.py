@@ -25,6 +25,9 @@ LAG_S = 0.01
 DAMPING = 1e-3
 """lam^2: near a singularity it reduces the estimate along the lost direction instead of amplifying noise."""
 
+MEASURING = 1e-5
+"""lam^2 for forces that are measured and averaged: what noise does to them matters less than what damping takes away."""
+
 
 class MomentumObserver:
     """Estimates the wrench of the environment on the tool of one arm from its commands and its motion."""
@@ -49,9 +52,9 @@ class MomentumObserver:
             )
             self._elapsed = 0.0
 
-    def wrench(self, state: ArmState) -> Array:
-        """Return the wrench (6,) in N and N m, base axes, at the tool; the array is reused."""
-        estimate_wrench(self._wrench, self._torque, state.jacobian)
+    def wrench(self, state: ArmState, damping: float = DAMPING) -> Array:
+        """Return the wrench (6,) in N and N m, base axes, at the tool; the array is reused. `damping` is lam^2."""
+        estimate_wrench(self._wrench, self._torque, state.jacobian, damping)
         return self._wrench
 
     def unexplained(self, state: ArmState) -> tuple[int, float]:
@@ -85,15 +88,15 @@ def update_external_torque(
 
 
 @compiled
-def estimate_wrench(wrench: OutVector, torque: Vector, J: Matrix) -> None:
+def estimate_wrench(wrench: OutVector, torque: Vector, J: Matrix, damping: float) -> None:
     """wrench (6,) = (J J^T + lam^2 I)^-1 J torque, N and N m, base axes.
 
-    torque (nv,): N m; J (6, nv): [linear m; angular rad] per rad, base axes.
+    torque (nv,): N m; J (6, nv): [linear m; angular rad] per rad, base axes; damping: lam^2.
     """
     gram, force = np.empty((6, 6)), np.empty(6)
     product(J, J.T, gram)
     for i in range(6):
-        gram[i, i] += DAMPING
+        gram[i, i] += damping
     cholesky(gram)
     times(J, torque, force)
     cholesky_solve(gram, force, wrench)

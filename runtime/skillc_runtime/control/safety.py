@@ -7,8 +7,8 @@ from math import inf, sqrt
 
 import numpy as np
 
-from skillc_runtime.control.momentum_observer import MomentumObserver
-from skillc_runtime.devices.arm import ArmState, Command, Mode, Torque
+from skillc_runtime.control.momentum_observer import MEASURING, MomentumObserver
+from skillc_runtime.devices.arm import ArmState, Capabilities, Command, Mode, Torque
 from skillc_runtime.motion.arrays import Matrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import times, transposed_times
@@ -52,8 +52,8 @@ class SafetyMonitor:
     torques of the motors: those that are commanded, or measured ones.
     """
 
-    def __init__(self, limits: SafetyLimits, state: ArmState, mode: Mode, measures_effort: bool) -> None:
-        self.limits = limits
+    def __init__(self, limits: SafetyLimits, state: ArmState, mode: Mode, able: Capabilities) -> None:
+        self.limits, self._feels_force, measures_effort = limits, able.feels_force, able.measures_effort
         self._takes_torques, self._measures_effort = mode == "torque", measures_effort and mode != "torque"
         self.momentum_observer = MomentumObserver(state) if self._takes_torques or measures_effort else None
         self._age, self._violated = 0.0, False
@@ -76,6 +76,15 @@ class SafetyMonitor:
         found = self._violated_limit(state)
         news, self._violated = found is not None and not self._violated, found is not None
         return found if news else None
+
+    def felt_wrench(self, state: ArmState) -> Array | None:
+        """Return the wrench (6,) on the tool, N and N m, base axes, by a sensor or by the torques; None if neither is.
+
+        It is never what is commanded. The array is reused.
+        """
+        if self._feels_force:
+            return state.wrench
+        return None if self.momentum_observer is None else self.momentum_observer.wrench(state, MEASURING)
 
     def _violated_limit(self, state: ArmState) -> str | None:
         limits = self.limits

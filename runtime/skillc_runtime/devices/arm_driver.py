@@ -51,7 +51,12 @@ class ArmMeasurements(Protocol):
 
     @property
     def wrench(self) -> Array:
-        """The wrench (6,) of the environment on the tool, N and N m; measured or estimated."""
+        """The wrench (6,) of the environment on the tool, N and N m; measured, or what the arm is to exert."""
+        ...
+
+    @property
+    def felt(self) -> Array | None:
+        """The same as it is measured, by a sensor or by the torques of the joints; None where nothing measures it."""
         ...
 
     @property

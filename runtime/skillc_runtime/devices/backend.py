@@ -95,6 +95,11 @@ class Backend(Protocol):
 class Judge(Protocol):
     """What a backend can do besides that knows the truth of its cell, as a simulation does."""
 
+    @property
+    def has_physics(self) -> bool:
+        """Whether it computes contact and weight, so that what idealised devices read of them counts as verified."""
+        ...
+
     def find_false_claims(self) -> tuple[str, ...]:
         """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
         ...

@@ -51,8 +51,24 @@ class GuardedPush:
     touch_conditions: tuple[Contact | Standstill, ...] = (Standstill(), Contact())
 
 
+@dataclass(frozen=True, slots=True)
+class MeasuredForce:
+    """The mean force in N with which a tool presses, as it is measured and not as it is commanded.
+
+    `free_n` was measured before contact, where it should be 0. None is what was not measured, or not for long enough.
+    """
+
+    free_n: float | None
+    pressed_n: float | None
+
+
 class PushProgress(Protocol):
     """A guarded push in progress."""
+
+    @property
+    def force(self) -> MeasuredForce:
+        """What was measured of its force up to now."""
+        ...
 
     @property
     def pressed_s(self) -> float | None:

@@ -82,6 +82,11 @@ class Simulation(Backend, Protocol):
         """The true state of the cell."""
         ...
 
+    @property
+    def has_physics(self) -> bool:
+        """Whether it computes contact and weight, so that what idealised devices read of them counts as verified."""
+        ...
+
     def find_false_claims(self) -> tuple[str, ...]:
         """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
         ...

@@ -95,13 +95,16 @@ def no_other_plan(attempts: Sequence[AttemptResult], failures: FailedSteps, answ
     return Failure(kind="plan", message=message, source=cause.source if cause else None, causes=causes)
 
 
-def collect_facts(last: AttemptResult, world: WorldModel) -> tuple[KnownFact, ...]:
-    """Return the facts that a success rests on: those of the goal, or of the posts of the body's calls."""
+def collect_facts(last: AttemptResult, world: WorldModel, with_physics: bool) -> tuple[KnownFact, ...]:
+    """Return the facts that a success rests on: those of the goal, or of the posts of the body's calls.
+
+    `with_physics` is whether the cell is a simulation with physics.
+    """
     match last.prepared.assignment.objective:
         case AchieveGoal(goal):
-            return collect_success_facts([(goal, {})], world)
+            return collect_success_facts([(goal, {})], world, with_physics)
         case ExecuteBody():
-            return collect_success_facts(last.claims, world)
+            return collect_success_facts(last.claims, world, with_physics)
 
 
 def continue_plan(last: AttemptResult, library: SkillLibrary, state: WorldState) -> PreparedTask:

@@ -9,8 +9,11 @@ from skillc_model.conditions import Condition
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
-from skillc_runtime.world.state.labelled import label_fact
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.evidence import DecidingWrite, weakest
+from skillc_runtime.world.state.labelled import LabelledFact, label_fact, label_property
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import PUSH_FORCE
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -18,8 +21,11 @@ Claim: TypeAlias = tuple[Condition, Mapping[str, Value]]
 """A condition that is claimed to hold, with the values of its variables."""
 
 
-def collect_success_facts(claims: Iterable[Claim], world: WorldModel) -> tuple[KnownFact, ...]:
-    """Return the facts that the claims rest on, each once; none for a claim that no longer holds."""
+def collect_success_facts(claims: Iterable[Claim], world: WorldModel, with_physics: bool) -> tuple[KnownFact, ...]:
+    """Return the facts that the claims rest on, each once; none for a claim that no longer holds.
+
+    `with_physics` is whether the cell is a simulation with physics.
+    """
     state = world.snapshot()
     found = {
         ground.fact: ground
@@ -27,11 +33,39 @@ def collect_success_facts(claims: Iterable[Claim], world: WorldModel) -> tuple[K
         if evaluate(condition, state, bindings)
         for ground in find_grounds(condition, world, bindings)
     }
-    return tuple(_make_known_fact(ground, state) for ground in found.values())
+    return tuple(_make_known_fact(ground, state, with_physics) for ground in found.values())
 
 
-def _make_known_fact(ground: Ground, state: WorldState) -> KnownFact:
-    fact, established = label_fact(ground.fact, state), ground.write
+def collect_forces(
+    world: WorldModel, writes_before: int, arms: frozenset[str] | None, with_physics: bool
+) -> tuple[KnownFact, ...]:
+    """Return with which force each of the arms, all if None, has pushed since write number `writes_before`.
+
+    Of several pushes the one that is known worst counts.
+    """
+    pushes: dict[str, list[tuple[SetProperty, DecidingWrite]]] = {}
+    for write in world.ledger.writes:
+        for change in write.changes if write.decides.number > writes_before else ():
+            if isinstance(change, SetProperty) and change.property == PUSH_FORCE:
+                pushes.setdefault(change.individual, []).append((change, write.decides))
+    words = world.snapshot().vocabulary
+    worst = {
+        arm: next((change, known) for change, known in made if known == weakest(each for _, each in made))
+        for arm, made in sorted(pushes.items())
+        if arms is None or arm in arms
+    }
+    return tuple(
+        _know(label_property(arm, PUSH_FORCE, change.value, words), known, with_physics)
+        for arm, (change, known) in worst.items()
+    )
+
+
+def _make_known_fact(ground: Ground, state: WorldState, with_physics: bool) -> KnownFact:
+    return _know(label_fact(ground.fact, state), ground.write, with_physics)
+
+
+def _know(fact: LabelledFact, established: DecidingWrite | None, with_physics: bool) -> KnownFact:
     if established is None or established.evidence is None:
         return KnownFact(fact=fact, known="given")
-    return KnownFact(fact=fact, known=established.evidence, by=established.origin)
+    by, _, why = established.origin.partition(": ")
+    return KnownFact(fact=fact, known=established.evidence, by=by, why=why, with_physics=with_physics)

@@ -23,6 +23,7 @@ from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.run_status import RunStatus
+from skillc_runtime.execution.success_facts import collect_forces
 from skillc_runtime.execution.task_state import Ending, RefusedCommand, refusal
 from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoint
@@ -62,6 +63,7 @@ class TaskRun(RunStatus):
         self._submitted_at = self._state_since = context.backend.clock.now
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
+        self._writes_before = context.backend.cell.world.ledger.count
         self._emit(make_start_event(assignment, context.library, context.origin, self._now, settings, context.gate))
 
     @property
@@ -245,12 +247,15 @@ class TaskRun(RunStatus):
 
     def _finish(self, state: EndState, failure: Failure | None) -> None:
         world = self._context.backend.cell.world
+        judge = backend if isinstance(backend := self._context.backend, Judge) else None
+        arms, with_physics = self._claims.devices_of(self.id), judge is not None and judge.has_physics
         self._claims.remove(self.id)
         self.state = self.end = state
         self.reason, self.failure = describe_failure(failure) if failure else "", failure
-        self.facts = collect_facts(self.attempts[-1], world) if state == "succeeded" else ()
-        backend = self._context.backend
-        self.false_claims = backend.find_false_claims() if isinstance(backend, Judge) else ()
+        if state == "succeeded":
+            pushed = collect_forces(world, self._writes_before, arms, with_physics)
+            self.facts = (*collect_facts(self.attempts[-1], world, with_physics), *pushed)
+        self.false_claims = () if judge is None else judge.find_false_claims()
         self._emit(
             TaskEnded(
                 time=self._now,

@@ -14,6 +14,7 @@ from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.known_limits import find_excess
 from skillc_runtime.primitives.primitive import NOTHING, Activity, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.push_force import write_push_force
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.primitives.time_limits import approach_limit_s
 from skillc_runtime.world.state.labelled import Quantity
@@ -93,10 +94,10 @@ class Push(Primitive):
         self, cell: Cell, *, arm: str, along: Array, force: float, travel: float, approach: float = APPROACH_M_S
     ) -> None:
         super().__init__(cell)
-        self.arm = cell.arm(arm)
+        self.arm, self._arm = cell.arm(arm), arm
         self._push = GuardedPush(along, force, approach, Travel(travel))
         self._progress: PushProgress | None = None
-        self._taken_off, self._ends = False, 0.0
+        self._taken_off, self._has_pressed, self._ends = False, False, 0.0
 
     def start(self) -> None:
         """Begin the approach."""
@@ -121,15 +122,19 @@ class Push(Primitive):
         """Return SUCCESS once the tool presses with the force; SkillFailure if it does not touch anything in time."""
         raise_fault(self.arm)
         if self._presses():
+            self._has_pressed = True
             return Status.SUCCESS
         if self.cell.now > self._ends:
             raise SkillFailure("the tool neither touches anything nor gets anywhere: it does not come to rest")
         return Status.RUNNING
 
     def release(self) -> None:
-        """Stop pushing."""
-        if self._progress is not None:
-            self.arm.compliance.end_push(self._progress)
+        """Stop pushing, and write with which force the arm pushed: sensed if that was measured."""
+        if self._progress is None:
+            return
+        self.arm.compliance.end_push(self._progress)
+        if self._has_pressed and self._push.force_n > 0.0:
+            write_push_force(self.cell.world, self._arm, self._push.force_n, self._progress.force)
 
     def pause(self) -> None:
         """Stop approaching; a tool in contact goes on pressing."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
+from skillc_runtime.primitives.pressing import force_evidence, pressing_force_n
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.surfaces import least_contact_share, least_force_n
 from skillc_runtime.world.state.changes import SetProperty
@@ -39,7 +40,7 @@ class KeepContact(Primitive):
     def tick(self) -> Status:
         """Measure once; SkillFailure if contact was lost for too long."""
         now = self.cell.now
-        pressed = -float(self.arm.measured.wrench[:3] @ self.arm.measured.pose.rotation[:, 2]) >= self._least_n
+        pressed = pressing_force_n(self.arm.measured) >= self._least_n
         self._samples, self._contacts = self._samples + 1, self._contacts + pressed
         if not pressed:
             self._lost.append((now, now - self._before))
@@ -58,9 +59,8 @@ class KeepContact(Primitive):
             self._note()
 
     def _note(self) -> None:
-        self.cell.world.commit(
-            [SetProperty(self._surface, CONTACT_SHARE, self._contacts / self._samples)], "KeepContact", "sensed"
-        )
+        share = SetProperty(self._surface, CONTACT_SHARE, self._contacts / self._samples)
+        self.cell.world.commit([share], "KeepContact", force_evidence(self.arm.measured))
 
     def _failure(self) -> SkillFailure:
         return SkillFailure(

@@ -9,7 +9,10 @@ from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
 
 
 class Inspect(Primitive):
-    """Measures the share of a surface that is wiped; it is clean if that reaches the surface's threshold."""
+    """Measures the share of a surface that is wiped; it is clean if that reaches the surface's threshold.
+
+    That is idealised: the camera reads the map of the simulator, with errors that are drawn, and sees no picture.
+    """
 
     moves = NOTHING
 
@@ -30,7 +33,7 @@ class Inspect(Primitive):
         self.cell.world.commit(
             [SetProperty(self._surface, COVERAGE, seen), SetProperty(self._surface, IS_CLEAN, clean)],
             "Inspect",
-            "sensed",
+            "idealised",
         )
         return Status.SUCCESS
 

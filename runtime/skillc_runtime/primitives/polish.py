@@ -10,7 +10,10 @@ from skillc_runtime.world.state.terms import IS_POLISHED, POLISH_THRESHOLD, POLI
 
 
 class InspectPolish(Primitive):
-    """Measures the share of a surface that was rubbed long enough; it is polished if that reaches its threshold."""
+    """Measures the share of a surface that was rubbed long enough; it is polished if that reaches its threshold.
+
+    That is idealised: the camera reads the map of the simulator, with errors that are drawn, and sees no picture.
+    """
 
     moves = NOTHING
 
@@ -30,5 +33,5 @@ class InspectPolish(Primitive):
         """Measure, write the results, and return SUCCESS."""
         seen = self.cell.camera().rubbed_share(self._surface, self._time)
         polished = SetProperty(self._surface, IS_POLISHED, seen >= self._threshold)
-        self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", "sensed")
+        self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", "idealised")
         return Status.SUCCESS

@@ -25,25 +25,37 @@ FALSE_SUCCESS = "false success"
 
 
 class KnownFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """A fact and its evidence: `given` before the run, or established by the skill or device `by`."""
+    """A fact and its evidence: `given` before the run, or established by the skill or device `by`.
+
+    `why` it is known no better, if `by` has said so. `with_physics`: what is idealised comes from a simulation with
+    physics, in which it counts as verified.
+    """
 
     fact: LabelledFact
     known: Literal["sensed", "reported", "idealised", "assumed", "given"]
     by: str = ""
+    why: str = ""
+    with_physics: bool = False
+
+    @property
+    def is_verified(self) -> bool:
+        """Whether more than an assumption confirms it."""
+        return self.known != "assumed" and (self.known != "idealised" or self.with_physics)
 
 
 def unverified_facts(facts: tuple[KnownFact, ...]) -> tuple[KnownFact, ...]:
-    """Return the facts that nothing real has confirmed: they are only assumed, or were sensed in an idealised cell."""
-    return tuple(fact for fact in facts if fact.known in ("assumed", "idealised"))
+    """Return the facts that nothing has confirmed: they are only assumed, or were measured without physics."""
+    return tuple(fact for fact in facts if not fact.is_verified)
 
 
 def format_evidence(fact: KnownFact) -> str:
     """Return the evidence for a fact as text, for example `assumed by Place`."""
-    return f"{fact.known} by {fact.by}" if fact.by else fact.known
+    known = f"{fact.known} by {fact.by}" if fact.by else fact.known
+    return f"{known}, verified in simulation only" if fact.known == "idealised" and fact.with_physics else known
 
 
 def format_status(status: str, verified: bool | None, false_claims: Sequence[str] = ()) -> str:
-    """Return the status of a task as text; a success that is not verified, or that is contradicted, is not called one."""
+    """Return the status of a task as text; a success that is not verified, or is contradicted, is not called one."""
     if status == "succeeded" and false_claims:
         return FALSE_SUCCESS
     return UNVERIFIED if verified is False else status
@@ -60,7 +72,9 @@ def format_unverified(known: KnownFact) -> str:
 
 
 def describe_missing_sensing(known: KnownFact) -> str:
-    """Describe what would have to be sensed to confirm a fact that is only assumed or idealised."""
+    """Describe what would have to be sensed to confirm a fact that is only assumed or idealised, or why it was not."""
+    if known.why:
+        return known.why
     if known.known == "idealised":
         return f"{known.by or 'a device'} measured it without physics; a cell with physics would have to confirm it"
     after = f" after {known.by}" if known.by else ""

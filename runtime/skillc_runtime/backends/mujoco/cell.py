@@ -27,6 +27,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
     """
 
     cargo_type = InertialCargo
+    has_physics = True
 
     def __init__(
         self,

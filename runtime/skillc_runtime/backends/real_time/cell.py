@@ -143,6 +143,11 @@ class RealTimeCell:
         """Return a button; KeyError if the cell has no such button."""
         return locked(self._simulated.button(individual), self._turn)
 
+    @property
+    def has_physics(self) -> bool:
+        """Whether contact and weight are computed."""
+        return self._simulated.has_physics
+
     def find_false_claims(self) -> tuple[str, ...]:
         """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
         with self._turn:

@@ -62,6 +62,7 @@ class ModelledCell(ABC, Generic[A, G]):
     """
 
     cargo_type: type[Cargo] = Cargo
+    has_physics: bool = False
 
     def __init__(
         self, world: WorldModel, scene: SceneSpec, variation: Variation, timestep_s: float, steps_per_command: int,

@@ -140,7 +140,7 @@ def _describe_place(real: Mapping[str, TrueBody], truth: GroundTruth, state: Wor
 
 
 def _grippers(state: WorldState, truth: GroundTruth) -> list[str]:
-    """Return the grippers that arms have: others are not simulated, nor are those that came after the cell was built."""
+    """Return the grippers that arms have: others are not simulated, nor those that came after the cell was built."""
     return sorted(each for each in {gripper for _, gripper in state.pairs(HAS_GRIPPER)} if _is_simulated(each, truth))
 
 

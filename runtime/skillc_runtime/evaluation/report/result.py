@@ -114,9 +114,9 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
     claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
-    in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
-    was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved, `works` one for each
-    other piece of work, `touches` one for each contact of a link, a hand or a base.
+    in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one
+    entry for each surface that was wiped, `wiping` is the first of them; `placements` has one for each thing that was
+    moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base.
     """
 
     task: str

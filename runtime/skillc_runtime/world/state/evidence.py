@@ -30,7 +30,8 @@ from skillc_runtime.world.state.world_state import WorldState
 Evidence: TypeAlias = Literal["sensed", "reported", "idealised", "assumed"]
 """`sensed`: measured; `reported`: a device reports it about itself; `assumed`: neither.
 
-`idealised`: measured or reported in a cell that idealises what was measured, such as contact in a cell without physics.
+`idealised`: measured or reported by a device, or in a cell, that idealises what was measured: a camera that reads the
+simulator's map of a surface, contact in a cell without physics.
 """
 
 EvidenceRule: TypeAlias = Callable[[Sequence[Change], Evidence], Evidence]

@@ -75,8 +75,8 @@ class WorldModel:
     def commit(self, changes: Iterable[Change], origin: str = "", evidence: Evidence | None = "assumed") -> ChangeEvent:
         """Apply all changes, or none if the world would violate an axiom: WorldError names it.
 
-        `evidence` may be `sensed` or `reported` only if a device was read for these changes now; it is None for what a
-        person states.
+        `evidence` may be `sensed`, `reported` or `idealised` only if a device was read for these changes now; it is
+        None for what a person states.
         If others wrote to the store in the meantime, the changes are applied to the version that they left. StoreError
         when the store cannot save the changes; the world then stays as it was.
         """
