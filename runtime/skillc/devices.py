@@ -5,7 +5,7 @@ from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.devices.disturbances import LoseArm, Move, PressEmergencyStop, Push
+from skillc_runtime.devices.disturbances import LoseArm, Move, PressEmergencyStop, Push, Take
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.simulation import Simulation
 
@@ -21,4 +21,5 @@ __all__ = [
     "PressEmergencyStop",
     "Push",
     "Simulation",
+    "Take",
 ]

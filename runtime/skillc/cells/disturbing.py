@@ -6,7 +6,7 @@ from typing import assert_never
 
 from msgspec.structs import replace
 
-from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push
+from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push, Take
 from skillc_runtime.world.state.names import resolve_individual
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -16,7 +16,7 @@ def resolve_names(disturbance: Disturbance, state: WorldState) -> Disturbance:
     match disturbance:
         case Push() | LoseArm():
             return replace(disturbance, arm=resolve_individual(disturbance.arm, state))
-        case Move():
+        case Move() | Take():
             return replace(disturbance, thing=resolve_individual(disturbance.thing, state))
         case PressEmergencyStop():
             return disturbance

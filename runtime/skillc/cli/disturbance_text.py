@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import assert_never
 
 from skillc_rdf.vocabulary.types import local_name
-from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push
+from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push, Take
 
 
 def describe_disturbance(disturbance: Disturbance) -> str:
@@ -15,6 +15,8 @@ def describe_disturbance(disturbance: Disturbance) -> str:
             return f"somebody pushes {local_name(arm)} with ({_list(force)}) N for {seconds:g} s"
         case Move(thing=thing, by_m=by, turn_rad=turn):
             return f"somebody moves {local_name(thing)} by ({_list(by)}) m and turns it by {turn:g} rad"
+        case Take(thing=thing, by_m=by):
+            return f"somebody takes {local_name(thing)} out of the hand and puts it ({_list(by)}) m beside"
         case PressEmergencyStop(pressed=pressed):
             return f"somebody {'presses' if pressed else 'releases'} the emergency stop"
         case LoseArm(arm=arm, lost=lost):

@@ -22,11 +22,13 @@ class MeasuredArm:
     `base` returns the pose of the arm's base in the world; `contact_wrench` the wrench (6,) of the environment on the
     tool, N and N m, base axes. `state` is the measurement itself, in base; it is set once a control period.
     `felt_wrench` returns what is measured of that wrench, and never what is commanded; None where nothing measures it.
+    `feels_force` is whether a sensor measures `wrench`.
     """
 
     def __init__(self, base: Callable[[], Pose], contact_wrench: Callable[[], Array], state: ArmState) -> None:
         self.base, self.state = base, state
         self._contact_wrench = contact_wrench
+        self.feels_force = False
         self.felt_wrench: Callable[[], Array | None] = lambda: None
 
     @property

@@ -26,7 +26,7 @@ DAMPING = 1e-3
 """lam^2: near a singularity it reduces the estimate along the lost direction instead of amplifying noise."""
 
 MEASURING = 1e-5
-"""lam^2 for forces that are measured and averaged: what noise does to them matters less than what damping takes away."""
+"""lam^2 for forces that are averaged: what noise does to them matters less than what damping takes away."""
 
 
 class MomentumObserver:

@@ -55,6 +55,11 @@ class ArmMeasurements(Protocol):
         ...
 
     @property
+    def feels_force(self) -> bool:
+        """Whether a sensor measures `wrench`."""
+        ...
+
+    @property
     def felt(self) -> Array | None:
         """The same as it is measured, by a sensor or by the torques of the joints; None where nothing measures it."""
         ...

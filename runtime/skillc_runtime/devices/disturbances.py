@@ -36,6 +36,13 @@ class Move(_Disturbance, tag="move", frozen=True):
     turn_rad: Annotated[float, msgspec.Meta(ge=-MAX_TURN_RAD, le=MAX_TURN_RAD)] = 0.0
 
 
+class Take(_Disturbance, tag="take", frozen=True):
+    """Somebody takes a thing out of the hand that holds it, moves it by (x, y, z) in m in the world, and lets it go."""
+
+    thing: Name
+    by_m: tuple[Metre, Metre, Metre] = (0.0, 0.3, 0.0)
+
+
 class PressEmergencyStop(_Disturbance, tag="emergency-stop", frozen=True):
     """Somebody presses an emergency stop, or releases it."""
 
@@ -49,7 +56,7 @@ class LoseArm(_Disturbance, tag="lost-arm", frozen=True):
     lost: bool = True
 
 
-Disturbance: TypeAlias = Push | Move | PressEmergencyStop | LoseArm
+Disturbance: TypeAlias = Push | Move | Take | PressEmergencyStop | LoseArm
 
 
 class Disturber(Protocol):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from skillc_runtime.primitives.arm_motion import raise_fault
-from skillc_runtime.primitives.pressing import force_evidence, pressing_force_n
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import Quantity, label
@@ -41,7 +40,9 @@ class AwaitSwitch(Primitive):
         raise_fault(self.arm)
         if self._switched_at is None and self._switch.switched:
             self._switched_at, self._forces = self.cell.now, []
-        self._forces.append(pressing_force_n(self.arm.measured))
+        measured, felt = self.arm.measured, self.arm.measured.felt
+        wrench = measured.wrench if felt is None else felt
+        self._forces.append(-float(wrench[:3] @ measured.pose.rotation[:, 2]))
         if self._switched_at is not None and self.cell.now - self._switched_at >= PRESS_HOLD_S:
             self._note()
             return Status.SUCCESS
@@ -62,4 +63,4 @@ class AwaitSwitch(Primitive):
         world = self.cell.world
         world.commit([SetProperty(self._button, IS_ON, True)], "AwaitSwitch", "reported")
         force = SetProperty(self._button, PRESSED_WITH, self._force)
-        world.commit([force], "AwaitSwitch", force_evidence(self.arm.measured))
+        world.commit([force], "AwaitSwitch", "assumed" if self.arm.measured.felt is None else "sensed")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
-from skillc_runtime.primitives.pressing import force_evidence, pressing_force_n
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.surfaces import least_contact_share, least_force_n
 from skillc_runtime.world.state.changes import SetProperty
@@ -18,6 +17,8 @@ if TYPE_CHECKING:
 
 class KeepContact(Primitive):
     """Checks in every tick whether the tool presses on a surface; writes the share of the time in which it did.
+
+    An arm without a sensor at its wrist knows only what it is to exert: the share is assumed then.
 
     SkillFailure if contact was lost, within the last `over` s, for longer than the surface allows.
     """
@@ -40,7 +41,7 @@ class KeepContact(Primitive):
     def tick(self) -> Status:
         """Measure once; SkillFailure if contact was lost for too long."""
         now = self.cell.now
-        pressed = pressing_force_n(self.arm.measured) >= self._least_n
+        pressed = -float(self.arm.measured.wrench[:3] @ self.arm.measured.pose.rotation[:, 2]) >= self._least_n
         self._samples, self._contacts = self._samples + 1, self._contacts + pressed
         if not pressed:
             self._lost.append((now, now - self._before))
@@ -60,7 +61,7 @@ class KeepContact(Primitive):
 
     def _note(self) -> None:
         share = SetProperty(self._surface, CONTACT_SHARE, self._contacts / self._samples)
-        self.cell.world.commit([share], "KeepContact", force_evidence(self.arm.measured))
+        self.cell.world.commit([share], "KeepContact", "sensed" if self.arm.measured.feels_force else "assumed")
 
     def _failure(self) -> SkillFailure:
         return SkillFailure(

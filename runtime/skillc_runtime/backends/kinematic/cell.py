@@ -140,3 +140,4 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         for arm, gripper in self._hands.items():
             if gripper.carries in self._observers:
                 self._observers[gripper.carries].sample(now, self._drivers[arm])
+        self._notice_losses()

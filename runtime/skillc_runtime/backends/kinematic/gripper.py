@@ -94,8 +94,8 @@ class KinematicGripper(ModelledGripper):
         self._goal = opening_m
 
     def _is_at_force_limit(self) -> bool:
-        """Return whether the fingers were stopped by what they touch."""
-        return any(map(self.touches, self._things))
+        """Return whether the fingers were stopped by what they touch, or by what they hold."""
+        return bool(self._carried) or any(map(self.touches, self._things))
 
     def _set_fingers(self, opening_m: float) -> None:
         super()._set_fingers(opening_m)

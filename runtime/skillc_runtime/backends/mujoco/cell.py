@@ -14,8 +14,6 @@ from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
-from skillc_runtime.motion.working_face import working_face
-from skillc_runtime.world.space.frames import relocation_changes, size
 from skillc_runtime.world.state.model import WorldModel
 
 
@@ -89,13 +87,4 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
                     self._observers[gripper.carries].sample(now, self._drivers[arm])
                 if gripper.slips(now):
                     gripper.lose()
-            elif (why := gripper.loss_message()) is not None:
-                self._lose(arm, gripper, gripper.counted, why)
-
-    def _lose(self, arm: str, gripper: SimulatedGripper, thing: str, why: str) -> None:
-        """Stop an arm whose gripper measures that an object is lost, and report the pose where that was noticed."""
-        state, there = self._world.snapshot(), self._drivers[arm].measured.pose
-        left_at = there @ working_face(size(state, thing)).inverse()
-        gripper.detach()
-        self._drivers[arm].abort(why)
-        self._report(relocation_changes(state, thing, left_at), why, "assumed")
+        self._notice_losses()

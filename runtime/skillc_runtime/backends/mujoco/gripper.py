@@ -104,20 +104,6 @@ class SimulatedGripper(ModelledGripper):
         """
         return self._grip is not None and self._grip.is_overloaded(self._data, now)
 
-    def lose(self) -> None:
-        """Remove the weld of the carried object; contact and friction hold it as they can, and the fingers close on."""
-        self.drop()
-        self.move(0.0, self._limit_n)
-
-    def loss_message(self) -> str | None:
-        """Return a message if the fingers have closed further than on what counts as held, else None."""
-        if self._carried or not self._holding or self.holding is not None:
-            return None
-        return (
-            f"{self._name} has lost {self._names[self._holding]}: its fingers have closed from "
-            f"{self._held_at_m * 1e3:.0f} mm to {self.opening_m * 1e3:.0f} mm"
-        )
-
     def _limit(self, force_n: float) -> None:
         """Limit the force of the fingers."""
         self._limit_n, self._model.actuator_forcerange[self._actuator] = force_n, (-force_n, force_n)
@@ -153,5 +139,6 @@ class SimulatedGripper(ModelledGripper):
         self._goal = self._target = self._data.ctrl[self._actuator] = opening_m
 
     def _is_at_force_limit(self) -> bool:
-        """Return whether the servo pushes with its greatest force."""
-        return bool(abs(self._data.actuator_force[self._actuator]) > 0.95 * self._limit_n)
+        """Return whether the servo pushes with its greatest force, or pushed so when it grasped what the weld holds."""
+        force_n = abs(float(self._data.actuator_force[self._actuator])) if self._grip is None else self._grip.force_n
+        return force_n > 0.95 * self._limit_n

@@ -45,6 +45,8 @@ from skillc_runtime.devices.device_map import DeviceMap
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.working_face import working_face
+from skillc_runtime.world.space.frames import relocation_changes, size
 from skillc_runtime.world.state.changes import Change, SetProperty
 from skillc_runtime.world.state.evidence import Evidence
 from skillc_runtime.world.state.model import WorldModel
@@ -316,6 +318,16 @@ class ModelledCell(ABC, Generic[A, G]):
     def _held_things(self) -> list[tuple[str, str]]:
         """Return each gripper that holds something, with that."""
         return [(name, hand.holding) for name, hand in self._grippers.items() if hand.holding is not None]
+
+    def _notice_losses(self) -> None:
+        """Stop each arm whose fingers measure that what they held is lost, and report the pose where it was noticed."""
+        for individual, gripper in self._hands.items():
+            if (why := gripper.loss_message()) is not None:
+                state, thing, arm = self._world.snapshot(), gripper.counted, self._drivers[individual]
+                left_at = arm.measured.pose @ working_face(size(state, thing)).inverse()
+                gripper.detach()
+                arm.abort(why)
+                self._report(relocation_changes(state, thing, left_at), why, "assumed")
 
     def _move_bases(self) -> None:
         """Move bases with their cargo by one step."""

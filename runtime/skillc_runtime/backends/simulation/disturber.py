@@ -1,4 +1,4 @@
-"""Lets things happen to a simulated cell: somebody pushes a hand, moves a thing, presses the emergency stop."""
+"""Lets things happen to a simulated cell: somebody pushes a hand, moves or takes a thing, presses a stop."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from skillc_runtime.devices.disturbances import (
     Move,
     PressEmergencyStop,
     Push,
+    Take,
 )
-from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation
+from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 
 if TYPE_CHECKING:
     from skillc_runtime.backends.simulation.cell import ModelledCell
@@ -37,6 +38,8 @@ class SimulatedDisturber:
                 self._pushes[arm] = disturbance, self._cell.now + disturbance.duration_s
             case Move():
                 self._move(disturbance)
+            case Take():
+                self._take(disturbance)
             case PressEmergencyStop(pressed=pressed):
                 self._stops.press(pressed)
             case LoseArm(arm=arm, lost=lost):
@@ -70,18 +73,34 @@ class SimulatedDisturber:
 
     def _move(self, wanted: Move) -> None:
         """Put a thing elsewhere, at rest; nothing else is moved out of its way."""
+        if self._hand_with(wanted.thing) is not None:
+            name = self._cell.scene.names[wanted.thing]
+            raise DisturbanceRefused(f"{name} is in a gripper; it can be taken out of the hand")
+        self._shift(wanted.thing, np.array(wanted.by_m), wanted.turn_rad)
+
+    def _take(self, wanted: Take) -> None:
+        """Let a hand lose what it holds, and put that elsewhere; fingers that press on nothing close."""
+        hand = self._hand_with(wanted.thing)
+        if hand is None:
+            raise DisturbanceRefused(f"{self._cell.scene.names.get(wanted.thing, wanted.thing)} is in no gripper")
+        self._cell.gripper(hand).lose()
+        self._shift(wanted.thing, np.array(wanted.by_m), 0.0)
+
+    def _hand_with(self, thing: str) -> str | None:
+        """Return the gripper that really holds a thing; None for none."""
+        hands = [arm.gripper.individual for arm in self._cell.scene.arms if arm.gripper is not None]
+        return next((each for each in hands if self._cell.ground_truth.carried_by(each) == thing), None)
+
+    def _shift(self, thing: str, by_m: Array, turn_rad: float) -> None:
+        """Move a thing, at rest then, and turn it about the vertical."""
         cell = self._cell
-        if all(each.individual != wanted.thing for each in cell.scene.graspable):
-            raise DisturbanceRefused(f"{wanted.thing} is nothing that can be moved")
-        name = cell.scene.names[wanted.thing]
-        hands = [arm.gripper.individual for arm in cell.scene.arms if arm.gripper is not None]
-        if any(cell.ground_truth.carried_by(hand) == wanted.thing for hand in hands):
-            raise DisturbanceRefused(f"{name} is in a gripper")
-        joint = cell.model.joint(part_name(name, "free"))
+        if all(each.individual != thing for each in cell.scene.graspable):
+            raise DisturbanceRefused(f"{thing} is nothing that can be moved")
+        joint = cell.model.joint(part_name(cell.scene.names[thing], "free"))
         first, velocity = int(joint.qposadr[0]), int(joint.dofadr[0])
         q = cell.data.qpos[first : first + 7]
         before = Pose.of(q[:3], q[3:])
-        turned = exp(np.array([0.0, 0.0, wanted.turn_rad])) @ before.rotation
-        q[:3], q[3:] = before.position + wanted.by_m, quaternion_from_rotation(turned)
+        turned = exp(np.array([0.0, 0.0, turn_rad])) @ before.rotation
+        q[:3], q[3:] = before.position + by_m, quaternion_from_rotation(turned)
         cell.data.qvel[velocity : velocity + 6] = 0.0
         cell.refresh()

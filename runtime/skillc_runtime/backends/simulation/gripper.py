@@ -86,8 +86,7 @@ class ModelledGripper(ABC):
     @property
     def blocked(self) -> bool:
         """Whether something keeps the fingers from closing: at rest, they press with the force that they were given."""
-        pressing = bool(self._carried) or self._is_at_force_limit()
-        return self._idle and pressing and self.opening_m > self.opening_error_m
+        return self._idle and self._is_at_force_limit() and self.opening_m > self.opening_error_m
 
     @property
     def moving(self) -> bool:
@@ -181,6 +180,20 @@ class ModelledGripper(ABC):
             self._holding = ""
             self._arm.carry_nothing()
 
+    def lose(self) -> None:
+        """Let what the palm carries go, as `drop`; the fingers close on with their force, which tells of the loss."""
+        self.drop()
+        self.move(0.0, self._limit_n)
+
+    def loss_message(self) -> str | None:
+        """Return a message if the fingers have closed further than on what counts as held, else None."""
+        if not self._holding or not self._has_closed_further():
+            return None
+        return (
+            f"{self._name} has lost {self._names[self._holding]}: its fingers have closed from "
+            f"{self._held_at_m * 1e3:.0f} mm to {self.opening_m * 1e3:.0f} mm"
+        )
+
     def drop(self) -> None:
         """Let what the palm carries go, which nobody may know of: it counts as held until the fingers measure it."""
         if self._carried:
@@ -235,7 +248,7 @@ class ModelledGripper(ABC):
 
     @abstractmethod
     def _is_at_force_limit(self) -> bool:
-        """Return whether the fingers press with the force that they were given."""
+        """Return whether the fingers press with the force that they were given, on whatever is between them."""
 
     @abstractmethod
     def _hold(self, thing: str, in_palm: Pose, grip: SavedGrip | None) -> None:
