@@ -18,9 +18,9 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.evaluation.report.verdict import judge_claims
 from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation
 from skillc_runtime.world.space.frames import placement_changes
-from skillc_runtime.world.state.changes import AddRelation
+from skillc_runtime.world.state.changes import AddRelation, SetProperty
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import CONTAIN
+from skillc_runtime.world.state.terms import CONTAIN, LOCATED
 from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
@@ -110,6 +110,13 @@ def test_a_part_that_is_a_little_elsewhere_is_not_false() -> None:
     cell = cell_claiming()
     put(cell, Pose.of((0.47, -0.33, 0.63)))
     assert false_claims(cell) == ()
+
+
+def test_a_part_that_is_known_to_be_elsewhere_is_not_claimed_where_it_was() -> None:
+    cell = cell_claiming()
+    put(cell, Pose.of((0.45, -0.25, 0.63)))
+    cell.world.commit([SetProperty(PART, LOCATED, False)])
+    assert cell.find_false_claims() == ()
 
 
 def test_a_part_that_falls_after_the_run_is_judged_where_it_comes_to_rest() -> None:

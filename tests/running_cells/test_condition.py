@@ -24,10 +24,11 @@ from skillc_ontology import catalogue
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.safety import SafetyLimits
 from skillc_runtime.devices.backend import StopPersists
-from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push
+from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push, Take
+from skillc_runtime.world.state.terms import CONTAIN
 
 DOCS = Path(__file__).parents[2] / "docs"
-ARM = "lab:Arm-1"
+LAB, ARM = "http://example.org/lab#", "lab:Arm-1"
 TASK = ONE_PART
 PRESS, RELEASE = PressEmergencyStop(), PressEmergencyStop(False)
 
@@ -159,6 +160,7 @@ def test_an_emergency_stop_hides_a_protective_one_and_not_the_other_way_round(tm
         (Push("lab:Box-A", (1.0, 0.0, 0.0)), "is no arm with a hand"),
         (LoseArm("lab:Box-A"), "is no arm"),
         (Move("lab:Box-A", (0.1, 0.0, 0.0)), "is nothing that can be moved"),
+        (Take("lab:Part-A"), "is in no gripper"),
         (Move("lab:Part-Z", (0.1, 0.0, 0.0)), "did you mean"),
     ],
 )
@@ -188,6 +190,26 @@ def test_a_thing_that_somebody_moved_is_there_when_the_cell_is_started_again(tmp
         assert np.allclose(after - before, (0.03, -0.01, 0.0), atol=1e-6)
     with open_cell(settings, SilentReporter()) as host:
         assert np.allclose(reality(host).ground_truth.body_pose(part).position, after, atol=1e-6)
+
+
+@pytest.mark.parametrize("backend", ["kinematic", pytest.param("mujoco", marks=pytest.mark.sim)])
+def test_what_is_taken_out_of_a_hand_is_missed_by_its_fingers_and_withdrawn(backend: str, tmp_path: Path) -> None:
+    settings, part, hand = make_settings(tmp_path, SORTING, backend), LAB + "Part-A", LAB + "Hand-1"  # type: ignore[arg-type]
+    with open_cell(settings, SilentReporter()) as host:
+        host.submit("first", TASK)
+        while reality(host).ground_truth.carried_by(hand) != part:
+            run_until(host, host.loop.ticks + 1)
+        run_until(host, host.loop.ticks + 20)
+        with pytest.raises(RequestError, match="it can be taken out of the hand"):
+            host.disturb(Move("lab:Part-A", (0.3, 0.0, 0.0)), "bo")
+        host.disturb(Take("lab:Part-A", (0.0, -0.3, 0.0)), "bo")
+        assert host.world.snapshot().holds(hand, CONTAIN, part), "nobody has felt it yet"
+        (ended,) = run_all(host)
+        assert ended.state == "failed" and ended.failure is not None
+        assert "lost lab:Part-A: its fingers have closed from" in ended.failure.message
+        assert not host.world.snapshot().holds(hand, CONTAIN, part)
+    checked = check_run(Path(settings.folder) / "recordings" / "first.mcap", None, SilentReporter())
+    assert checked.ok, checked
 
 
 @pytest.mark.parametrize("backend", ["kinematic", pytest.param("mujoco", marks=pytest.mark.sim)])

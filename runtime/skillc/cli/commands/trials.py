@@ -48,7 +48,8 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
     type=click.Choice(get_args(Disturbance)),
     default="none",
     show_default=True,
-    help="Disturb each trial: the object is missing, an obstacle is in the way, or a person pushes the arm.",
+    help="Disturb each trial: the object is missing, an obstacle is in the way, or a person pushes the arm, or takes "
+    "what a hand holds out of it.",
 )
 @click.option(
     "--out", type=FOLDER, help="Record the trials in this folder; trials that are recorded there are not run again."

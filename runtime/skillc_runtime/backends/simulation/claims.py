@@ -15,7 +15,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.space.shapes import Bin, Sphere
-from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, HAS_GRIPPER
+from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, HAS_GRIPPER, LOCATED
 from skillc_runtime.world.state.world_state import WorldState
 
 POSITION_TOLERANCE_M = 0.05
@@ -101,6 +101,8 @@ def _is_contained(real: Mapping[str, TrueBody], state: WorldState, thing: str, h
 
 
 def _false_pose(real: Mapping[str, TrueBody], truth: GroundTruth, state: WorldState, thing: str) -> Iterator[str]:
+    if state.value(thing, LOCATED) is False:
+        return  # its pose is only where it was last, and nothing is claimed
     try:
         believed = pose(state, thing)
     except FrameError:

@@ -1,16 +1,18 @@
-"""Disturbs trials: a person pushes an arm."""
+"""Disturbs trials: a person pushes an arm, or takes what a hand holds out of it."""
 
 from __future__ import annotations
 
+from math import cos, pi, sin
 from typing import Protocol
 
 from skillc_runtime.devices.cell import Cell
+from skillc_runtime.devices.disturbances import Take
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import Event, ImplementationChosen
-from skillc_runtime.world.state.terms import ARM_DEVICE
+from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER
 
 PUSH_N, PUSH_S = 30.0, 0.5
 """The force and the duration of a person's push."""
@@ -20,6 +22,13 @@ PUSH_AFTER_S = (1.0, 8.0)
 
 PUSHED_ACTIVITIES: tuple[Activity, ...] = ("follow-path", "search")
 """The activities during which a person pushes."""
+
+
+TAKE_AFTER_S = (0.2, 1.5)
+"""The range of the time for which a hand has held something when a person takes it, in s."""
+
+TAKE_M = 0.3
+"""How far to the side a person puts what they take."""
 
 
 class PushableCell(Simulation, Cell, Protocol):
@@ -60,3 +69,29 @@ class PushDisturbance:
         rng = rng_for(arm, self._simulation.ground_truth.seed, 3)
         direction = rng.standard_normal(3)
         return now + float(rng.uniform(*PUSH_AFTER_S)), PUSH_N * direction / float((direction @ direction) ** 0.5)
+
+
+class TakeDisturbance:
+    """Takes the first thing that a hand holds out of it, once, and puts it aside in a random direction.
+
+    Call `update` after every tick. `taken` if it has.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._hands = sorted({hand for _, hand in simulation.cell.world.snapshot().pairs(HAS_GRIPPER)})
+        self._rng = rng_for("", simulation.ground_truth.seed, 7)
+        self._after_s, self._held_since = float(self._rng.uniform(*TAKE_AFTER_S)), dict[str, float]()
+        self.taken = False
+
+    def update(self) -> None:
+        """Take what has been held for long enough."""
+        for hand in () if self.taken else self._hands:
+            thing, now = self._simulation.ground_truth.carried_by(hand), self._simulation.clock.now
+            if thing is None:
+                self._held_since.pop(hand, None)
+            elif now - self._held_since.setdefault(hand, now) >= self._after_s:
+                turn = float(self._rng.uniform(-pi, pi))
+                self._simulation.disturber.disturb(Take(thing, (TAKE_M * cos(turn), TAKE_M * sin(turn), 0.0)))
+                self.taken = True
+                return

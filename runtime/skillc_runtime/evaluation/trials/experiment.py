@@ -22,7 +22,7 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.verdict import judge_claims
 from skillc_runtime.evaluation.report.wiping import find_wipings
-from skillc_runtime.evaluation.trials.disturbance import PushableCell, PushDisturbance
+from skillc_runtime.evaluation.trials.disturbance import PushableCell, PushDisturbance, TakeDisturbance
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.trial_cell import make_trial_cell
 from skillc_runtime.execution.assignment import (
@@ -96,15 +96,17 @@ class TrialRunner:
             return self._run(self._prepared, cell, listeners).result
 
     def _run(self, prepared: PreparedTask, cell: PushableCell, listeners: Sequence[Listener] = ()) -> _Executed:
-        choices, push = ChoiceListener(), PushDisturbance(cell)
+        choices, push, take = ChoiceListener(), PushDisturbance(cell), TakeDisturbance(cell)
         disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
-        execution = execute_task(prepared, self._library, cell, (choices, *disturbances, *listeners), push.update)
+        update = take.update if self._disturbance == "take" else push.update
+        execution = execute_task(prepared, self._library, cell, (choices, *disturbances, *listeners), update)
         trees = tuple(attempt.tree for attempt in execution.attempts)
         state, truth = cell.world.snapshot(), cell.ground_truth
         wipings = find_wipings(trees, choices, state)
         result = summarise_run(execution, choices, self._library, wipings, cell)
         rated = tuple(zip(wipings, result.wipings, strict=True))
-        return _Executed(result, RunEvidence(self._library, state, truth, trees, choices, rated), push.pushed)
+        evidence = RunEvidence(self._library, state, truth, trees, choices, rated)
+        return _Executed(result, evidence, push.pushed, take.taken)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +116,7 @@ class _Executed:
     result: TaskResult
     evidence: RunEvidence
     pushed: bool
+    taken: bool
 
     def measure(self, cell: PushableCell) -> Trial:
         """Return the trial with what was measured, while the cell is as it was at its end."""
@@ -130,6 +133,7 @@ class _Executed:
             greatest_force_n=_greatest_force_n(state, truth),
             force_limit_n=_force_limit_n(state),
             pushed=self.pushed,
+            taken=self.taken,
             at_rest=cell.is_at_rest(),
             sim_time_s=result.sim_time_s,
             wall_time_s=result.wall_time_s,

@@ -12,8 +12,9 @@ from skillc_runtime.recording.states import EndState
 Status: TypeAlias = EndState | Literal["refused", "crashed"]
 """How a task ended; `refused` if it did not start, `crashed` if its process ended without a result."""
 
-Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push"]
-"""How a trial is disturbed: the work object is missing, an obstacle is in the way, or a person pushes the arm."""
+Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push", "take"]
+"""How a trial is disturbed: the work object is missing, an obstacle is in the way, a person pushes the arm, or takes
+what a hand holds out of it."""
 
 
 class Trial(msgspec.Struct, frozen=True, kw_only=True):
@@ -22,9 +23,9 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     `assumed` are the facts that a success rests on and that were not sensed; it is `verified` if there are none.
     `works` has an entry for each object that was worked on; `coverage` is the lowest of all surfaces, wiped or not,
     over the whole run. `greatest_force_n` is the greatest contact force on any tool, `force_limit_n` the lowest limit
-    of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `at_rest` whether at the end
-    nothing moved and no force was applied. `false_claims` are sentences about what the world model claims at the end of
-    things and where they are, and what really is so.
+    of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `taken` whether they took what a
+    hand held, `at_rest` whether at the end nothing moved and no force was applied. `false_claims` are sentences about
+    what the world model claims at the end of things and where they are, and what really is so.
     """
 
     seed: int
@@ -39,6 +40,7 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     greatest_force_n: float = 0.0
     force_limit_n: float | None = None
     pushed: bool = False
+    taken: bool = False
     at_rest: bool = False
     sim_time_s: float = 0.0
     wall_time_s: float = 0.0

@@ -21,7 +21,7 @@ def draw_disturbed_variation(disturbance: Disturbance, scene: SceneSpec, seed: i
     """Draw how reality differs from the world model, with the disturbance applied."""
     drawn = draw_variation(scene, seed)
     match disturbance:
-        case "none" | "push":
+        case "none" | "push" | "take":
             return drawn
         case "missing":
             return make_all_absent(drawn)

@@ -29,6 +29,13 @@ def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
             yield from _require_success(trial)
             if trial.coverage < 1.0:
                 yield f"coverage {100 * trial.coverage:.1f} %, wanted 100 % in the end"
+        case "take":
+            if not trial.taken:
+                yield "nothing was taken: nothing is held for long enough"
+            if trial.status == "failed" and not trial.reason:
+                yield "failed, wanted a reason"
+            if trial.status not in ("succeeded", "failed"):
+                yield _describe_end(trial)
         case "missing":
             if trial.status != "failed" or not trial.reason:
                 yield f"{trial.status}, wanted a failure that says why"
