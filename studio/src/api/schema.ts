@@ -77,6 +77,27 @@ export interface components {
             turn_rad?: number;
         };
         /**
+         * Take
+         * @description Somebody takes a thing out of the hand that holds it, moves it by (x, y, z) in m in the world, and lets it go.
+         */
+        Take: {
+            /** @enum {unknown} */
+            type: "take";
+            thing: string;
+            /**
+             * @default [
+             *       0,
+             *       0.3,
+             *       0
+             *     ]
+             */
+            by_m?: [
+                number,
+                number,
+                number
+            ];
+        };
+        /**
          * PressEmergencyStop
          * @description Somebody presses an emergency stop, or releases it.
          */
@@ -266,10 +287,12 @@ export interface components {
          * @description An operation as it is now: `reason` says why it is in its state, or for what it waits.
          *
          *         `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
-         *         whether a success rests on no fact that is only assumed; None if it did not succeed. `library_hash` identifies what
-         *         it runs. `devices` are the IRIs of those that it holds, null for the whole cell. `prompts` are what its skills ask
-         *         operators. `planning` is how far its planner is; null if none works. `breakpoints` are those at which it pauses now.
-         *         `decisions` are how it can be continued if it was interrupted, `continued_by` is the operation that does.
+         *         whether a success rests on no fact that is only assumed, and no claim is false; None if it did not succeed.
+         *         `false_claims` are sentences about what the world model claimed at its end that is not so in the simulator.
+         *         `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell.
+         *         `prompts` are what its skills ask operators. `planning` is how far its planner is; null if none works. `breakpoints`
+         *         are those at which it pauses now. `decisions` are how it can be continued if it was interrupted, `continued_by` is
+         *         the operation that does.
          */
         OperationStatus: {
             id: string;
@@ -284,6 +307,8 @@ export interface components {
             events?: number;
             /** @default null */
             verified?: boolean | null;
+            /** @default [] */
+            false_claims?: string[];
             /** @default null */
             failure?: components["schemas"]["Failure"] | null;
             /** @default  */
@@ -1187,7 +1212,7 @@ export interface components {
             /** @enum {unknown} */
             type: "disturbed";
             time: number;
-            disturbance: components["schemas"]["Push"] | components["schemas"]["Move"] | components["schemas"]["PressEmergencyStop"] | components["schemas"]["LoseArm"];
+            disturbance: components["schemas"]["Push"] | components["schemas"]["Move"] | components["schemas"]["Take"] | components["schemas"]["PressEmergencyStop"] | components["schemas"]["LoseArm"];
             tick: number;
             /** @default  */
             who?: string;
@@ -1528,7 +1553,8 @@ export interface components {
          * TaskEnded
          * @description A task ended in the state `status`; `facts` are those that its success rests on.
          *
-         *         `verified` is whether none of them is only assumed; None if the task did not succeed.
+         *         `verified` is whether none of them is only assumed, and no claim is false; None if the task did not succeed.
+         *         `false_claims` are sentences about what the world model claims of things that is not so in the simulator.
          */
         TaskEnded: {
             /** @enum {unknown} */
@@ -1543,10 +1569,15 @@ export interface components {
             verified?: boolean | null;
             /** @default [] */
             facts?: components["schemas"]["KnownFact"][];
+            /** @default [] */
+            false_claims?: string[];
         };
         /**
          * KnownFact
          * @description A fact and its evidence: `given` before the run, or established by the skill or device `by`.
+         *
+         *         `why` it is known no better, if `by` has said so. `with_physics`: what is idealised comes from a simulation with
+         *         physics, in which it counts as verified.
          */
         KnownFact: {
             fact: components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["LabelledClass"] | components["schemas"]["LabelledIdentity"];
@@ -1554,6 +1585,10 @@ export interface components {
             known: "assumed" | "given" | "idealised" | "reported" | "sensed";
             /** @default  */
             by?: string;
+            /** @default  */
+            why?: string;
+            /** @default false */
+            with_physics?: boolean;
         };
         /**
          * Order
@@ -2105,10 +2140,11 @@ export interface components {
          *         `cause` is the same with all details, None if the task did not begin; `failed_calls` lead to it, outermost first.
          *
          *         `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
-         *         which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed. `plan`
-         *         is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one entry for each surface that
-         *         was wiped, `wiping` is the first of them; `placements` has one for each thing that was moved, `works` one for each
-         *         other piece of work, `touches` one for each contact of a link, a hand or a base.
+         *         which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
+         *         claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
+         *         in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one
+         *         entry for each surface that was wiped, `wiping` is the first of them; `placements` has one for each thing that was
+         *         moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base.
          */
         TaskResult: {
             task: string;
@@ -2117,6 +2153,8 @@ export interface components {
             verified?: boolean | null;
             /** @default [] */
             facts?: components["schemas"]["KnownFact"][];
+            /** @default [] */
+            false_claims?: string[];
             /** @default [] */
             plan?: components["schemas"]["StepResult"][];
             /** @default [] */
@@ -2509,7 +2547,7 @@ export interface components {
              * @default none
              * @enum {unknown}
              */
-            disturb?: "missing" | "none" | "obstacle" | "push";
+            disturb?: "missing" | "none" | "obstacle" | "push" | "take";
             /** @default 3600 */
             deadline_s?: number;
         };
@@ -2524,7 +2562,7 @@ export interface components {
         Series: {
             task: string;
             /** @enum {unknown} */
-            disturbance: "missing" | "none" | "obstacle" | "push";
+            disturbance: "missing" | "none" | "obstacle" | "push" | "take";
             wanted: number;
             done: number;
             passed: number;
@@ -2597,9 +2635,9 @@ export interface components {
          *         `assumed` are the facts that a success rests on and that were not sensed; it is `verified` if there are none.
          *         `works` has an entry for each object that was worked on; `coverage` is the lowest of all surfaces, wiped or not,
          *         over the whole run. `greatest_force_n` is the greatest contact force on any tool, `force_limit_n` the lowest limit
-         *         of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `at_rest` whether at the end
-         *         nothing moved and no force was applied. `false_claims` are sentences about what the world model claims at the end of
-         *         things and where they are, and what really is so.
+         *         of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `taken` whether they took what a
+         *         hand held, `at_rest` whether at the end nothing moved and no force was applied. `false_claims` are sentences about
+         *         what the world model claims at the end of things and where they are, and what really is so.
          */
         Trial: {
             seed: number;
@@ -2624,6 +2662,8 @@ export interface components {
             force_limit_n?: number | null;
             /** @default false */
             pushed?: boolean;
+            /** @default false */
+            taken?: boolean;
             /** @default false */
             at_rest?: boolean;
             /** @default 0 */

@@ -22,6 +22,7 @@ export type NodeStarted = Schemas["NodeStarted"];
 export type NodeEnded = Schemas["NodeEnded"];
 export type TaskStarted = Schemas["TaskStarted"];
 export type TaskEnded = Schemas["TaskEnded"];
+export type KnownFact = Schemas["KnownFact"];
 export type PlanMade = Schemas["PlanMade"];
 export type PlanStep = Schemas["PlanStep"];
 export type PlanPreview = Required<Schemas["PlanPreview"]>;

@@ -16,6 +16,7 @@ export interface MoveFormProps {
   refusals: SceneActions["refusals"];
   onChange: (by_m: Vector) => void;
   onApply: (why: string) => Promise<void>;
+  onTake: () => Promise<void>;
   onCancel: () => void;
 }
 
@@ -23,7 +24,7 @@ const TEXTS = {
   disturb: {
     title: "Simulated reality",
     what: "The robot is not told: it finds out, or fails.",
-    choose: "Drag a thing that lies free; with Shift, up and down.",
+    choose: "Choose a thing that a hand holds, or drag one that lies free; with Shift, up and down.",
     apply: "Move it really",
   },
   correct: {
@@ -34,22 +35,25 @@ const TEXTS = {
   },
 };
 
-export function MoveForm({ move, refusals, onChange, onApply, onCancel }: MoveFormProps) {
+export function MoveForm({ move, refusals, onChange, onApply, onTake, onCancel }: MoveFormProps) {
   const [why, setWhy] = useState("");
   const [isBusy, setBusy] = useState(false);
   const now = move.value;
   if (now === null) return null;
   const texts = TEXTS[now.tool];
   const refusal = refusals.value[now.tool];
-  const isReady = refusal === "" && now.individual !== null && now.by_m.some((each) => each !== 0) && !isBusy;
-  const apply = (event: Event): void => {
-    event.preventDefault();
-    if (!isReady) return;
+  const mayAct = refusal === "" && now.individual !== null && !isBusy;
+  const isReady = mayAct && now.by_m.some((each) => each !== 0);
+  const act = (done: Promise<void>): void => {
     setBusy(true);
-    void onApply(why).finally(() => {
+    void done.finally(() => {
       setBusy(false);
       setWhy("");
     });
+  };
+  const apply = (event: Event): void => {
+    event.preventDefault();
+    if (isReady) act(onApply(why));
   };
   return (
     <form class={`scene-move scene-${now.tool}`} aria-label={texts.title} onSubmit={apply}>
@@ -97,6 +101,16 @@ export function MoveForm({ move, refusals, onChange, onApply, onCancel }: MoveFo
         {now.individual !== null && (
           <button type="submit" disabled={!isReady}>
             {texts.apply}
+          </button>
+        )}
+        {now.individual !== null && now.tool === "disturb" && (
+          <button
+            type="button"
+            disabled={!mayAct}
+            title="What a hand holds is taken out of it, and put there or 30 cm to the side"
+            onClick={() => act(onTake())}
+          >
+            Take it out of the hand
           </button>
         )}
         <button type="button" onClick={onCancel}>

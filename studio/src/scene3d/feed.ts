@@ -130,6 +130,7 @@ export function sceneActions(cell: string): SceneActions {
     select: (iri) => select(iri === null ? { kind: "nothing" } : { kind: "thing", iri }),
     refusals: computed(() => ({ disturb: refusalOf("operate"), correct: refusalOf("edit") })),
     disturb: (displacement) => disturb(cell, displacement),
+    take: (displacement) => take(cell, displacement),
     correct: (displacement, why) => correct(cell, displacement, why),
   };
 }
@@ -139,6 +140,19 @@ function disturb(cell: string, { individual, label, by_m }: Displacement): Promi
   return attempt(
     () => request("POST", `/api/v1/cells/${part(cell)}/disturbances`, body),
     `${label} was moved in the simulated reality; the cell does not know it`,
+  );
+}
+
+function take(cell: string, { individual, label, by_m }: Displacement): Promise<boolean> {
+  const aside = by_m.some((each) => each !== 0) ? { by_m } : {};
+  return attempt(
+    () =>
+      request("POST", `/api/v1/cells/${part(cell)}/disturbances`, {
+        type: "take",
+        thing: individual,
+        ...aside,
+      }),
+    `${label} was taken out of the hand; the fingers close, and find out`,
   );
 }
 

@@ -5,7 +5,7 @@ import { MoveForm } from "./MoveForm";
 import type { Mover } from "./mover";
 import "./scene.css";
 import { Toolbar, type ToolbarProps } from "./Toolbar";
-import type { SceneActions, SceneHandle } from "./types";
+import type { Displacement, SceneActions, SceneHandle } from "./types";
 
 export interface Overlay {
   root: HTMLElement;
@@ -54,7 +54,7 @@ export function makeOverlay(element: HTMLElement, canvas: HTMLElement): Overlay 
   };
 }
 
-/** Show the controls of a view in an overlay; `onApply` moves what is chosen, with a reason. */
+/** Show the controls of a view in an overlay; `onMove` does something with what is chosen, and where. */
 export function showControls(
   overlay: Overlay,
   handle: SceneHandle,
@@ -65,7 +65,7 @@ export function showControls(
     actions,
   }: Pick<ToolbarProps, "options" | "tool" | "follows"> & { actions: SceneActions },
   mover: Mover,
-  onApply: (why: string) => Promise<void>,
+  onMove: (act: (displacement: Displacement) => Promise<boolean>) => Promise<void>,
 ): void {
   const controls = overlay.root.lastElementChild;
   if (controls === null) return;
@@ -84,7 +84,8 @@ export function showControls(
         move={mover.move}
         refusals={actions.refusals}
         onChange={(by_m) => mover.shift(by_m)}
-        onApply={onApply}
+        onApply={(why) => onMove((displacement) => mover.apply(displacement, why, actions))}
+        onTake={() => onMove((displacement) => actions.take(displacement))}
         onCancel={() => handle.setTool("select")}
       />
     </>,

@@ -129,6 +129,8 @@ export interface SceneActions {
   refusals: Source<Readonly<Record<MovingTool, string>>>;
   /** Move a thing in the simulated reality; what the cell knows stays as it is. */
   disturb(displacement: Displacement): Promise<boolean>;
+  /** Take a thing out of the hand that holds it in the simulated reality, and put it there. */
+  take(displacement: Displacement): Promise<boolean>;
   /** Move a thing in the world model, with a reason; reality stays as it is. */
   correct(displacement: Displacement, why: string): Promise<boolean>;
 }

@@ -21,6 +21,7 @@ import { START } from "./Toolbar";
 import { Trails } from "./trails";
 import type {
   CameraPreset,
+  Displacement,
   PoseNumbers,
   SceneActions,
   SceneHandle,
@@ -142,8 +143,8 @@ export class SceneView implements SceneHandle {
 
   private showControls(): void {
     const { options, tool, follows, actions } = this;
-    showControls(this.overlay, this, { options, tool, follows, actions }, this.mover, (why) =>
-      this.applyMove(why),
+    showControls(this.overlay, this, { options, tool, follows, actions }, this.mover, (act) =>
+      this.applyMove(act),
     );
     this.ends.push(this.mover.move.subscribe(() => this.refresh()));
   }
@@ -286,13 +287,12 @@ export class SceneView implements SceneHandle {
     return frameThese(this.bodies, this.poses, this.sources.selected.value);
   }
 
-  private async applyMove(why: string): Promise<void> {
+  private async applyMove(act: (displacement: Displacement) => Promise<boolean>): Promise<void> {
     const individual = this.mover.move.value?.individual ?? "";
     const displacement = this.mover.describe(
       this.poseOf(individual),
       this.sources.believed.value[individual],
     );
-    if (displacement !== null && (await this.mover.apply(displacement, why, this.actions)))
-      this.mover.reset();
+    if (displacement !== null && (await act(displacement))) this.mover.reset();
   }
 }

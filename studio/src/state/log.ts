@@ -95,6 +95,8 @@ function describeOthers(event: Of<"requested" | "prompts-changed" | "disturbed">
 
 function describeEnd(event: RunEvent & { type: "task-ended" }): Described {
   if (event.failure != null) return [`${event.status}: ${describeFailure(event.failure)}`, "bad", 0];
+  const claims = event.false_claims ?? [];
+  if (claims.length > 0) return [`contradicted by the simulator: ${claims.join("; ")}`, "bad", 0];
   const text = event.verified === false ? "finished, not verified" : event.status;
   return [text, event.status === "succeeded" ? "good" : "info", 0];
 }

@@ -116,6 +116,7 @@ export interface ShownRun {
   title: string;
   state: RunState | null;
   verified: boolean | null;
+  claims: readonly string[];
   reason: string;
   failure: Failure | null;
   goesOn: boolean;
@@ -123,10 +124,18 @@ export interface ShownRun {
 export const shownRun = computed((): ShownRun | null => {
   if (replay.value !== null) {
     const { state, ended, reason } = told.value;
-    const { verified = null, failure = null } = ended ?? {};
-    return { title: replay.value.name, state, verified, failure, reason, goesOn: ended === null };
+    const { verified = null, failure = null, false_claims: claims = [] } = ended ?? {};
+    return { title: replay.value.name, state, verified, claims, failure, reason, goesOn: ended === null };
   }
   if (status.value === null) return null;
-  const { request, state, verified, reason, failure } = status.value;
-  return { title: describeRequest(request), state, verified, reason, failure, goesOn: isOngoing.value };
+  const { request, state, verified, false_claims: claims, reason, failure } = status.value;
+  return {
+    title: describeRequest(request),
+    state,
+    verified,
+    claims,
+    reason,
+    failure,
+    goesOn: isOngoing.value,
+  };
 });

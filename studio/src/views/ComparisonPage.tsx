@@ -129,7 +129,7 @@ function RunHead({ name, run }: { name: string; run: OperationStatus }) {
         <strong class="truncate" title={run.id}>
           {describeRequest(run.request)}
         </strong>
-        <RunBadge state={run.state} verified={run.verified} />
+        <RunBadge state={run.state} verified={run.verified} claims={run.false_claims} />
       </div>
       <div class="row comparison-when">
         <span class="grow truncate">{formatStart(run)}</span>

@@ -8,7 +8,8 @@ import { operation, selection, shownRun } from "../state/studio";
 import { describeFailure, formatTime } from "../state/text";
 import { CallExplanation, Explanation } from "./Explanation";
 import { Fact, PlaceLink, ThingLink, Value } from "./links";
-import { nodeWord, NodeMark, RunBadge } from "./status";
+import { FalseClaims, nodeWord, NodeMark, RunBadge } from "./status";
+import { KnownFacts } from "./KnownFacts";
 import { ThingDetails } from "./ThingDetails";
 
 export function Details() {
@@ -41,7 +42,7 @@ function OperationDetails() {
     <>
       {state !== null && (
         <p class="row">
-          <RunBadge state={state} verified={ended?.verified} />
+          <RunBadge state={state} {...judge(ended)} />
           {waits !== "" && ended === null && <span class="wrap-anywhere">{waits}</span>}
         </p>
       )}
@@ -73,26 +74,23 @@ function Running({ title, active }: { title: string; active: readonly TreeNode[]
   );
 }
 
-/** The facts that a success rests on, and how each is known. */
+function judge(ended: TaskEnded | null) {
+  return { verified: ended?.verified, claims: ended?.false_claims };
+}
+
+/** What of the claims at the end is false; then the facts that a success rests on, and how each is known. */
 function Grounds({ ended }: { ended: TaskEnded }) {
   const facts = ended.facts ?? [];
-  if (facts.length === 0) return null;
+  if (facts.length === 0) return <FalseClaims claims={ended.false_claims} />;
   return (
-    <Section
-      title={`The facts that this rests on${ended.verified === false ? "; some are only assumed" : ""}`}
-    >
-      <ul>
-        {facts.map((each, index) => (
-          <li key={index}>
-            <Fact fact={each.fact} />{" "}
-            <span class="muted">
-              {each.known}
-              {each.by ? ` by ${each.by}` : ""}
-            </span>
-          </li>
-        ))}
-      </ul>
-    </Section>
+    <>
+      <FalseClaims claims={ended.false_claims} />
+      <Section
+        title={`The facts that this rests on${ended.verified === false ? "; some are only assumed" : ""}`}
+      >
+        <KnownFacts facts={facts} />
+      </Section>
+    </>
   );
 }
 

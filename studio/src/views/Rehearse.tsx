@@ -50,7 +50,7 @@ function Result({ rehearsal, name }: { rehearsal: Rehearsal; name: string }) {
   return (
     <div class="notice rehearsed stack" role="status">
       <p class="row">
-        Rehearsal: <RunBadge state={result.status} verified={result.verified} />
+        Rehearsal: <RunBadge state={result.status} verified={result.verified} claims={result.false_claims} />
         {result.sim_time_s !== undefined && <span class="mono small">{formatTime(result.sim_time_s)}</span>}
         {rehearsal.recording && (
           <button

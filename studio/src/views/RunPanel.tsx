@@ -18,7 +18,7 @@ import { Choose } from "./Choose";
 import { Icon } from "./icons";
 import { choosing } from "./layout";
 import { Planning } from "./Planning";
-import { NodeMark, RunBadge } from "./status";
+import { FalseClaims, NodeMark, RunBadge } from "./status";
 
 export function RunPanel() {
   if (cell.value === null)
@@ -42,11 +42,12 @@ function Progress() {
           <h3 class="truncate" title={current.title}>
             {current.title}
           </h3>
-          {current.state !== null && <RunBadge state={current.state} verified={current.verified} />}
+          {current.state !== null && <RunBadge {...current} state={current.state} />}
         </div>
         {current.reason !== "" && current.failure === null && (
           <p class="small wrap-anywhere">{current.reason}</p>
         )}
+        <FalseClaims claims={current.claims} />
         {current.failure !== null && <p class="notice bad">{describeFailure(current.failure)}</p>}
       </div>
       <Prompts />

@@ -94,7 +94,7 @@ function Run({ run }: { run: OperationStatus }) {
       <button class="run-show" aria-pressed={isShown} title={run.id} onClick={show}>
         <span class="row spread">
           <strong class="truncate">{describeRequest(run.request)}</strong>
-          <RunBadge state={run.state} verified={run.verified} />
+          <RunBadge state={run.state} verified={run.verified} claims={run.false_claims} />
         </span>
         <span class="muted small">
           {formatStart(run)}

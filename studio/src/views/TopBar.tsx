@@ -121,7 +121,7 @@ function OperationTitle() {
           recording
         </span>
       )}
-      {current.state !== null && <RunBadge state={current.state} verified={current.verified} />}
+      {current.state !== null && <RunBadge {...current} state={current.state} />}
       <span class="clock mono" title="Time of the cell">
         {formatTime(operation.value.time)}
       </span>

@@ -82,6 +82,7 @@ const DISTURBANCES = {
   missing: "the work object is missing",
   obstacle: "an obstacle is in the way",
   push: "a person pushes the arm",
+  take: "a person takes what a hand holds",
 } as const;
 
 function NewSeries({ onDone }: { onDone: () => void }) {

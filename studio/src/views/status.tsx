@@ -43,11 +43,32 @@ function Badge({ look, word }: { look: Look; word?: string }) {
   );
 }
 
-/** The state of an operation; a success that rests on assumed facts is not called one. */
-export function RunBadge({ state, verified }: { state: RunState; verified?: boolean | null | undefined }) {
+interface RunBadgeProps {
+  state: RunState;
+  verified?: boolean | null | undefined;
+  claims?: readonly string[] | undefined;
+}
+
+/** The state of an operation; a success that rests on assumed facts, or whose claims are false, is not called one. */
+export function RunBadge({ state, verified, claims = [] }: RunBadgeProps) {
+  if (state === "succeeded" && claims.length > 0)
+    return <Badge look={["is-bad", "cross", "false success"]} />;
   if (state === "succeeded" && verified === false)
     return <Badge look={["is-waiting", "check", "finished, not verified"]} />;
   return <Badge look={RUN[state]} />;
+}
+
+/** What the world model claims that is not so in the simulator. */
+export function FalseClaims({ claims }: { claims: readonly string[] | undefined }) {
+  return (
+    <>
+      {(claims ?? []).map((each) => (
+        <p key={each} class="notice bad">
+          Contradicted by the simulator: {each}
+        </p>
+      ))}
+    </>
+  );
 }
 
 /** The state of a cell, or the one that it had last while there is no connection. */
