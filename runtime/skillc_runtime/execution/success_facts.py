@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeAlias
+
+from msgspec import structs
 
 from skillc_model.conditions import Condition
 from skillc_runtime.recording.known_facts import KnownFact
@@ -48,16 +50,24 @@ def collect_forces(
         for change in write.changes if write.decides.number > writes_before else ():
             if isinstance(change, SetProperty) and change.property == PUSH_FORCE:
                 pushes.setdefault(change.individual, []).append((change, write.decides))
+    worst = {arm: _worst(made) for arm, made in pushes.items()}
     words = world.snapshot().vocabulary
-    worst = {
-        arm: next((change, known) for change, known in made if known == weakest(each for _, each in made))
-        for arm, made in sorted(pushes.items())
-        if arms is None or arm in arms
-    }
     return tuple(
-        _know(label_property(arm, PUSH_FORCE, change.value, words), known, with_physics)
-        for arm, (change, known) in worst.items()
+        _explain(_know(label_property(arm, PUSH_FORCE, change.value, words), known, with_physics))
+        for arm, (change, known) in sorted(worst.items())
+        if arms is None or arm in arms
     )
+
+
+def _worst(pushes: Sequence[tuple[SetProperty, DecidingWrite]]) -> tuple[SetProperty, DecidingWrite]:
+    known = weakest(each for _, each in pushes)
+    return next(each for each in pushes if each[1] == known)
+
+
+def _explain(force: KnownFact) -> KnownFact:
+    """Return what is known of a force, with the doubt that `Push` has written beside its name."""
+    by, _, why = force.by.partition(": ")
+    return structs.replace(force, by=by, why=why)
 
 
 def _make_known_fact(ground: Ground, state: WorldState, with_physics: bool) -> KnownFact:
@@ -67,5 +77,4 @@ def _make_known_fact(ground: Ground, state: WorldState, with_physics: bool) -> K
 def _know(fact: LabelledFact, established: DecidingWrite | None, with_physics: bool) -> KnownFact:
     if established is None or established.evidence is None:
         return KnownFact(fact=fact, known="given")
-    by, _, why = established.origin.partition(": ")
-    return KnownFact(fact=fact, known=established.evidence, by=by, why=why, with_physics=with_physics)
+    return KnownFact(fact=fact, known=established.evidence, by=established.origin, with_physics=with_physics)
