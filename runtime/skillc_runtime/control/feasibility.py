@@ -33,16 +33,20 @@ PULL = 0.05
 """Share of the distance to its first posture that a redundant arm moves in each step, as its law does."""
 
 
-def slow_to_feasible(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits) -> Trajectory:
+def slow_to_feasible(
+    arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits
+) -> tuple[Trajectory, list[Array]]:
     """Return a motion of the tool in the arm's base frame, slowed down if a joint would be too fast.
 
-    q (nv,): rad, the joints at its start. Raises Infeasible if a joint would leave its range or the tool cannot follow.
+    Also return the joints (nv,) in rad at samples of it; q (nv,) are those at its start. Raises Infeasible if a joint
+    would leave its range or the tool cannot follow.
     """
-    before, fastest = q, 1.0
+    before, fastest, joints = q, 1.0, list[Array]()
     for step, after in joints_along(arm, trajectory, q, limits):
         fastest = max(fastest, float((np.abs(after - before) / (limits.velocity * step)).max()))
         before = after
-    return slow_down(trajectory, fastest)
+        joints.append(after)
+    return slow_down(trajectory, fastest), joints
 
 
 def joints_along(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits) -> Iterator[tuple[float, Array]]:

@@ -8,7 +8,7 @@ from itertools import pairwise
 import mujoco
 import numpy as np
 
-from skillc_runtime.control.feasibility import check_overlay_feasible, joints_along, slow_to_feasible
+from skillc_runtime.control.feasibility import check_overlay_feasible, slow_to_feasible
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
 from skillc_runtime.control.measured import NEAR_JOINT_RAD
 from skillc_runtime.control.virtual_arm import VirtualArm
@@ -28,7 +28,10 @@ class Kinematics:
     """Kinematics in the arm's base frame; a measured state gives the tool centre point on the hand."""
 
     def __init__(self, virtual: mujoco.MjModel) -> None:
-        self._arm = VirtualArm(virtual)
+        self._virtual, self._arm = virtual, VirtualArm(virtual)
+
+    def __reduce__(self) -> tuple[type[Kinematics], tuple[mujoco.MjModel]]:
+        return Kinematics, (self._virtual,)
 
     def tool_at(self, q: Array, state: ArmState) -> tuple[Pose, Array]:
         """Return tool in base and Jacobian (6, nv), [linear m; angular rad] per rad, at joints q (nv,) in rad."""
@@ -45,21 +48,15 @@ class Kinematics:
             positions.append(self._arm.tool.position)
         return positions
 
-    def slow_to_feasible(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> Trajectory:
+    def slow_to_feasible(
+        self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState
+    ) -> tuple[Trajectory, list[Array]]:
         """Return a motion in base from joints q (nv,) in rad, slowed down if a joint would be too fast.
 
-        Raises Infeasible if the arm cannot follow it.
+        Also return the joints (nv,) in rad at samples of it. Raises Infeasible if the arm cannot follow it.
         """
         self._arm.mount_tool(state.q, state.tool)
         return slow_to_feasible(self._arm, trajectory, q, limits)
-
-    def joints_along(self, trajectory: Trajectory, q: Array, limits: ArmLimits, state: ArmState) -> list[Array]:
-        """Return the joints (nv,) in rad at samples of a motion in base that starts at joints q (nv,).
-
-        Raises Infeasible if the arm cannot follow it.
-        """
-        self._arm.mount_tool(state.q, state.tool)
-        return [posture for _, posture in joints_along(self._arm, trajectory, q, limits)]
 
     def check_overlay_feasible(self, overlay: Overlay, axes: Array, limits: ArmLimits, state: ArmState) -> None:
         """Raise Infeasible if a joint would be too fast for an overlay along `axes` (3, 3) in the present posture."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.feasibility import sample_offsets
-from skillc_runtime.control.workspace_check import check_motion_inside, sample_times
+from skillc_runtime.control.motion_model import ArmMotionModel
+from skillc_runtime.control.workspace_check import check_motion_inside
+from skillc_runtime.devices.arm_driver import ToolMotion
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
@@ -84,52 +84,33 @@ class MotionControl:
         """Return the joints (nv,) in rad where a new motion of the joints starts; nothing changes."""
         return (self._task.joints or self._task.stopping_joint_reference()).stopping_joints(self._task.now)
 
+    def model(self) -> ArmMotionModel:
+        """Return the motions that the arm can make from where it is now, to be computed without it."""
+        task = self._task
+        state, start = task.measured.state, self.stopping_joints()
+        now, speed = task.controllers.joints_now(state), self._tool_speed_m_s
+        return ArmMotionModel(task.kinematics, task.limits, task.workspace, state, task.base(), start, now, speed)
+
     def move_along(self, trajectory: Trajectory) -> None:
         """Move the tool along a trajectory in the world, slowed down if a joint would be too fast.
 
         Raises ValueError if it does not start at `stopping_pose`, Infeasible if the arm cannot follow it.
         """
-        task, tool = self._task, self._task.move_tool()
-        state = task.measured.state
-        q, local = task.controllers.joints_now(state), trajectory.transform(task.base().inverse())
-        if task.workspace is not None:
-            times = sample_times(local.duration)
-            check_motion_inside(task.workspace, (local.at(float(time)).pose.position for time in times))
-        tool.reference_generator.follow(task.kinematics.slow_to_feasible(local, q, task.limits, state), task.now)
+        self._task.move_tool()
+        self.follow_tool(self.model().tool_motion(trajectory))
 
-    def joints_along(self, trajectory: Trajectory) -> tuple[Array, list[Array]]:
-        """Return the joints (nv,) in rad where a motion of the tool in the world starts, and at samples of it.
-
-        Raises Infeasible if the arm cannot follow it.
-        """
+    def follow_tool(self, motion: ToolMotion) -> None:
+        """Move the tool as the model has computed; ValueError if the motion does not start at `stopping_pose`."""
         task = self._task
-        state = task.measured.state
-        q, local = task.controllers.joints_now(state), trajectory.transform(task.base().inverse())
-        return q, task.kinematics.joints_along(local, q, task.limits, state)
-
-    def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
-        """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
-
-        share: of the greatest joint speeds, above 0 to 1; reduced if the tool would be too fast. blend: share, 0 to 1,
-        of the possible overlap at each intermediate posture; the motion stops there at 0.
-        """
-        task = self._task
-        postures, speeds = (self.stopping_joints(), *way), (share, self._tool_speed_m_s)
-        return task.kinematics.joint_path(postures, task.limits, *speeds, blend, task.measured.state)
+        task.move_tool().reference_generator.follow(motion.in_base, task.now)
 
     def move_joints(self, goal: Array, share: float) -> None:
-        """Move the joints to `goal` (nv,) in rad; `share` as for `joint_motion`."""
-        self.follow_joints(self.joint_motion((goal,), share))
+        """Move the joints to `goal` (nv,) in rad; `share` as for `joint_motion` of the model."""
+        self.follow_joints(self.model().joint_motion((goal,), share))
 
     def follow_joints(self, motion: JointTrajectory) -> None:
-        """Move the joints along a motion.
-
-        Raises ValueError if it does not start at `stopping_joints`, Infeasible if the tool would leave its workspace.
-        """
+        """Move the joints as the model has computed; ValueError if the motion does not start at `stopping_joints`."""
         task = self._task
-        if task.workspace is not None:
-            postures = (motion.at(float(time)).q for time in sample_times(motion.duration))
-            check_motion_inside(task.workspace, task.kinematics.tool_positions(postures, task.measured.state))
         task.move_joints().follow(motion, task.now)
 
     def stop(self) -> None:
@@ -171,7 +152,4 @@ class MotionControl:
 
         The result is near `seed` (nv,).
         """
-        task = self._task
-        return task.kinematics.inverse_kinematics(
-            task.base().inverse() @ target, seed, task.limits.range, task.measured.state
-        )
+        return self.model().inverse_kinematics(target, seed)

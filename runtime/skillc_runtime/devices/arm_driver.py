@@ -25,6 +25,9 @@ class Infeasible(ValueError):
         super().__init__(f"at ({x:.3f}, {y:.3f}, {z:.3f}) m from the arm's base {problem}")
         self.problem, self.place = problem, place
 
+    def __reduce__(self) -> tuple[type[Infeasible], tuple[str, Array]]:
+        return Infeasible, (self.problem, self.place)
+
 
 @dataclass(frozen=True, slots=True)
 class TaskLimits:
@@ -83,6 +86,46 @@ class ArmMeasurements(Protocol):
         ...
 
 
+@dataclass(frozen=True, slots=True)
+class ToolMotion:
+    """A motion of the tool, in the arm's base frame, that the arm can follow.
+
+    start (nv,), joints: rad, the joints at its start, and at samples of it.
+    """
+
+    in_base: Trajectory
+    start: Array
+    joints: list[Array]
+
+
+class MotionModel(Protocol):
+    """The motions that an arm can make from where it is at one instant; copied, it works in another process."""
+
+    @property
+    def start(self) -> Array:
+        """The joints (nv,) in rad where a new motion of the joints starts."""
+        ...
+
+    def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
+        """Return joints (nv,) in rad, near `seed`, with the tool at a pose in the world; None if there are none."""
+        ...
+
+    def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
+        """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
+
+        share: of the greatest joint speeds, above 0 to 1. blend: share, 0 to 1, of the possible overlap at each
+        intermediate posture; the motion stops there at 0. Infeasible if the tool would leave its workspace.
+        """
+        ...
+
+    def tool_motion(self, trajectory: Trajectory) -> ToolMotion:
+        """Return the motion of the tool along a trajectory in the world; Infeasible if the arm cannot follow it.
+
+        It is slowed down if a joint would be too fast.
+        """
+        ...
+
+
 class MotionInterface(Protocol):
     """Moves the tool or the joints. Poses, directions and axes are in the world, so the base of an arm may move.
 
@@ -129,30 +172,20 @@ class MotionInterface(Protocol):
         """
         ...
 
-    def joints_along(self, trajectory: Trajectory) -> tuple[Array, list[Array]]:
-        """Return the joints (nv,) in rad where a motion of the tool in the world starts, and at samples of it.
-
-        Raises Infeasible if the arm cannot follow it.
-        """
+    def model(self) -> MotionModel:
+        """Return the motions that the arm can make from where it is now, to be computed without it."""
         ...
 
-    def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
-        """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
-
-        share: of the greatest joint speeds, above 0 to 1. blend: share, 0 to 1, of the possible overlap at each
-        intermediate posture; the motion stops there at 0.
-        """
+    def follow_tool(self, motion: ToolMotion) -> None:
+        """Move the tool as the model has computed; ValueError if the motion does not start at `stopping_pose`."""
         ...
 
     def move_joints(self, goal: Array, share: float) -> None:
-        """Move the joints to `goal` (nv,) in rad; `share` as for `joint_motion`."""
+        """Move the joints to `goal` (nv,) in rad; `share` as for `joint_motion` of the model."""
         ...
 
     def follow_joints(self, motion: JointTrajectory) -> None:
-        """Move the joints along a motion.
-
-        Raises ValueError if it does not start at `stopping_joints`, Infeasible if the tool would leave its workspace.
-        """
+        """Move the joints as the model has computed; ValueError if the motion does not start at `stopping_joints`."""
         ...
 
     def stop(self) -> None:

@@ -103,3 +103,12 @@ class Judge(Protocol):
     def find_false_claims(self) -> tuple[str, ...]:
         """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
         ...
+
+
+@runtime_checkable
+class LockStep(Protocol):
+    """A backend whose time passes only in calls: between them nothing moves, for however long."""
+
+    def advance_period(self) -> None:
+        """Run one control period; ControlError or BackendBroken as `advance`, but the world model is not written."""
+        ...

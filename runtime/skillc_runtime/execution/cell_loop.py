@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import count
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.backend import Backend, LockStep
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import TICK_S, CellOrigin, RunContext
 from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims
@@ -133,8 +133,21 @@ class CellLoop:
         for each in self.runs:
             self._stops.append(Request(each, Abort(reason)))
 
+    @property
+    def is_computing(self) -> bool:
+        """Whether time stands still until what skills compute is done."""
+        moving = [run for run in self.runs if run.needs_time]
+        return bool(moving) and all(run.computing for run in moving) and isinstance(self.backend, LockStep)
+
     def tick(self) -> bool:
-        """Do one tick; return whether anything happened. If not, at most planning goes on, and time stands still."""
+        """Do one tick; return whether anything happened. If not, at most planning goes on, and time stands still.
+
+        In lock step it also does while all that needs time waits for what skills compute beside the ticks, so that the
+        speed of the machine changes nothing.
+        """
+        if self.is_computing:
+            self.obey()
+            return False
         happened = self._take_requests()
         for run in self.runs:
             happened |= run.tick(self.ticks)
@@ -157,10 +170,10 @@ class CellLoop:
             run.end_as("interrupted", reason)
 
     def wait(self, seconds: float) -> None:
-        """Wait for up to `seconds` of wall time for a plan; to be called after a tick in which nothing happened."""
-        planning = next((run for run in self.runs if run.state == "planning" and not run.waits_for), None)
-        if planning is not None:
-            planning.wait(seconds)
+        """Wait for up to `seconds` of wall time for what is planned or computed, after a tick without a happening."""
+        ways = (run for run in self.runs if run.computing or (run.state == "planning" and not run.waits_for))
+        if (waiting := next(ways, None)) is not None:
+            waiting.wait(seconds)
 
     def close(self, reason: str) -> None:
         """End all runs at once, because the program ends; requests that still wait are refused."""

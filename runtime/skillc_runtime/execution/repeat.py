@@ -22,6 +22,9 @@ from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.recording.events import Disturbed, Event, Listener, PlanArrived, Requested, TaskEnded, TaskStarted
 
+COMPUTING_S = 1.0
+"""How long a repetition waits for what skills compute before it looks again, in s of wall time."""
+
 
 class NotRepeatable(Exception):
     """A recorded run cannot be repeated; the message says why."""
@@ -122,7 +125,10 @@ class _Player:
             while self._inputs and self._inputs[0].tick <= self.loop.ticks:
                 self._feed(self._inputs.popleft())
             happened = self.loop.tick()
-            self._find_missing(at_end=not happened)
+            if not happened and self.loop.is_computing:
+                self.loop.wait(COMPUTING_S)
+            else:
+                self._find_missing(at_end=not happened)
         self._find_missing(at_end=True)
 
     def _feed(self, event: Requested | Disturbed) -> None:

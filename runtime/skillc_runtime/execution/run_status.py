@@ -50,6 +50,11 @@ class RunStatus:
         return self._attempt is not None or self.waits_for_person
 
     @property
+    def computing(self) -> bool:
+        """Whether its skills wait for what they compute beside the ticks."""
+        return self._attempt is not None and self._attempt.tree.computing
+
+    @property
     def waits_for_person(self) -> bool:
         """Whether it goes on when somebody says so: it waits for approval, or is paused."""
         return self.state in ("planned", "paused")

@@ -104,8 +104,11 @@ class TaskRun(RunStatus):
         self._stop(state, Failure(kind="error" if state == "failed" else "interrupted", message=reason))
 
     def wait(self, seconds: float) -> None:
-        """Wait for up to `seconds` of wall time for the preparation; to be used if nothing else goes on."""
-        self._next.wait(seconds)
+        """Wait for up to `seconds` of wall time for what is planned, or computed by skills, if nothing else goes on."""
+        if self.computing and self.tree is not None:
+            self.tree.wait(seconds)
+        else:
+            self._next.wait(seconds)
 
     @property
     def _now(self) -> float:

@@ -82,8 +82,8 @@ class WorkerProcess:
     On Windows it is a thread of this process, and one that is killed goes on until its function returns.
 
     `ask` sends a request, `poll` returns its result and never blocks; after `poll` found none, `report` is how far the
-    function is, as it has said last. `kill` ends the process and the programs that it started in sandboxes. A process
-    that has died stays so.
+    function is, as it has said last. `kill` ends the process and the programs that it started in sandboxes,
+    `kill_at_once` the process alone, without waiting for it. A process that has died stays so.
 
     Use a worker in one thread at a time. To end a wait in `answer` from another thread, cancel its token.
     """
@@ -161,6 +161,13 @@ class WorkerProcess:
                 break
         self._result = self._result or self._receive()
         self._end("it was killed")
+
+    def kill_at_once(self, why: str) -> None:
+        """End the process without letting it clean up, for `why`; it must not have started any programs."""
+        if self._dead is None:
+            self._process.kill()
+            join_process(self._process, CLEANUP_S)
+            self._end(why)
 
     def _receive(self) -> WorkerResult | None:
         with suppress(BlockingIOError, ConnectionResetError):

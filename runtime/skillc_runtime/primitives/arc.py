@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING
 from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.path import join_segments
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.reference import Trajectory
+from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_tool_along
+from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import SkillFailure
 
@@ -26,13 +29,18 @@ class MoveArc(ArmMotion):
         self._individual = arm
         self._via, self._target, self._speed = via, target, speed
 
-    def start_motion(self) -> None:
+    def start_motion(self) -> Computing:
         """Start the arc from the stopping pose; SkillFailure if the positions define no circle."""
-        start, limits = self.arm.motion.stopping_pose(), self.limits(self._speed)
+        limits = self.limits(self._speed)
+        yield from move_tool_along(self.cell, self._individual, lambda: self._make_arc(limits))
+
+    def _make_arc(self, limits: MotionLimits) -> Trajectory:
+        """Return the arc from the stopping pose; SkillFailure if the positions define no circle."""
+        start = self.arm.motion.stopping_pose()
         try:
             piece = arc_through(start, self._via.position, self._target, limits)
         except ValueError as why:
             state = self.cell.world.snapshot()
             places = (describe_place(state, pose.position) for pose in (start, self._via, self._target))
             raise SkillFailure("{}: start at {}; via at {}; target at {}".format(why, *places)) from why
-        move_tool_along(self.cell, self._individual, join_segments([start, self._target], [piece], limits))
+        return join_segments([start, self._target], [piece], limits)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.primitives.computation import Computing, compute_here
 from skillc_runtime.primitives.known_limits import find_excess, find_place_outside
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
@@ -47,20 +48,17 @@ class ArmMotion(Primitive):
         self._moved_at = 0.0
 
     def start(self) -> None:
-        """Start the motion; SkillFailure for a fault of the arm that was not reported yet."""
+        """Start to look for the motion; SkillFailure for a fault of the arm that was not reported yet."""
         raise_fault(self.arm)
-        self._moved_at = self.cell.now
-        try:
-            self.start_motion()
-        except Infeasible as why:
-            raise infeasible_motion(self.cell, self.arm, why) from why
+        self.computing = self._begin()
 
-    def start_motion(self) -> None:
-        """Give the motion to the arm; SkillFailure before anything moves."""
+    def start_motion(self) -> Computing:
+        """Find the motion and give it to the arm; SkillFailure before anything moves."""
         raise NotImplementedError
 
     def tick(self) -> Status:
         """Return SUCCESS when the arm has arrived; SkillFailure for a fault, or if it does not arrive in time."""
+        compute_here(self)
         if (fault := self.arm.take_fault()) is not None:
             raise SkillFailure(fault + self._describe_held())
         if not self.arm.motion.done:
@@ -73,6 +71,13 @@ class ArmMotion(Primitive):
         if self.cell.now - self._ended > MAX_SETTLING_S:
             raise SkillFailure(error + self._describe_held())
         return Status.RUNNING
+
+    def _begin(self) -> Computing:
+        try:
+            yield from self.start_motion()
+        except Infeasible as why:
+            raise infeasible_motion(self.cell, self.arm, why) from why
+        self._moved_at = self.cell.now
 
     def _describe_held(self) -> str:
         """Return what the arm's grippers hold, as the end of a sentence; empty for nothing."""

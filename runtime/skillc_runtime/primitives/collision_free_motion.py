@@ -1,19 +1,26 @@
-"""Moves the joints of an arm to a posture around the obstacles in the world model."""
+"""Moves an arm around the obstacles in the world model, or its tool along a path on which only the tool may touch any.
+
+The motion is looked for beside the ticks, while the arm holds; again if the arm, or what is around it, was moved.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from contextlib import suppress
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
-from skillc_runtime.collision.collision_checker import CollisionChecker
-from skillc_runtime.collision.collision_model import build_collision_model
-from skillc_runtime.collision.path_planning import JointSpace, NoPath, find_motion_collision, plan_joint_path
+from skillc_runtime.collision.collision_checker import Collision
+from skillc_runtime.collision.motion_search import JointGoals, Surroundings, find_joint_motion, find_tool_motion
+from skillc_runtime.collision.path_planning import JointSpace, NoPath
 from skillc_runtime.collision.scenery import read_scenery
-from skillc_runtime.motion.joint import JointTrajectory
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference import Trajectory
+from skillc_runtime.primitives.arm_motion import raise_fault
+from skillc_runtime.primitives.computation import Computation, Computing
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
@@ -25,64 +32,115 @@ if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
     from skillc_runtime.world.state.world_state import WorldState
 
-BLEND_SHARES = (1.0, 0.5, 0.25)
-"""Shares of each corner that are blended, in the order in which they are tried."""
+MAX_SEARCHES = 5
+"""How often a motion is looked for because the arm, or what is around it, was moved meanwhile."""
+
+SAME_M, SAME_RAD = 5e-4, 5e-4
+"""How far from where a motion was to start an arm may be and still follow it."""
+
+LIMIT_S = 120.0
+"""How long a search may take, in s of wall time, on a machine that does much else: it ends after so many looks."""
 
 
-def move_collision_free(cell: Cell, arm: str, goals: Iterable[Array], pace: float) -> None:
-    """Move the joints to the first of the postures (nv,) in rad that can be reached without a collision.
+def move_collision_free(cell: Cell, arm: str, goals: JointGoals, pace: float, unreachable: SkillFailure) -> Computing:
+    """Move the joints to the first of the goals that can be reached without a collision; `unreachable` without any.
 
     `pace` is the share of the maximum joint speeds. SkillFailure, before anything moves, says what is in the way.
     """
-    driver = cell.arm(arm)
-    state = cell.world.snapshot()
-    try:
-        contacts, known = _make_collision_model(cell, state, arm)
-    except (SheetError, FrameError):
-        driver.motion.move_joints(next(iter(goals)), pace)
-        return
-    try:
-        driver.motion.follow_joints(_plan_motion(driver, contacts, known, goals, pace))
-    except NoPath as why:
-        raise SkillFailure(str(why)) from why
+    driver = _come_to_rest(cell, arm)
+    for _ in range(MAX_SEARCHES):
+        seen, model = _look_around(cell, arm), driver.motion.model()
+        arguments = (seen.around, model, goals, seen.find_space(driver), pace)
+        found = yield Computation(find_joint_motion, arguments, LIMIT_S, "the search for a path")
+        if found is None:
+            raise unreachable
+        if isinstance(found, NoPath):
+            raise SkillFailure(str(found))
+        if isinstance(found, Infeasible):
+            raise found
+        raise_fault(driver)
+        if np.abs(driver.motion.stopping_joints() - model.start).max() < SAME_RAD and seen.is_current(cell):
+            driver.motion.follow_joints(found)
+            return
+    raise _restless()
 
 
-def move_tool_along(cell: Cell, arm: str, trajectory: Trajectory) -> None:
+def move_tool_along(cell: Cell, arm: str, make: Callable[[], Trajectory]) -> Computing:
     """Move the tool along a trajectory in the world, on which it may touch things, but no link and no palm.
 
-    SkillFailure, before anything moves, says which part would be in the way of what; Infeasible if the arm cannot
-    follow. The palm may touch movable things.
+    `make` returns the trajectory from the stopping pose. SkillFailure, before anything moves, says which part would be
+    in the way of what; Infeasible if the arm cannot follow. The palm may touch movable things.
     """
-    driver, state = cell.arm(arm), cell.world.snapshot()
-    with suppress(SheetError, FrameError):
-        contacts, _ = _make_collision_model(cell, state, arm)
-        movable = frozenset(map(state.vocabulary.short, state.instances(MANIPULATABLE)))
-        touch = contacts.find_overlap(*driver.motion.joints_along(trajectory), movable)
-        if touch is not None:
-            raise SkillFailure(f"on the way of the tool {touch} and overlap it by {-1e3 * touch.distance_m:.0f} mm")
-    driver.motion.move_along(trajectory)
+    driver = _come_to_rest(cell, arm)
+    for _ in range(MAX_SEARCHES):
+        trajectory, seen = make(), _look_around(cell, arm)
+        arguments = (seen.around, driver.motion.model(), trajectory, seen.movable)
+        found = yield Computation(find_tool_motion, arguments, LIMIT_S, "the look at the way of the tool")
+        if isinstance(found, Collision):
+            raise SkillFailure(f"on the way of the tool {found} and overlap it by {-1e3 * found.distance_m:.0f} mm")
+        if isinstance(found, Infeasible):
+            raise found
+        raise_fault(driver)
+        if _is_same(trajectory.at(0.0).pose, driver.motion.stopping_pose()) and seen.is_current(cell):
+            driver.motion.follow_tool(found)
+            return
+    raise _restless()
 
 
-def _make_collision_model(cell: Cell, state: WorldState, arm: str) -> tuple[CollisionChecker, JointSpace]:
-    """Return what an arm can collide with, and its limits; SheetError without a model, FrameError without a pose."""
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """What was around an arm in a version of the world; `around` is None if a model or a pose is missing."""
+
+    state: WorldState
+    arm: str
+    around: Surroundings | None
+
+    @property
+    def movable(self) -> frozenset[str]:
+        """The names of the things that the palm may touch."""
+        return frozenset(map(self.state.vocabulary.short, self.state.instances(MANIPULATABLE)))
+
+    def find_space(self, driver: ArmDriver) -> JointSpace:
+        """Return where the joints may be, and the postures of the arm's sheet, if it has one."""
+        if self.around is None:
+            return JointSpace(driver.limits.range, ())
+        sheet = sheet_of(self.state, self.arm)
+        return JointSpace(driver.limits.range, tuple(sheet.posture(name) for name in sheet.posture_names))
+
+    def is_current(self, cell: Cell) -> bool:
+        """Whether nothing around the arm, or in its hand, has changed since; fingers may have moved."""
+        if cell.world.snapshot() is self.state:
+            return True
+        now = _look_around(cell, self.arm).around
+        if now is None or self.around is None:
+            return now is self.around
+        return now.obstacles == self.around.obstacles
+
+
+def _look_around(cell: Cell, arm: str) -> _Seen:
+    """Return what an arm can collide with."""
+    state = cell.world.snapshot()
     openings = {each: cell.gripper(each).opening_m for each in state.objects(arm, HAS_GRIPPER)}
-    shape = build_collision_model(read_arm_assembly(state, arm, openings), read_scenery(state, pose(state, arm)))
-    sheet = sheet_of(state, arm)
-    contacts = CollisionChecker(shape, sheet.posture("home"))
-    return contacts, JointSpace(cell.arm(arm).limits.range, tuple(sheet.posture(name) for name in sheet.posture_names))
+    try:
+        home = tuple(sheet_of(state, arm).posture("home").tolist())
+        scenery = read_scenery(state, pose(state, arm))
+        return _Seen(state, arm, Surroundings(read_arm_assembly(state, arm, openings), scenery, home))
+    except (SheetError, FrameError):
+        return _Seen(state, arm, None)
 
 
-def _plan_motion(
-    driver: ArmDriver, contacts: CollisionChecker, known: JointSpace, goals: Iterable[Array], pace: float
-) -> JointTrajectory:
-    """Return a collision-free motion whose corners are blended as far as possible; NoPath if there is no path.
+def _come_to_rest(cell: Cell, arm: str) -> ArmDriver:
+    """Return the driver of an arm that holds still, or is about to."""
+    driver = cell.arm(arm)
+    if not driver.motion.done:
+        driver.motion.stop()
+    return driver
 
-    If no blending is possible the arm stops at each posture of the path, which is free of collisions.
-    """
-    postures = plan_joint_path(contacts, driver.motion.stopping_joints(), goals, known)
-    if len(postures) > 1:
-        for blend in BLEND_SHARES:
-            motion = driver.motion.joint_motion(postures, pace, blend)
-            if find_motion_collision(contacts, motion) is None:
-                return motion
-    return driver.motion.joint_motion(postures, pace)
+
+def _is_same(one: Pose, other: Pose) -> bool:
+    far, turned = np.abs(one.position - other.position).max(), np.abs(one.rotation - other.rotation).max()
+    return bool(far < SAME_M and turned < SAME_RAD)
+
+
+def _restless() -> SkillFailure:
+    return SkillFailure(f"the arm, or what is around it, was moved {MAX_SEARCHES} times while its way was looked for")

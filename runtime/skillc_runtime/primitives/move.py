@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from skillc_runtime.devices.arm_driver import MotionModel
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free, move_tool_along
+from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.labelled import LabelledVector, Quantity
@@ -43,30 +45,41 @@ class MoveJoints(ArmMotion):
         super().__init__(cell, arm)
         self._individual, self._target, self._pace = arm, target, pace
 
-    def start_motion(self) -> None:
+    def start_motion(self) -> Computing:
         """Find the posture nearest to home that puts the tool there, another where that one is not free, and go."""
-        seed = _find_posture(self.cell.world.snapshot(), self._individual, HOME)
-        q = self.arm.motion.inverse_kinematics(self._target, seed)
-        if q is None:
-            x, y, z = self._target.position.tolist()
-            far = float(np.linalg.norm(self._target.position - self.arm.measured.pose.position))
-            raise SkillFailure(
-                "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
-                target=LabelledVector((x, y, z), "m"),
-                far=Quantity(far, "m"),
-            )
-        move_collision_free(self.cell, self._individual, chain([q], self._others(seed)), self._pace)
+        home, now = _find_posture(self.cell.world.snapshot(), self._individual, HOME), self.arm.measured
+        x, y, z = self._target.position.tolist()
+        unreachable = SkillFailure(
+            "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
+            target=LabelledVector((x, y, z), "m"),
+            far=Quantity(float(np.linalg.norm(self._target.position - now.pose.position)), "m"),
+        )
+        goals = _PoseGoal(self._target, home, now.q, self.arm.limits.range)
+        yield from move_collision_free(self.cell, self._individual, goals, self._pace, unreachable)
 
-    def _others(self, home: Array) -> Iterator[Array]:
-        """Yield other postures (nv,) in rad for the same pose: near the current one, then over all joint ranges.
+
+@dataclass(frozen=True, slots=True)
+class _PoseGoal:
+    """The postures that put the tool at a target in the world; home, now (nv,), limits (nv, 2): rad."""
+
+    target: Pose
+    home: Array
+    now: Array
+    limits: Array
+
+    def find(self, model: MotionModel) -> Iterator[Array]:
+        """Yield the posture nearest to home, then others: near the current one, then over all joint ranges.
 
         Those near the end of a joint's range come last, since a line from there may leave it.
         """
-        draw, limits = np.random.default_rng(0), self.arm.limits.range
-        low, high = np.maximum(limits[:, 0], home - np.pi), np.minimum(limits[:, 1], home + np.pi)
+        if (nearest := model.inverse_kinematics(self.target, self.home)) is None:
+            return
+        yield nearest
+        draw, limits = np.random.default_rng(0), self.limits
+        low, high = np.maximum(limits[:, 0], self.home - np.pi), np.minimum(limits[:, 1], self.home + np.pi)
         cramped = list[Array]()
-        for seed in (self.arm.measured.q, *(draw.uniform(low, high) for _ in range(RANDOM_SEEDS))):
-            q = self.arm.motion.inverse_kinematics(self._target, seed)
+        for seed in (self.now, *(draw.uniform(low, high) for _ in range(RANDOM_SEEDS))):
+            q = model.inverse_kinematics(self.target, seed)
             if q is None:
                 continue
             if np.minimum(q - limits[:, 0], limits[:, 1] - q).min() < ROOM_RAD:
@@ -74,6 +87,17 @@ class MoveJoints(ArmMotion):
             else:
                 yield q
         yield from cramped
+
+
+@dataclass(frozen=True, slots=True)
+class _PostureGoal:
+    """One posture (nv,) in rad."""
+
+    q: Array
+
+    def find(self, model: MotionModel) -> Iterator[Array]:
+        """Yield it."""
+        yield self.q
 
 
 class TakePosture(ArmMotion):
@@ -85,10 +109,11 @@ class TakePosture(ArmMotion):
         super().__init__(cell, arm)
         self._individual, self._posture, self._pace = arm, posture, pace
 
-    def start_motion(self) -> None:
+    def start_motion(self) -> Computing:
         """Look up the posture and start the motion."""
         q = _find_posture(self.cell.world.snapshot(), self._individual, self._posture)
-        move_collision_free(self.cell, self._individual, [q], self._pace)
+        unreachable = SkillFailure(f"the arm cannot take the posture {self._posture}")
+        yield from move_collision_free(self.cell, self._individual, _PostureGoal(q), self._pace, unreachable)
 
 
 class MoveLinear(ArmMotion):
@@ -101,11 +126,11 @@ class MoveLinear(ArmMotion):
         self._individual = arm
         self._target, self._speed = target, speed
 
-    def start_motion(self) -> None:
+    def start_motion(self) -> Computing:
         """Start the line from the stopping pose."""
-        limits = self.limits(self._speed)
-        move_tool_along(
-            self.cell, self._individual, path_through([self.arm.motion.stopping_pose(), self._target], limits)
+        limits, motion = self.limits(self._speed), self.arm.motion
+        yield from move_tool_along(
+            self.cell, self._individual, lambda: path_through([motion.stopping_pose(), self._target], limits)
         )
 
 

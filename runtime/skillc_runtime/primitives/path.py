@@ -9,6 +9,7 @@ from skillc_runtime.motion.path import path_through as path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_tool_along
+from skillc_runtime.primitives.computation import Computing
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -25,11 +26,11 @@ class FollowPath(ArmMotion):
         self._individual = arm
         self._poses, self._speed, self._blend = path, speed, blend
 
-    def start_motion(self) -> None:
+    def start_motion(self) -> Computing:
         """Start the path from the stopping pose."""
-        limits = self.limits(self._speed)
-        move_tool_along(
+        limits, motion = self.limits(self._speed), self.arm.motion
+        yield from move_tool_along(
             self.cell,
             self._individual,
-            path_through([self.arm.motion.stopping_pose(), *self._poses], limits, self._blend),
+            lambda: path_through([motion.stopping_pose(), *self._poses], limits, self._blend),
         )

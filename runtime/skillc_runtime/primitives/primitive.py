@@ -12,6 +12,7 @@ from skillc_runtime.world.state.labelled import LabelledValue, make_recordable
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
     from skillc_runtime.devices.prompts import Prompt
+    from skillc_runtime.primitives.computation import Computing
     from skillc_runtime.world.state.values import Value
     from skillc_runtime.world.state.world_state import WorldState
 
@@ -78,6 +79,10 @@ class Primitive:
     `uses_devices` is False where a run needs nothing of the cell but its clock: it goes on beside others that use all.
 
     While `prompt` is not None, it is put to an operator; `answer` is called once with one of its choices.
+
+    While `computing` is not None, it computes beside the ticks, and `tick` is not called. It is a generator that yields
+    what is to be computed, and is sent the results; it is ended by `halt`. If `start` has set it, the start lasts until
+    it ends: nothing may have moved if it raises SkillFailure.
     """
 
     activity: ClassVar[Activity] = ""
@@ -99,6 +104,7 @@ class Primitive:
         self.cell = cell
         self.outputs: dict[str, object] = {}
         self.prompt: Prompt | None = None
+        self.computing: Computing | None = None
 
     def start(self) -> None:
         """Start; nothing may have moved if this raises."""

@@ -16,7 +16,7 @@ from typing import Protocol
 from skillc_runtime.backends.real_time.locked import CellLock, locked
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm_driver import ArmDriver
-from skillc_runtime.devices.backend import BackendBroken, DeviceStops
+from skillc_runtime.devices.backend import BackendBroken, DeviceStops, LockStep
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell, Watchdog
@@ -43,16 +43,12 @@ BRAKING_S = 2.0
 DRIVER_PARTS = ("measured", "motion", "compliance")
 
 
-class LockStepCell(Simulation, Cell, Protocol):
+class LockStepCell(LockStep, Simulation, Cell, Protocol):
     """A simulated cell in lock step, one control period at a time."""
 
     @property
     def period_s(self) -> float:
         """The control period in s."""
-        ...
-
-    def advance_period(self) -> None:
-        """Run one control period; ControlError or BackendBroken as `advance`, but the world model is not written."""
         ...
 
     def hold_period(self) -> None:

@@ -132,6 +132,10 @@ class CallNode(Node):
         if status is RUNNING or activation is None:
             return status
         if status is not SUCCESS:
+            if _refused(activation.body):
+                self._note_refusal(activation)
+                self.context.refresh_state()
+                return self._try_next(self._remaining)
             return self._end_failed(activation, self._with_skill(activation.body.failure))
         try:
             failure = activation.apply_results()
@@ -220,13 +224,17 @@ class CallNode(Node):
         status = self._path.start()
         if status is RUNNING:
             return RUNNING
-        if isinstance(activation.body, PrimitiveNode) and activation.body.refused_to_start:
-            activation.release_locks()
-            failure = self._with_skill(activation.body.failure)
-            self._remember_failure(activation.implementation.name, failure)
-            self.rejected.append(self._reject(activation.implementation, failure))
+        if _refused(activation.body):
+            self._note_refusal(activation)
             return None
         return self.on_child_ended(status)
+
+    def _note_refusal(self, activation: Activation) -> None:
+        """Reject an implementation whose body has refused to start."""
+        activation.release_locks()
+        failure = self._with_skill(activation.body.failure)
+        self._remember_failure(activation.implementation.name, failure)
+        self.rejected.append(self._reject(activation.implementation, failure))
 
     def _end_failed(self, activation: Activation, failure: Failure) -> Status:
         """Undo and release everything, then try the next implementation if the skill has `fallback`."""
@@ -290,3 +298,8 @@ class CallNode(Node):
         if self.context.emit is not None:
             event = make_choice_event(self.id, self.node, activation, self._arguments, self.rejected, self.context)
             self.context.emit(event)
+
+
+def _refused(body: Node) -> bool:
+    """Whether a body is a primitive that has refused to start."""
+    return isinstance(body, PrimitiveNode) and body.refused_to_start

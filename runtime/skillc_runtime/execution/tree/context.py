@@ -9,6 +9,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.active_primitives import ActivePrimitives
+from skillc_runtime.execution.tree.computations import Computations
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run_cell import RunCell
@@ -29,7 +30,8 @@ class TreeContext:
     `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
     calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
-    that a pause concerns. A primitive or a wait fails `step_deadline_s` after its start; None if it may take any time.
+    that a pause concerns, `computations` what they compute. A primitive or a wait fails `step_deadline_s` after its
+    start; None if it may take any time.
     """
 
     __slots__ = (
@@ -38,6 +40,7 @@ class TreeContext:
         "_stopped",
         "active",
         "cell",
+        "computations",
         "emit",
         "gate",
         "last_id",
@@ -67,7 +70,7 @@ class TreeContext:
         self.gate = gate
         self.step_deadline_s = step_deadline_s
         self.run_cell = RunCell(cell)
-        self.active = ActivePrimitives()
+        self.active, self.computations = ActivePrimitives(), Computations()
         self._stopped, self._own_offset = False, 0.0
         self.time = self.now = 0.0
         self.state: WorldState

@@ -19,10 +19,10 @@ class PrimitiveNode(Node):
     """Creates one primitive, starts it and ticks it; used for one run.
 
     After `start` was called, the primitive is halted exactly once, when the parent is halted or the primitive raises,
-    except if `start` refused (`refused_to_start`) or `tick` succeeded. A scoped skill passes `undo`: its primitive is
-    released exactly once unless `start` refused, immediately if it does not succeed, else by `undo`. After the release
-    `undo_posts` undoes the changes written by the posts. From its start until it ends, or is released, a pause of the
-    run concerns it.
+    except if `start`, or what it computes, refused (`refused_to_start`) or `tick` succeeded. A scoped skill passes
+    `undo`: its primitive is released exactly once unless `start` refused, immediately if it does not succeed, else by
+    `undo`. After the release `undo_posts` undoes the changes written by the posts. From its start until it ends, or is
+    released, a pause of the run concerns it.
     """
 
     kind: ClassVar[str] = "primitive"
@@ -61,21 +61,23 @@ class PrimitiveNode(Node):
             with foreign_code:
                 primitive.start()
         except SkillFailure as refusal:
-            self._running = False
-            if self._undo is not None:
-                self._undo.discard(self.release)
-            return self.fail(self._failure(refusal))
-        self.refused_to_start = False
+            return self._refuse(refusal)
+        self.refused_to_start = primitive.computing is not None
         self.context.active.add(primitive, self.id)
         return self.tick()
 
     def tick(self) -> Status:
         try:
-            status = self._tick()
-            if status is RUNNING:
-                return RUNNING if self.context.now < self._late else self.fail_late()
-            return self._on_finished(status)
+            status = RUNNING if self._computes() else self._tick()
+            if status is not RUNNING:
+                return self._on_finished(status)
+            if self.context.now < self._late:
+                return RUNNING
+            self.refused_to_start = False
+            return self.fail_late()
         except SkillFailure as failure:
+            if self.refused_to_start:
+                return self._refuse(failure)
             return self._halt_and_fail(failure)
         except KeyboardInterrupt:
             raise
@@ -87,6 +89,7 @@ class PrimitiveNode(Node):
             self._running = False
             self.context.active.discard(self._primitive)
             try:
+                self.context.computations.cancel(self._primitive)
                 with foreign_code:
                     self._primitive.halt(reason)
             except FOREIGN_ERRORS as error:  # the other nodes must be halted too
@@ -107,6 +110,24 @@ class PrimitiveNode(Node):
             self._primitive.release()
         if self.undo_posts is not None:
             self.undo_posts()
+
+    def _computes(self) -> bool:
+        """Whether the primitive computes, after it has gone on with what has arrived."""
+        assert self._primitive is not None, "ticked before start"
+        if self._primitive.computing is None:
+            return False
+        computes = self.context.computations.proceed(self._primitive)
+        self.refused_to_start &= computes
+        return computes
+
+    def _refuse(self, refusal: SkillFailure) -> Status:
+        """Fail because the primitive refuses to start; nothing has moved."""
+        assert self._primitive is not None, "refused before start"
+        self._running = False
+        self.context.active.discard(self._primitive)
+        if self._undo is not None:
+            self._undo.discard(self.release)
+        return self.fail(self._failure(refusal))
 
     def _on_finished(self, status: Status) -> Status:
         if status is SUCCESS:

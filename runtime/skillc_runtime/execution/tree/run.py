@@ -78,6 +78,11 @@ class TreeRun:
         return self._pause.phase != "none"
 
     @property
+    def computing(self) -> bool:
+        """Whether primitives wait for what they compute beside the ticks, and the run is not paused."""
+        return self.status is RUNNING and not self.paused and self._context.computations.pending
+
+    @property
     def withdrawn(self) -> bool:
         """Whether the tools of a paused run were taken off, and have not been brought back yet."""
         return self._pause.phase in ("withdrawn", "approaching")
@@ -130,6 +135,10 @@ class TreeRun:
     def listener_problems(self) -> tuple[str, ...]:
         """The errors raised by listeners."""
         return tuple(self._listeners.problems)
+
+    def wait(self, seconds: float) -> None:
+        """Wait for up to `seconds` of wall time for what is computed beside the ticks."""
+        self._context.computations.wait(seconds)
 
     def tick(self) -> Status:
         """Read the clock, take a snapshot of the world and tick the tree once; return the status.
@@ -243,6 +252,7 @@ class TreeRun:
             self._context.note(f"not undone at the end: {problem}")
         if self._stop_listening is not None:
             self._stop_listening()
+        self._context.computations.close()
         self._context.cell.watchdog.retire(self)
         self.status, self.failure, self._pause.phase = status, failure, "none"
         return status

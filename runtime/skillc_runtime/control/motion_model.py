@@ -1,0 +1,64 @@
+"""The motions that an arm can make from where it is, computed without the arm: also in another process."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from skillc_runtime.control.kinematics import Kinematics
+from skillc_runtime.control.safety import Workspace
+from skillc_runtime.control.workspace_check import check_motion_inside, sample_times
+from skillc_runtime.devices.arm import ArmLimits, ArmState
+from skillc_runtime.devices.arm_driver import ToolMotion
+from skillc_runtime.motion.joint import JointTrajectory
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.reference import Trajectory
+
+
+@dataclass(frozen=True, slots=True)
+class ArmMotionModel:
+    """Implements `MotionModel` for an arm as it was at one instant.
+
+    base: in the world. start, now (nv,): rad, where the joints come to rest, and from where a motion of the tool
+    continues. tool_speed_m_s: the greatest speed of the tool in a motion of the joints.
+    """
+
+    kinematics: Kinematics
+    limits: ArmLimits
+    workspace: Workspace | None
+    state: ArmState
+    base: Pose
+    start: Array
+    now: Array
+    tool_speed_m_s: float
+
+    def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
+        """Return joints (nv,) in rad, near `seed`, with the tool at a pose in the world; None if there are none."""
+        in_base = self.base.inverse() @ target
+        return self.kinematics.inverse_kinematics(in_base, seed, self.limits.range, self.state)
+
+    def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
+        """Return the motion of the joints from `start` through the postures `way`, each (nv,) in rad.
+
+        share: of the greatest joint speeds, above 0 to 1; reduced if the tool would be too fast. blend: share, 0 to 1,
+        of the possible overlap at each intermediate posture; the motion stops there at 0. Infeasible if the tool would
+        leave its workspace.
+        """
+        postures, speed = (self.start, *way), self.tool_speed_m_s
+        motion = self.kinematics.joint_path(postures, self.limits, share, speed, blend, self.state)
+        if self.workspace is not None:
+            sampled = (motion.at(float(time)).q for time in sample_times(motion.duration))
+            check_motion_inside(self.workspace, self.kinematics.tool_positions(sampled, self.state))
+        return motion
+
+    def tool_motion(self, trajectory: Trajectory) -> ToolMotion:
+        """Return the motion of the tool along a trajectory in the world; Infeasible if the arm cannot follow it.
+
+        It is slowed down if a joint would be too fast.
+        """
+        local = trajectory.transform(self.base.inverse())
+        if self.workspace is not None:
+            times = sample_times(local.duration)
+            check_motion_inside(self.workspace, (local.at(float(time)).pose.position for time in times))
+        slowed, joints = self.kinematics.slow_to_feasible(local, self.now, self.limits, self.state)
+        return ToolMotion(slowed, self.now, joints)

@@ -1,0 +1,50 @@
+"""What takes a primitive long: computed beside the ticks, in another process, while its devices hold still."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from skillc_runtime.primitives.primitive import Primitive
+
+LIMIT_S = 60.0
+"""How long a computation may take by default, in s of wall time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Computation:
+    """A call of a function of a module, in another process: its arguments and its result are copied, with `pickle`.
+
+    The function uses no devices and starts no programs. So that its result does not depend on the machine, it limits
+    its steps, not its time; `limit_s` of wall time is for one that hangs. SkillFailure, raised by it, fails the skill.
+    `name` is what messages call it, such as "the search for a path".
+    """
+
+    function: Callable[..., object]
+    arguments: tuple[object, ...] = ()
+    limit_s: float = LIMIT_S
+    name: str = ""
+
+    def __str__(self) -> str:
+        return self.name or str(getattr(self.function, "__name__", self.function))
+
+
+Computing: TypeAlias = Generator[Computation | None, Any, None]
+"""Yields computations, and is sent their results; after a None it goes on in the next tick."""
+
+
+def compute_here(primitive: Primitive) -> None:
+    """Let a primitive compute in this process, at once: for programs that tick it without a tree.
+
+    SkillFailure as of its `computing`.
+    """
+    computing, result = primitive.computing, None
+    primitive.computing = None
+    while computing is not None:
+        try:
+            wanted = computing.send(result)
+        except StopIteration:
+            return
+        result = None if wanted is None else wanted.function(*wanted.arguments)
