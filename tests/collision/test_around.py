@@ -9,7 +9,7 @@ import pytest
 
 from collision.around import aside, cell, pillar, posture, true_gap
 from collision.test_ways import UPRIGHT
-from simulation.cells import ARM, SCENES
+from simulation.cells import ARM, SCENES, begin
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.collision import path_planning as ways
 from skillc_runtime.primitives.move import MoveJoints, TakePosture
@@ -20,7 +20,7 @@ from skillc_runtime.world.state.changes import Change
 def gaps(there: SimulatedCell, scene: str, primitive: Primitive) -> list[float]:
     """Do something; return how far the arm really was from the pillar all the time."""
     found = []
-    primitive.start()
+    begin(primitive)
     for _ in range(1500):
         found.append(true_gap(there, scene, "Pillar"))
         if primitive.tick() is Status.SUCCESS:
@@ -87,6 +87,6 @@ def test_where_no_way_is_known_nothing_moves(scene: str, monkeypatch: pytest.Mon
     there = stage(scene)
     q = there.arm(ARM[scene]).measured.q
     with pytest.raises(SkillFailure, match="would touch lab:Pillar"):
-        take(there, scene, "aside").start()
+        begin(take(there, scene, "aside"))
     there.advance(0.2)
     assert there.arm(ARM[scene]).measured.at_joints(q)

@@ -4,6 +4,7 @@ from functools import cache
 
 from rig import HOMES, Bench
 
+from simulation.cells import begin
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_rdf.vocabulary.load import load
@@ -61,7 +62,7 @@ class OneArm:
     def run(self, primitive, limit=20.0, beside=()):
         """Start and tick every 10 ms until it succeeds; SkillFailure comes out, from a tick after the halt."""
         end = self.now + limit
-        primitive.start()
+        begin(primitive)
         try:
             while primitive.tick() is Status.RUNNING:
                 assert self.now < end, "it does not end"

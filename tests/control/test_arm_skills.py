@@ -5,6 +5,7 @@ import pytest
 from one_arm import ARM, BOARD, HOME, OneArm
 from rig import HOMES, moved_by
 
+from simulation.cells import begin
 from skillc_runtime.motion.pose import Pose, exp, log, quaternion_from_rotation
 from skillc_runtime.primitives.compliance import Align, Push, ReleaseAxis
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear, TakePosture
@@ -76,7 +77,7 @@ def test_a_fault_left_over_is_told_before_anything_moves(cell):
 
 def test_a_motion_that_fails_on_the_way_ends(cell):
     motion = MoveLinear(cell, arm=ARM, target=moved_by(cell.arm(ARM).measured.pose, 0.0, 0.0, 0.1), speed=0.1)
-    motion.start()
+    begin(motion)
     cell.bench.run(0.3)
     cell.arm(ARM).fault = "somebody came too near"
     with pytest.raises(SkillFailure, match="too near"):

@@ -7,6 +7,7 @@ import pytest
 from one_arm import ARM, BOARD, OneArm
 from rig import GAINS, HOMES, moved_by
 
+from simulation.cells import begin
 from skillc_runtime.motion.pose import Pose, log
 from skillc_runtime.primitives.arc import MoveArc
 from skillc_runtime.primitives.move import MoveLinear
@@ -28,10 +29,10 @@ def cell(robot):
 def planned(cell, motion):
     """Start a motion; return what its reference is to be at 500 times, the arm's base being the world."""
     found, driver = [], cell.bench.driver
-    driver.motion.move_along = found.append
-    motion.start()
-    del driver.motion.move_along
-    (trajectory,) = found
+    driver.motion.follow_tool = found.append
+    begin(motion)
+    del driver.motion.follow_tool
+    trajectory = found[0].in_base
     times = np.linspace(0.0, trajectory.duration, 500)
     return [trajectory.at(time) for time in times], times[1]
 

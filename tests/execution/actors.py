@@ -10,7 +10,7 @@ import numpy as np
 from msgspec import structs
 
 from safety.faults import CLASSES, Pushing, arguments, wanted
-from simulation.cells import vocabulary
+from simulation.cells import begin, vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
@@ -84,7 +84,7 @@ class Acting(Primitive):
         self._calls.append("start")
         if self.script.ending == "refuse":
             raise SkillFailure("it refuses")
-        self._inner.start()
+        begin(self._inner)
         if self.script.ending == "crash at start":
             raise RuntimeError("it broke")
 

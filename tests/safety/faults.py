@@ -11,7 +11,7 @@ from pkgutil import walk_packages
 
 import numpy as np
 
-from simulation.cells import LAB, world
+from simulation.cells import LAB, begin, world
 from skillc_model import tree
 from skillc_model.conditions import Compare, Individual, Literal, PropertyOf
 from skillc_runtime import primitives
@@ -170,7 +170,7 @@ class Breaking(Primitive):
 
     def start(self) -> None:
         with suppress(SkillFailure):
-            self._inner.start()
+            begin(self._inner)
         self._break("start")
 
     def tick(self) -> Status:

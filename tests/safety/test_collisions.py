@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from safety.test_faults import is_safe
-from simulation.cells import ARM, LAB, cell, run, world
+from simulation.cells import ARM, LAB, begin, cell, run, world
 from simulation.test_link_contacts import BESIDE_THE_ELBOW, hidden_shelf, shelf
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Pose
@@ -79,7 +79,7 @@ def test_a_line_with_a_link_through_a_known_board_is_refused_before_it_moves(mot
     with pytest.raises(
         SkillFailure, match=r"way of the tool lab:Iiwa-1 link\d would touch lab:Shelf-1 and overlap it by"
     ):
-        line.start()
+        begin(line)
     there.advance(0.3)
     assert np.abs(there.arm(ARM["iiwa_table"]).measured.q - start).max() < 0.01
     assert there.ground_truth.contacts() == ()
@@ -94,7 +94,7 @@ def test_fingers_may_go_where_they_touch_something() -> None:
     there = cell("iiwa_table")
     tool = there.arm(ARM["iiwa_table"]).measured.pose
     target = Pose(np.array([tool.position[0], tool.position[1], 0.74]), tool.rotation)
-    MoveLinear(there, arm=ARM["iiwa_table"], target=target, speed=0.1).start()
+    begin(MoveLinear(there, arm=ARM["iiwa_table"], target=target, speed=0.1))
     assert not there.arm(ARM["iiwa_table"]).motion.done
 
 

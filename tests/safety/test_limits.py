@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from safety.test_faults import is_safe
-from simulation.cells import ARM, GRIPPER, LAB, SCENES, cell, run, world
+from simulation.cells import ARM, GRIPPER, LAB, SCENES, begin, cell, run, world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
@@ -156,7 +156,7 @@ def test_motions_that_leave_the_workspace_are_refused_before_anything_moves(scen
     )
     for each in refused:
         with pytest.raises(SkillFailure, match=r"its tool would be \d+ mm outside the arm's workspace, at \("):
-            each.start()
+            begin(each)
     with pytest.raises(Infeasible, match="outside the arm's workspace"):
         arm.motion.move_joints(upwards, 0.5)
     there.advance(0.3)

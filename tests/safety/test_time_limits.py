@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from safety.faults import things
-from simulation.cells import ARM, ERASER, GRIPPER, LAB, cell, grasp, reach_for_eraser, run
+from simulation.cells import ARM, ERASER, GRIPPER, LAB, begin, cell, grasp, reach_for_eraser, run
 from skillc_runtime.backends.mujoco import gripper as fingers
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.base import SimulatedBase
@@ -87,7 +87,7 @@ def test_a_base_that_is_stuck_fails(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_an_arm_that_stands_before_the_end_of_its_motion_fails() -> None:
     there = cell(IIWA)
     move = beside(there, IIWA, 0.0, 0.0, -0.1)
-    move.start()
+    begin(move)
     there.advance(0.2)
     assert move.tick() is Status.RUNNING
     there.arm(ARM[IIWA]).motion.pause()
@@ -98,7 +98,7 @@ def test_an_arm_that_stands_before_the_end_of_its_motion_fails() -> None:
 def test_a_motion_that_is_paused_for_a_short_time_goes_on() -> None:
     there = cell(IIWA)
     move = beside(there, IIWA, 0.0, 0.0, -0.1)
-    move.start()
+    begin(move)
     there.advance(0.2)
     move.pause()
     there.advance(3.0)

@@ -14,6 +14,7 @@ from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.computation import compute_here
 from skillc_runtime.primitives.grasp import Grasp
 from skillc_runtime.primitives.gripper import ParallelGripper, ThreeFingerGripper
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
@@ -57,8 +58,14 @@ def cell(scene: str, seed: int = 0) -> SimulatedCell:
     return SimulatedCell(WorldModel(world(scene)), seed)
 
 
-def run(cell: SimulatedCell, primitive: Primitive, limit_s: float = 30.0) -> None:
+def begin(primitive: Primitive) -> None:
+    """Start a primitive, and compute here what a tree lets it compute beside its ticks."""
     primitive.start()
+    compute_here(primitive)
+
+
+def run(cell: SimulatedCell, primitive: Primitive, limit_s: float = 30.0) -> None:
+    begin(primitive)
     for _ in range(round(limit_s / 0.02)):
         if primitive.tick() is Status.SUCCESS:
             return

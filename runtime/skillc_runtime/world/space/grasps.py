@@ -6,6 +6,7 @@ A hand points along z of its frame, and its fingers close along y. The tool cent
 from __future__ import annotations
 
 from contextlib import suppress
+from functools import lru_cache
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -46,6 +47,7 @@ ALONG_AXIS = 0.9
 """The cosine up to which two axes count as parallel."""
 
 
+@lru_cache(maxsize=16)
 def find_grasp(state: WorldState, gripper: str, thing: str, way: str) -> GraspCandidate:
     """Return the grasp in a way, of `WAYS`; a stated GraspingPose is the only one, "above".
 
@@ -125,6 +127,7 @@ def _stated(state: WorldState, gripper: str, thing: str, stated: str) -> GraspCa
     return GraspCandidate(tool, width_m, min(width_m + OPENING_CLEARANCES_M[0], widest))
 
 
+@lru_cache(maxsize=16)
 def _read_scene(state: WorldState, gripper: str, thing: str, with_movable: bool = True) -> GraspScene:
     """Return what a grasp is derived from; what a body is believed to overlap says nothing about room around it."""
     body = read_body(state, thing)

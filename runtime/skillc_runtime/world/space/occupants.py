@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -44,6 +45,7 @@ class Occupant:
         return tuple(OrientedBox.of(each.place, np.array(each.half)) for each in self.solids)
 
 
+@lru_cache(maxsize=4)
 def read_occupants(state: WorldState) -> tuple[Occupant, ...]:
     """Return everything that takes up room, in order of IRI; without what has no known pose or an impossible shape."""
     sized = sorted({each for name in SIZE if (values := state.stored.get(name)) for each, _ in values.items()})
