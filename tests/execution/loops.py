@@ -122,12 +122,17 @@ class Watched:
         assert request.answered
         return request.refused
 
+    def tick(self) -> None:
+        """Do one tick; wait for what skills compute, if nothing else goes on."""
+        if not self.loop.tick() and self.run.computing:
+            self.loop.wait(10.0)
+
     def until(self, state: str, ticks: int = 2000) -> Watched:
         """Tick until the run is in a state."""
         for _ in range(ticks):
             if self.run.state == state:
                 return self
-            self.loop.tick()
+            self.tick()
         raise AssertionError(f"it is {self.run.state} ({self.run.reason}), and not {state}")
 
     def until_end_or(self, state: str, ticks: int = 2000) -> Watched:
@@ -135,7 +140,7 @@ class Watched:
         for _ in range(ticks):
             if self.run.ended or self.run.state == state:
                 return self
-            self.loop.tick()
+            self.tick()
         raise AssertionError(f"it is {self.run.state} ({self.run.reason}), and neither {state} nor has it ended")
 
     def until_end(self, ticks: int = 20000) -> str:
@@ -143,7 +148,7 @@ class Watched:
         for _ in range(ticks):
             if self.run.end is not None:
                 return self.run.end
-            self.loop.tick()
+            self.tick()
         raise AssertionError(f"it does not end; it is {self.run.state}: {self.run.reason}")
 
 

@@ -124,8 +124,8 @@ class _Player:
         while self.difference is None and not self.run.ended and (self._is_whole or self._remain):
             while self._inputs and self._inputs[0].tick <= self.loop.ticks:
                 self._feed(self._inputs.popleft())
-            happened = self.loop.tick()
-            if not happened and self.loop.is_computing:
+            computing, happened = self.loop.is_computing, self.loop.tick()
+            if computing and not happened:
                 self.loop.wait(COMPUTING_S)
             else:
                 self._find_missing(at_end=not happened)

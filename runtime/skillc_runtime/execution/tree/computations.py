@@ -25,8 +25,9 @@ class Computations:
         return any(each.poll() is None for each in self._running.values())
 
     def wait(self, seconds: float) -> None:
-        """Wait for up to `seconds` of wall time for a result."""
-        wait_for_any([each.worker for each in self._running.values() if each.poll() is None], seconds)
+        """Wait for up to `seconds` of wall time for a result, or until the time of a computation is up."""
+        running = [each for each in self._running.values() if each.poll() is None]
+        wait_for_any([each.worker for each in running], min([seconds, *(each.limit.remaining_s for each in running)]))
 
     def proceed(self, primitive: Primitive) -> bool:
         """Let a primitive go on if what it waits for has arrived; return whether it still computes.
