@@ -1,6 +1,7 @@
 """What a primitive of your own is made of; `docs/how-to/own-primitive.md` shows one."""
 
 from skillc_runtime.devices.cell import Cell
+from skillc_runtime.primitives.computation import Computation
 from skillc_runtime.primitives.contradiction import contradict, contradict_place
 from skillc_runtime.primitives.locate import Locate
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
@@ -9,6 +10,7 @@ from skillc_runtime.world.state.labelled import Quantity
 
 __all__ = [
     "Cell",
+    "Computation",
     "Locate",
     "Primitive",
     "Quantity",

@@ -44,7 +44,7 @@ def line(arm: VirtualArm, *way: float, turn: tuple[float, float, float] = (0.0, 
 def test_what_fits_stays_as_it_is(robot: tuple[VirtualArm, Array, ArmLimits]) -> None:
     arm, q, limits = robot
     motion = line(arm, 0.05, 0.1, -0.05, turn=(0.0, 0.2, 0.3))
-    assert slow_to_feasible(arm, motion, q, limits) is motion
+    assert slow_to_feasible(arm, motion, q, limits)[0] is motion
 
 
 def test_what_is_out_of_reach_is_told_with_the_place(robot: tuple[VirtualArm, Array, ArmLimits]) -> None:
@@ -66,10 +66,10 @@ def test_a_joint_that_would_leave_its_range_is_named(robot: tuple[VirtualArm, Ar
 def test_a_joint_that_would_be_too_fast_slows_the_motion_down(robot: tuple[VirtualArm, Array, ArmLimits]) -> None:
     arm, q, limits = robot
     motion, slow = line(arm, 0.0, 0.2, 0.0), replace(limits, velocity=np.full(q.size, 0.2))
-    slower = slow_to_feasible(arm, motion, q, slow)
+    slower, _ = slow_to_feasible(arm, motion, q, slow)
     assert isinstance(slower, SlowedTrajectory)
     assert slower.factor > 1.5
-    assert slow_to_feasible(arm, slower, q, replace(slow, velocity=slow.velocity * 1.05)) is slower
+    assert slow_to_feasible(arm, slower, q, replace(slow, velocity=slow.velocity * 1.05))[0] is slower
     half = slower.at(slower.duration / 2)
     there = motion.at(motion.duration / 2)
     assert np.allclose(half.pose.position, there.pose.position)

@@ -17,7 +17,7 @@ from skillc_runtime.execution.repeat import repeat_run
 from skillc_runtime.primitives.computation import Computation, Computing, compute_here
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording import commands
-from skillc_runtime.recording.events import Event
+from skillc_runtime.recording.events import Event, Note
 from skillc_runtime.world.state.labelled import Quantity
 from tree.library import Library, act, call, par, seq, world
 from tree.stage import Script, Scripted, Stage
@@ -75,7 +75,11 @@ class Thinking(Scripted):
             self.computing = self._think(WAYS[way]())
 
     def _think(self, wanted: Computation) -> Computing:
-        found = yield wanted
+        try:
+            found = yield wanted
+        finally:
+            if self.name.endswith("of a stubborn one"):
+                raise RuntimeError("it does not want to end")
         yield None
         self.stage.tell(f"found {found}", self.name)
 
@@ -160,6 +164,16 @@ def test_a_stop_ends_it_within_one_tick(kind: type[StagedCell]) -> None:
     assert endless.watched.request(commands.Stop("enough")) is None
     assert not is_alive(pid) and endless.stage.said("halt") == ["halt hang"]
     assert endless.watched.until_end() == "stopped" and endless.stage.now <= before + 0.011
+
+
+def test_what_does_not_want_to_end_is_halted_nevertheless() -> None:
+    stubborn = think(act("hang of a stubborn one"))
+    stubborn.tick(3)
+    pid = stubborn.worker()
+    stubborn.watched.request(commands.Stop("enough"))
+    assert not is_alive(pid) and stubborn.stage.said("halt") == ["halt hang of a stubborn one"]
+    (note,) = stubborn.watched.told(Note)
+    assert "could not be halted: RuntimeError: it does not want to end" in note.message
 
 
 def test_a_pause_lets_it_go_on_and_takes_the_result_afterwards() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import ClassVar
 
 from skillc_rdf.vocabulary.types import Position
@@ -88,13 +89,17 @@ class PrimitiveNode(Node):
         if self._running and self._primitive is not None:
             self._running = False
             self.context.active.discard(self._primitive)
-            try:
-                self.context.computations.cancel(self._primitive)
-                with foreign_code:
-                    self._primitive.halt(reason)
-            except FOREIGN_ERRORS as error:  # the other nodes must be halted too
-                self.context.note(f"{self.name} could not be halted: {describe_exception(error)}", self.id, self.source)
+            self._try_to_halt(partial(self.context.computations.cancel, self._primitive))
+            self._try_to_halt(partial(self._primitive.halt, reason))
         self.undo_now()
+
+    def _try_to_halt(self, halt: Callable[[], None]) -> None:
+        """Call a function; if it fails, that is told, since the other nodes must be halted too."""
+        try:
+            with foreign_code:
+                halt()
+        except FOREIGN_ERRORS as error:
+            self.context.note(f"{self.name} could not be halted: {describe_exception(error)}", self.id, self.source)
 
     def undo_now(self) -> None:
         """Release the primitive if it was not released yet."""
