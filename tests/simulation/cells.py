@@ -94,10 +94,10 @@ def grasp(cell: SimulatedCell, scene: str) -> None:
     )
 
 
-def lift(cell: SimulatedCell, scene: str) -> None:
-    """Go straight up by 10 cm."""
+def lift(cell: SimulatedCell, scene: str, height_m: float = 0.1) -> None:
+    """Go straight up."""
     target = cell.arm(ARM[scene]).motion.stopping_pose()
-    raised = Pose(target.position + np.array([0.0, 0.0, 0.1]), target.rotation)
+    raised = Pose(target.position + np.array([0.0, 0.0, height_m]), target.rotation)
     run(cell, MoveLinear(cell, arm=ARM[scene], target=raised, speed=0.2))
 
 

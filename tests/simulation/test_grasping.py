@@ -47,7 +47,7 @@ def release(there: SimulatedCell, scene: str) -> Release:
 
 
 @pytest.mark.parametrize("scene", HANDS)
-def test_a_grasped_eraser_is_lifted_and_let_go(scene: str) -> None:
+def test_a_grasped_eraser_is_lifted_and_let_go_where_something_carries_it(scene: str) -> None:
     there = at_the_eraser(scene)
     reach_for_eraser(there, scene)
     lying = eraser_height(there)
@@ -57,12 +57,19 @@ def test_a_grasped_eraser_is_lifted_and_let_go(scene: str) -> None:
     assert there.gripper(GRIPPER[scene]).holding == ERASER
     lift(there, scene)
     assert eraser_height(there) == pytest.approx(lying + 0.1, abs=0.002)
-    run(there, release(there, scene))
-    believed = pose(there.world.snapshot(), ERASER).position
-    assert believed[2] == pytest.approx(lying + 0.1, abs=0.002)
+    letting_go = release(there, scene)
+    with pytest.raises(SkillFailure, match="nothing supports lab:Eraser-1 where it should stand"):
+        run(there, letting_go)
+    letting_go.halt("failed")
+    with pytest.raises(SkillFailure, match="only Release lets it go"):
+        move_fingers(there, scene, 0.065)
     there.advance(0.5)
+    assert there.gripper(GRIPPER[scene]).holding == ERASER
+    assert eraser_height(there) == pytest.approx(lying + 0.07, abs=0.005), "it was lowered by 3 cm, and is held"
+    lift(there, scene, -0.065)
+    run(there, release(there, scene))
     assert there.gripper(GRIPPER[scene]).holding is None
-    assert eraser_height(there) < lying + 0.02
+    assert pose(there.world.snapshot(), ERASER).position[2] == pytest.approx(lying, abs=0.002)
 
 
 def test_a_held_thing_is_somewhere_in_the_hand() -> None:
@@ -111,6 +118,9 @@ def test_fingers_that_cannot_open_do_not_let_go() -> None:
     grasp(there, scene)
     hand, letting_go = there.gripper(GRIPPER[scene]), release(there, scene)
     letting_go.start()
+    while not hand.moving:
+        letting_go.tick()
+        there.advance(0.01)
     hand.stop()
     with pytest.raises(SkillFailure, match=r"came to rest 2\d mm open: lab:Eraser-1 is not free"):
         letting_go.tick()

@@ -63,6 +63,11 @@ class ComplianceControl:
         else:
             self._task.tool.restore(self._task.now)
 
+    @property
+    def released(self) -> bool:
+        """Whether any direction is released."""
+        return self._task.tool.compliance.released
+
     def yields_along(self, axis: Array) -> bool:
         """Tell whether a direction (3,) is released."""
         return self._task.joints is None and self._task.tool.compliance.yields(self._in_tool(axis))

@@ -81,7 +81,7 @@ def advance_approach(approach: Approach, speed: float, force_n: float, period: f
     def holds(condition: StopCondition) -> bool:
         match condition:
             case Standstill(share=share):
-                return speed < share * approach.speed
+                return abs(speed) < share * approach.speed
             case Contact(force_n=least_n):
                 return moved and force_n > least_n
             case Travel():

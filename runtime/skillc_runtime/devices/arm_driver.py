@@ -235,6 +235,11 @@ class ComplianceInterface(Protocol):
         """Undo the last release: hold the tool, along the released axis, where it is now. Abandons a motion."""
         ...
 
+    @property
+    def released(self) -> bool:
+        """Whether any direction is released."""
+        ...
+
     def yields_along(self, axis: Array) -> bool:
         """Tell whether a direction is released."""
         ...

@@ -14,6 +14,7 @@ from skillc_runtime.primitives.collision_free_motion import move_tool_along
 from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.touch_guard import RESISTANCE_N
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -24,8 +25,10 @@ class MoveArc(ArmMotion):
 
     targets = ("via", "target")
 
-    def __init__(self, cell: Cell, *, arm: str, via: Pose, target: Pose, speed: float) -> None:
-        super().__init__(cell, arm)
+    def __init__(
+        self, cell: Cell, *, arm: str, via: Pose, target: Pose, speed: float, resistance: float = RESISTANCE_N
+    ) -> None:
+        super().__init__(cell, arm, resistance)
         self._individual = arm
         self._via, self._target, self._speed = via, target, speed
 

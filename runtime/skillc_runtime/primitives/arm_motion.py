@@ -12,6 +12,7 @@ from skillc_runtime.primitives.known_limits import find_excess, find_place_outsi
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import STANDSTILL_S
+from skillc_runtime.primitives.touch_guard import RESISTANCE_N, TouchGuard
 from skillc_runtime.world.state.labelled import Quantity
 from skillc_runtime.world.state.terms import HAS_GRIPPER
 
@@ -28,7 +29,8 @@ MAX_SETTLING_S = 1.5
 class ArmMotion(Primitive):
     """A motion that `start_motion` gives to the driver of the arm.
 
-    `targets` are the parameters of poses and paths to which the tool goes; the arm is the parameter `arm`.
+    `targets` are the parameters of poses and paths to which the tool goes; the arm is the parameter `arm`. It stops at
+    the first touch, where something resists it with more than `resistance` N, unless the arm yields along an axis.
     """
 
     targets: ClassVar[tuple[str, ...]] = ()
@@ -40,10 +42,11 @@ class ArmMotion(Primitive):
         too_fast = find_excess(arguments, "speed", "m/s", ("arm", "speedLimit"), state)
         return too_fast or find_place_outside(arguments, cls.targets, "arm", state)
 
-    def __init__(self, cell: Cell, arm: str) -> None:
+    def __init__(self, cell: Cell, arm: str, resistance: float = RESISTANCE_N) -> None:
         super().__init__(cell)
         self.arm: ArmDriver = cell.arm(arm)
         self._individual = arm
+        self._guard = TouchGuard(cell, arm, resistance)
         self._ended: float | None = None
         self._moved_at = 0.0
 
@@ -52,15 +55,26 @@ class ArmMotion(Primitive):
         raise_fault(self.arm)
         self.computing = self._begin()
 
+    def is_near_end(self) -> bool:
+        """Whether the tool is so near its end that it has arrived even if it touches something."""
+        return False
+
     def start_motion(self) -> Computing:
         """Find the motion and give it to the arm; SkillFailure before anything moves."""
         raise NotImplementedError
 
     def tick(self) -> Status:
-        """Return SUCCESS when the arm has arrived; SkillFailure for a fault, or if it does not arrive in time."""
+        """Return SUCCESS when the arm has arrived.
+
+        SkillFailure for a fault, if it touches something, or if it does not arrive in time.
+        """
         compute_here(self)
         if (fault := self.arm.take_fault()) is not None:
             raise SkillFailure(fault + self._describe_held())
+        if (touched := self._guard.find_touch()) is not None:
+            if self.is_near_end():
+                return Status.SUCCESS
+            raise touched
         if not self.arm.motion.done:
             self._check_progress()
             return Status.RUNNING

@@ -10,6 +10,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.contradiction import contradict_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.support import SupportCheck
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
@@ -111,7 +112,10 @@ class Grasp(Primitive):
 
 
 class Release(Primitive):
-    """Opens the fingers; as soon as the object is free, the world model has the pose to which the arm brought it."""
+    """Lowers the object until something is felt to carry it, and opens the fingers; fails before that if nothing does.
+
+    As soon as the object is free, the world model has the pose to which the arm brought it.
+    """
 
     moves = MappingProxyType({"object": None})
     highlights = (("ends", "object", "released"),)
@@ -120,11 +124,12 @@ class Release(Primitive):
         super().__init__(cell)
         self._arm, self._gripper = cell.arm(arm), cell.gripper(gripper)
         self._hand, self._object, self._to = gripper, object, to
+        self._support = SupportCheck(cell, arm, object, to)
         self._free_at_m = self._opening = self._limit_s = self._ends = 0.0
-        self._face, self._freed = Pose.of((0.0, 0.0, 0.0)), False
+        self._face, self._carried, self._freed = Pose.of((0.0, 0.0, 0.0)), False, False
 
     def start(self) -> None:
-        """Start opening; SkillFailure if another object or none is held."""
+        """Start to feel what carries the object; SkillFailure if another object or none is held."""
         state = self.cell.world.snapshot()
         held, short = self._gripper.holding, state.vocabulary.short
         if held != self._object:
@@ -135,13 +140,19 @@ class Release(Primitive):
         opening = RELEASE_CLEARANCE_M + (width if isinstance(width, float) else self._gripper.opening_m)
         self._opening = min(opening, self._gripper.max_opening_m)
         self._limit_s = finger_limit_s(state, self._hand, self._gripper.max_opening_m)
-        self._move()
+        self._support.start()
 
     def tick(self) -> Status:
-        """Detach the object once it is free; return SUCCESS when the fingers are open.
+        """Open once the object is carried, and detach it once it is free; return SUCCESS when the fingers are open.
 
-        SkillFailure if they do not come to rest, or the object is not free then.
+        SkillFailure if nothing carries it, if they do not come to rest, or if the object is not free then.
         """
+        if not self._carried:
+            self._carried = self._support.is_carried()
+            if self._carried:
+                self._support.end()
+                self._move()
+            return Status.RUNNING
         if not self._freed and self._gripper.opening_m >= self._free_at_m:
             self._detach()
         if self._gripper.moving and self.cell.now <= self._ends:
@@ -164,16 +175,9 @@ class Release(Primitive):
         return Status.SUCCESS
 
     def halt(self, reason: str) -> None:
-        """Stop the fingers."""
+        """Stop arm and fingers."""
+        self._support.end()
         self._gripper.stop()
-
-    def pause(self) -> None:
-        """Stop the fingers."""
-        self._gripper.stop()
-
-    def resume(self) -> None:
-        """Open further."""
-        self._move()
 
     def _move(self) -> None:
         self._ends = self.cell.now + self._limit_s

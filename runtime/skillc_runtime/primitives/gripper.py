@@ -36,7 +36,14 @@ class ParallelGripper(Primitive):
         self._limit_s = self._ends = 0.0
 
     def start(self) -> None:
-        """Start moving; SkillFailure if the fingers cannot open so far."""
+        """Start moving; SkillFailure if the fingers cannot open so far, or would let go of what they hold."""
+        held = self._gripper.holding
+        if held is not None and self._opening > self._gripper.opening_m + TOLERANCE_M:
+            raise SkillFailure(
+                "{gripper} holds {object}: only Release lets it go, where something carries it",
+                gripper=self._label,
+                object=label(held, self.cell.world.snapshot().vocabulary),
+            )
         if _is_wider(self._opening, self._gripper.max_opening_m):
             raise _too_wide(self._label, self._gripper.max_opening_m, self._opening)
         self._limit_s = finger_limit_s(self.cell.world.snapshot(), self._name, self._gripper.max_opening_m)

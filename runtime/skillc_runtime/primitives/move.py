@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from skillc_runtime.devices.arm_driver import MotionModel
-from skillc_runtime.motion.path import path_through
-from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.path import Path, join_segments, path_through
+from skillc_runtime.motion.pose import Array, Pose, exp, log
+from skillc_runtime.motion.segments import MotionLimits, segment_between
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free, move_tool_along
 from skillc_runtime.primitives.computation import Computing
+from skillc_runtime.primitives.known_limits import CORRECTION_M
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.touch_guard import RESISTANCE_N
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.labelled import LabelledVector, Quantity
 from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
@@ -31,6 +34,16 @@ RANDOM_SEEDS = 8
 
 ROOM_RAD = 0.3
 """How far from the ends of their ranges the joints of these postures are, if there are such."""
+
+GENTLE_M_S, GENTLE_M = 0.03, CORRECTION_M + 0.01
+"""The greatest speed of a tool, and from how far before the end of a line, where it may touch what is nearer than it is
+believed to be."""
+
+ARRIVED_M = 0.005
+"""A tool that touches something nearer than this to the end of its line has arrived: it was to be put there."""
+
+FORWARDS = 0.7
+"""The cosine of the greatest angle between the direction in which a tool points and one in which it goes forwards."""
 
 
 class MoveJoints(ArmMotion):
@@ -117,12 +130,15 @@ class TakePosture(ArmMotion):
 
 
 class MoveLinear(ArmMotion):
-    """Moves the tool to `target` along a straight line at `speed` m/s, rotating along the path."""
+    """Moves the tool to `target` along a straight line at `speed` m/s, rotating along the path.
+
+    A line forwards ends gently, so that what is nearer than it is believed to be is not hit hard.
+    """
 
     targets = ("target",)
 
-    def __init__(self, cell: Cell, *, arm: str, target: Pose, speed: float) -> None:
-        super().__init__(cell, arm)
+    def __init__(self, cell: Cell, *, arm: str, target: Pose, speed: float, resistance: float = RESISTANCE_N) -> None:
+        super().__init__(cell, arm, resistance)
         self._individual = arm
         self._target, self._speed = target, speed
 
@@ -130,8 +146,27 @@ class MoveLinear(ArmMotion):
         """Start the line from the stopping pose."""
         limits, motion = self.limits(self._speed), self.arm.motion
         yield from move_tool_along(
-            self.cell, self._individual, lambda: path_through([motion.stopping_pose(), self._target], limits)
+            self.cell, self._individual, lambda: _line_between(motion.stopping_pose(), self._target, limits)
         )
+
+    def is_near_end(self) -> bool:
+        """Whether the tool is at the end of its line, as exactly as that can be known."""
+        return float(np.linalg.norm(self.arm.measured.pose.position - self._target.position)) < ARRIVED_M
+
+
+def _line_between(start: Pose, target: Pose, limits: MotionLimits) -> Path:
+    """Return the line to a target, in the frame of both; forwards at most with GENTLE_M_S on its last GENTLE_M."""
+    way = target.position - start.position
+    length = float(np.linalg.norm(way))
+    if limits.speed <= GENTLE_M_S or float(way @ target.rotation[:, 2]) <= FORWARDS * length:
+        return path_through([start, target], limits)
+    gentle, share = replace(limits, speed=GENTLE_M_S), 1.0 - GENTLE_M / length
+    if share <= 0.0:
+        return path_through([start, target], gentle)
+    turn = exp(share * log(target.rotation @ start.rotation.T))
+    near = Pose(start.position + share * way, turn @ start.rotation)
+    pieces = [segment_between(start, near, limits), segment_between(near, target, gentle)]
+    return join_segments([start, near, target], pieces, limits, GENTLE_M)
 
 
 def _find_posture(state: WorldState, arm: str, name: str) -> Array:

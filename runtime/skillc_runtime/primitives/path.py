@@ -10,6 +10,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_tool_along
 from skillc_runtime.primitives.computation import Computing
+from skillc_runtime.primitives.touch_guard import RESISTANCE_N
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -21,8 +22,17 @@ class FollowPath(ArmMotion):
     activity = "follow-path"
     targets = ("path",)
 
-    def __init__(self, cell: Cell, *, arm: str, path: Sequence[Pose], speed: float, blend: float) -> None:
-        super().__init__(cell, arm)
+    def __init__(
+        self,
+        cell: Cell,
+        *,
+        arm: str,
+        path: Sequence[Pose],
+        speed: float,
+        blend: float,
+        resistance: float = RESISTANCE_N,
+    ) -> None:
+        super().__init__(cell, arm, resistance)
         self._individual = arm
         self._poses, self._speed, self._blend = path, speed, blend
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from skillc_runtime.primitives.compliance import Push
+import numpy as np
+
+from skillc_runtime.primitives.compliance import Push, ReleaseAxis
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.world.state.labelled import Quantity, label
 
@@ -12,8 +14,17 @@ if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
     from skillc_runtime.motion.pose import Array
 
-APPROACH_M_S = 0.02
+APPROACH_M_S: Final = 0.02
 """How fast a held thing is lowered."""
+
+SUPPORT_N, SUPPORT_M = 4.0, 0.03
+"""With which force it is felt whether something carries a held thing, and how far it is lowered for that."""
+
+SINKING_M_S: Final = 0.005
+"""A thing that sinks faster than this while it is pressed down is not carried."""
+
+RISE_M: Final = 0.005
+"""How far a thing rises at most while it is lowered, unless it is lighter than the arm believes."""
 
 
 class PressOnSupport(Push):
@@ -28,12 +39,12 @@ class PressOnSupport(Push):
         self, cell: Cell, *, arm: str, along: Array, object: str, to: str, force: float, travel: float
     ) -> None:
         super().__init__(cell, arm=arm, along=along, force=force, travel=travel, approach=APPROACH_M_S)
-        self._object, self._to, self._travel = object, to, travel
+        self._object, self._to, self._along, self._travel = object, to, along, travel
 
     def tick(self) -> Status:
         """Return SUCCESS once the object presses on its support; SkillFailure if nothing supports it."""
         try:
-            return super().tick()
+            return self._tick_unless_sinking()
         except SkillFailure as failure:
             words = self.cell.world.snapshot().vocabulary
             raise SkillFailure(
@@ -44,3 +55,51 @@ class PressOnSupport(Push):
                 reason=str(failure),
                 travel=Quantity(self._travel, "m"),
             ) from failure
+
+    def _tick_unless_sinking(self) -> Status:
+        status = super().tick()
+        sinks = -float(self._along @ self.arm.measured.velocity[:3]) > SINKING_M_S
+        return Status.RUNNING if sinks else status
+
+
+class SupportCheck:
+    """Feels whether something carries a held `object` at `to`: the arm yields, lowers it gently and presses on it."""
+
+    def __init__(self, cell: Cell, arm: str, object: str, to: str) -> None:
+        up = np.array([0.0, 0.0, 1.0])
+        self._yielding = ReleaseAxis(cell, arm=arm, along=up, stiffness=0.0)
+        self._press = PressOnSupport(cell, arm=arm, along=up, object=object, to=to, force=SUPPORT_N, travel=SUPPORT_M)
+        self._cell, self._arm, self._object = cell, cell.arm(arm), object
+        self._runs, self._height_m = False, 0.0
+
+    def start(self) -> None:
+        """Begin to lower it; SkillFailure, and nothing moves, if the arm cannot yield upwards."""
+        self._height_m = self._lifted_m
+        self._yielding.start()
+        self._runs = True
+        self._press.start()
+
+    def is_carried(self) -> bool:
+        """Whether something is felt to carry it; to be called in each tick.
+
+        SkillFailure if nothing does, or if the arm lifts it because it is lighter than the arm believes.
+        """
+        carried = self._press.tick() is Status.SUCCESS
+        if self._lifted_m - self._height_m > RISE_M:
+            raise SkillFailure(
+                "the arm does not feel whether something carries {object}: it rises while it is lowered, so it weighs "
+                "less than is known",
+                object=label(self._object, self._cell.world.snapshot().vocabulary),
+            )
+        return carried
+
+    @property
+    def _lifted_m(self) -> float:
+        return float(self._arm.measured.pose.position[2])
+
+    def end(self) -> None:
+        """Neither press nor yield any more."""
+        if self._runs:
+            self._runs = False
+            self._press.release()
+            self._yielding.release()

@@ -42,6 +42,11 @@ class OrientedBox:
         local = (points - self.middle.position) @ self.middle.rotation
         return float((np.abs(local) - self.half).max())
 
+    def distance(self, points: Array) -> float:
+        """Return how far the nearest of points (n, 3) m, in the world, is from the box, in m; 0 inside."""
+        local = (points - self.middle.position) @ self.middle.rotation
+        return float(np.linalg.norm(np.maximum(np.abs(local) - self.half, 0.0), axis=1).min())
+
     def height_at(self, x: float, y: float) -> float | None:
         """Return the height in m of the top over a point (x, y) in m, both in the world; None if it is not over it."""
         top, bottom = inf, -inf

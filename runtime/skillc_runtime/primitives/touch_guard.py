@@ -1,0 +1,128 @@
+"""Stops an arm that meets something on its way, and says at which height and what is believed to be there."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.working_face import working_face
+from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import size
+from skillc_runtime.world.space.hand_shape import read_hand_shape
+from skillc_runtime.world.space.occupants import read_occupants
+from skillc_runtime.world.space.oriented_box import CORNERS
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.labelled import LabelledValue, Quantity, label
+from skillc_runtime.world.state.terms import HAS_GRIPPER
+
+if TYPE_CHECKING:
+    from skillc_runtime.devices.cell import Cell
+
+RESISTANCE_N: Final = 15.0
+"""The greatest force against a motion unless it is stated: more than arms feel by mistake, from noise or a wrong weight
+of what they hold."""
+
+MOVING_M_S: Final = 0.001
+"""A slower reference has no direction."""
+
+UPWARDS: Final = 0.7
+"""The height of a direction, 1 for straight up, from which on a weight resists a motion."""
+
+KNOWN_M: Final = 0.05
+"""How far what is touched may be from where something is believed to be for that to be named."""
+
+
+class TouchGuard:
+    """Watches that nothing resists the motions of an arm with more than `limit_n`, unless it yields along an axis.
+
+    An arm feels it with a force sensor. Without one it feels it by the deviation from its reference, while it is led
+    along lines.
+    """
+
+    def __init__(self, cell: Cell, arm: str, limit_n: float) -> None:
+        self._cell, self._individual, self._arm, self._limit_n = cell, arm, cell.arm(arm), limit_n
+        self._way: Array = np.zeros(3)
+
+    def find_touch(self) -> SkillFailure | None:
+        """Stop the arm if something resists, and return what is touched; else None."""
+        if self._arm.compliance.released:
+            return None
+        velocity = self._arm.motion.path.twist[:3]
+        speed = float(np.linalg.norm(velocity))
+        if speed > MOVING_M_S:
+            self._way = velocity / speed
+        resistance_n = -float(self._arm.measured.wrench[:3] @ self._way)
+        if resistance_n <= self._limit_n:
+            return None
+        self._hold_here()
+        return self._describe(resistance_n)
+
+    def _hold_here(self) -> None:
+        """Hold the tool where it is along its way, so that it does not press on what it touches."""
+        self._arm.motion.stop()
+        self._arm.compliance.release(self._way)
+        self._arm.compliance.restore()
+
+    def _describe(self, resistance_n: float) -> SkillFailure:
+        words = self._cell.world.snapshot().vocabulary
+        thing = next(filter(None, (self._cell.gripper(each).holding for each in self._grippers)), None)
+        points = self._tips if thing is None else self._corners_of(thing)
+        ahead = points @ self._way
+        height_m = float(points[ahead > ahead.max() - KNOWN_M / 10][:, 2].mean())
+        named: dict[str, LabelledValue] = {}
+        nearest, far_m = self._find_nearest(points)
+        if far_m > KNOWN_M:
+            there = "nothing is known to be there"
+        else:
+            there, named = "{other} is believed to be {far:.0f mm} from there", {"other": label(nearest, words)}
+        if thing is not None and self._way[2] > UPWARDS:
+            there += ", or it weighs more than is known"
+        return SkillFailure(
+            "{touching} touches something at a height of {height:.3f} and meets {force:.0f}: " + there,
+            touching=label(thing or next(iter(self._grippers), self._individual), words),
+            height=Quantity(height_m, "m"),
+            force=Quantity(resistance_n, "N"),
+            far=Quantity(far_m, "m"),
+            **named,
+        )
+
+    @property
+    def _grippers(self) -> list[str]:
+        return sorted(self._cell.world.snapshot().objects(self._individual, HAS_GRIPPER))
+
+    @property
+    def _tips(self) -> Array:
+        """The tool centre point and the tips of open fingers (n, 3) in m in the world."""
+        tool = self._arm.measured.pose
+        points = [tool.position]
+        for each in self._grippers:
+            with suppress(SheetError):
+                tip_m = read_hand_shape(self._cell.world.snapshot(), each).tip_m
+                half_m = self._cell.gripper(each).opening_m / 2
+                points += [tool.apply(np.array([0.0, side * half_m, tip_m])) for side in (-1.0, 1.0)]
+        return np.array(points)
+
+    def _corners_of(self, thing: str) -> Array:
+        """Return the corners (8, 3) in m in the world of the box of what is held; the tool's point without a size."""
+        tool, state = self._arm.measured.pose, self._cell.world.snapshot()
+        try:
+            extent = size(state, thing)
+        except FrameError:
+            return tool.position[None, :]
+        held = tool @ working_face(extent).inverse()
+        corners: Array = CORNERS * extent / 2 @ held.rotation.T + held.position
+        return corners
+
+    def _find_nearest(self, points: Array) -> tuple[str, float]:
+        """Return what is believed to be nearest to one of points (n, 3) in m, and how far it is from there in m."""
+        found = [
+            (box.distance(points), each.individual)
+            for each in read_occupants(self._cell.world.snapshot())
+            for box in each.boxes
+        ]
+        far_m, nearest = min(found, default=(np.inf, ""))
+        return nearest, float(far_m)
