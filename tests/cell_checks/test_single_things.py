@@ -48,9 +48,10 @@ PEG = """lab:Peg a contact:Peg ; skillc:hasSheet contact:peg-sheet ; contact:isS
          "    skillc:atX 2 ; skillc:atZ 0.05 .\n", None),
         (BLOCKS.format(cube=CUBE, x=1.9) + f"lab:Plank a skiros:Product ; {PLANK} ; skillc:on lab:Floor ;\n"
          "    skillc:atX 2 ; skillc:atZ 0.05 .\n", "is at least 62 mm beyond lab:Right"),
-        (PLACING.format(z=0.75), None),
+        (PLACING.format(z=0.71), None),
+        (PLACING.format(z=0.75), "nothing supports what is put at lab:Placing: lab:Table is 50 mm below it"),
         (PLACING.format(z=0.6), "the pose lab:Placing is 100 mm inside lab:Table"),
-        (PLACING.format(z=1.0), "nothing supports what is put at lab:Placing: lab:Table is 0.30 m below it"),
+        (PLACING.format(z=1.0), "nothing supports what is put at lab:Placing: lab:Table is 300 mm below it"),
         (PEG.format(z=0.06, kg=0.2, width=0.02), None),
         (PEG.format(z=0.07, kg=0.2, width=0.02), "lab:Peg.skiros:SizeZ is 0.07 m, and its model in contact:peg-sheet"),
         (PEG.format(z=0.06, kg=0.3, width=0.02), "lab:Peg.skiros:Weight is 0.3 kg"),

@@ -59,6 +59,9 @@ class ArmMotion(Primitive):
         """Whether the tool is so near its end that it has arrived even if it touches something."""
         return False
 
+    def note_touch(self) -> None:
+        """Write what follows from a touch on the way to the world model."""
+
     def start_motion(self) -> Computing:
         """Find the motion and give it to the arm; SkillFailure before anything moves."""
         raise NotImplementedError
@@ -74,6 +77,7 @@ class ArmMotion(Primitive):
         if (touched := self._guard.find_touch()) is not None:
             if self.is_near_end():
                 return Status.SUCCESS
+            self.note_touch()
             raise touched
         if not self.arm.motion.done:
             self._check_progress()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -19,9 +20,12 @@ from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.known_limits import CORRECTION_M
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.primitives.touch_guard import RESISTANCE_N
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.labelled import LabelledVector, Quantity
-from skillc_runtime.world.state.terms import HAS_POSTURE, HAS_SHEET, POSTURE_NAME
+from skillc_runtime.world.state.terms import HAS_GRIPPER, HAS_POSTURE, HAS_SHEET, IS_TAKEN, PLACING_POSE, POSTURE_NAME
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -38,6 +42,9 @@ ROOM_RAD = 0.3
 GENTLE_M_S, GENTLE_M = 0.03, CORRECTION_M + 0.01
 """The greatest speed of a tool, and from how far before the end of a line, where it may touch what is nearer than it is
 believed to be."""
+
+ABOVE_PLACE_M = 0.02
+"""A line that ends nearer than this to a placing pose was to put something there."""
 
 ARRIVED_M = 0.005
 """A tool that touches something nearer than this to the end of its line has arrived: it was to be put there."""
@@ -152,6 +159,22 @@ class MoveLinear(ArmMotion):
     def is_near_end(self) -> bool:
         """Whether the tool is at the end of its line, as exactly as that can be known."""
         return float(np.linalg.norm(self.arm.measured.pose.position - self._target.position)) < ARRIVED_M
+
+    def note_touch(self) -> None:
+        """Write that placing poses are taken to which something held was to go."""
+        state = self.cell.world.snapshot()
+        holds = any(self.cell.gripper(each).holding for each in state.objects(self._individual, HAS_GRIPPER))
+        taken = [SetProperty(each, IS_TAKEN, True) for each in _placing_poses_at(state, self._target)] if holds else []
+        if taken:
+            self.cell.world.commit(taken, "MoveLinear", "sensed")
+
+
+def _placing_poses_at(state: WorldState, target: Pose) -> Iterator[str]:
+    """Yield the placing poses that the tool was to reach, or to come down on from a target that close above."""
+    for each in sorted(state.instances(PLACING_POSE)):
+        with suppress(FrameError):
+            if np.linalg.norm(pose(state, each).position - target.position) < ABOVE_PLACE_M:
+                yield each
 
 
 def _line_between(start: Pose, target: Pose, limits: MotionLimits) -> Path:

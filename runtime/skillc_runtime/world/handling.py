@@ -16,8 +16,9 @@ from skillc_runtime.world.space.free_places import free_hand_pose, pose_in_hand
 from skillc_runtime.world.space.grasp_geometry import APPROACH_M
 from skillc_runtime.world.space.grasps import find_grasp, stated_pose
 from skillc_runtime.world.space.grip_force import grasp_force_n
+from skillc_runtime.world.space.placing_poses import find_placing_pose
 from skillc_runtime.world.space.supports import clearance_m
-from skillc_runtime.world.state.terms import APPROACH_POSE, HELD_SIDEWAYS, PLACING_POSE
+from skillc_runtime.world.state.terms import APPROACH_POSE, HELD_SIDEWAYS
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -55,11 +56,11 @@ def grasp_force(state: WorldState, gripper: str, thing: str) -> float:
 
 
 def place_pose(state: WorldState, arm: str, gripper: str, thing: str, to: str) -> Pose:
-    """Return where the held thing, the tool, stands at a place: as stated, else free beside what is known to be there.
+    """Return where the held thing, the tool, stands at a place: at the first stated pose that is free.
 
-    PlaceError if it cannot be put down there.
+    If none is stated, free beside what is known to be there. PlaceError if it cannot be put down there.
     """
-    stated = stated_pose(state, to, PLACING_POSE)
+    stated = find_placing_pose(state, thing, to)
     if stated is not None:
         return pose(state, stated)
     hand = free_hand_pose(state, arm, gripper, thing, to)

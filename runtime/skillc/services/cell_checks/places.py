@@ -14,10 +14,10 @@ from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import moves_with
 from skillc_runtime.world.space.free_places import Lack, PlaceError
-from skillc_runtime.world.space.grasps import stated_pose
 from skillc_runtime.world.space.grip_force import GraspError
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.space.place_foresight import place_problem
+from skillc_runtime.world.space.placing_poses import find_placing_pose
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import (
@@ -29,7 +29,6 @@ from skillc_runtime.world.state.terms import (
     LOCATION,
     MANIPULATABLE,
     MOBILE_ROBOT,
-    PLACING_POSE,
     SIZE,
     TRAVEL,
 )
@@ -111,9 +110,13 @@ def _is_place(state: WorldState, individual: str) -> bool:
 def _find_problem(state: WorldState, thing: str, container: str) -> PlaceError | None:
     """Return why no arm can put a thing into a container; None if one can, or if that is not known."""
     hands = [(arm, hand) for arm in state.instances(ARM_DEVICE) for hand in state.objects(arm, HAS_GRIPPER)]
-    if stated_pose(state, container, PLACING_POSE) is not None or state.value(container, TRAVEL) is not None:
-        return None
     problem: PlaceError | None = None
+    try:
+        stated = find_placing_pose(state, thing, container)
+    except PlaceError as taken:
+        return taken
+    if stated is not None or state.value(container, TRAVEL) is not None:
+        return None
     for arm, hand in sorted(hands):
         with suppress(GraspError):
             try:

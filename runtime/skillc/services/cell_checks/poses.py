@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-
-import numpy as np
+from typing import Final
 
 from skillc.services.cell_checks.facts import ROUNDED_M, placing_fact, severity_of
 from skillc_runtime.motion.pose import Array
@@ -16,13 +15,12 @@ from skillc_runtime.world.state.terms import (
     APPROACH_POSE,
     GRASPING_POSE,
     HAS_A,
-    MANIPULATABLE,
     PLACING_POSE,
 )
 from skillc_runtime.world.state.world_state import WorldState
 
-DROP_M = 0.1
-"""The least height in m over its support of a placing pose that cannot be meant: nothing may be dropped from there."""
+LOWERED_M: Final = 0.02
+"""How far below its placing pose a thing may come to stand when it is put down: nothing is let go in the air."""
 
 
 def check_poses(state: WorldState, occupants: tuple[Occupant, ...]) -> Iterator[SceneViolation]:
@@ -62,27 +60,18 @@ def _inside(state: WorldState, individual: str, point: Array, others: list[Occup
 def _unsupported(
     state: WorldState, individual: str, point: Array, occupants: tuple[Occupant, ...]
 ) -> Iterator[SceneViolation]:
-    """Yield a placing pose higher over what is below it than the greatest thing that could be put there."""
+    """Yield a placing pose under which nothing holds what is put there."""
     x, y, z = point.tolist()
-    fixed = [each for each in occupants if not each.movable]
-    tops = [(top, each.individual) for each in fixed for box in each.boxes if (top := box.height_at(x, y)) is not None]
+    boxes = [(box, each.individual) for each in occupants for box in each.boxes]
+    tops = [(top, individual) for box, individual in boxes if (top := box.height_at(x, y)) is not None]
     height, below = max(((top, one) for top, one in tops if top <= z + ROUNDED_M), default=(0.0, ""))
     gap_m, short = z - height, state.vocabulary.short
-    greatest_m = _greatest_m(occupants, state)
-    if gap_m <= greatest_m:
+    if gap_m <= LOWERED_M:
         return
     what = short(below) if below else "the floor"
-    message = (
-        f"nothing supports what is put at {short(individual)}: {what} is {gap_m:.2f} m below it, and the greatest "
-        f"thing to handle here is {greatest_m:.2f} m long"
-    )
-    cure = f"put it at most {greatest_m:.2f} m over what holds things there, or give that a size"
+    message = f"nothing supports what is put at {short(individual)}: {what} is {1e3 * gap_m:.0f} mm below it"
+    cure = f"lower it by {1e3 * gap_m:.0f} mm, or give what holds things there its true place and size"
+    owners = tuple(sorted(state.subjects(HAS_A, individual)))
     yield SceneViolation(
-        individual, placing_fact(state, individual), "no-support", message, cure, severity_of(gap_m - greatest_m)
+        individual, placing_fact(state, individual), "no-support", message, cure, severity_of(gap_m), owners
     )
-
-
-def _greatest_m(occupants: tuple[Occupant, ...], state: WorldState) -> float:
-    """Return the length in m of the greatest thing to handle, at least DROP_M."""
-    handled = [each for each in occupants if state.is_a(each.individual, MANIPULATABLE)]
-    return max([DROP_M, *(float(np.max(each.high - each.low)) for each in handled)])
