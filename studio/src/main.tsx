@@ -13,8 +13,9 @@ import { followLease } from "./state/lease";
 import { followServer } from "./state/live";
 import { measureSamples } from "./state/signals";
 import { operation, session, told } from "./state/studio";
-import { handleKey } from "./views/keys";
-import { findSession, Login } from "./views/Login";
+import { arrive, followAsked } from "./views/arriving";
+import { handleKey, handleStop } from "./views/keys";
+import { Login } from "./views/Login";
 import { Workspace } from "./views/Workspace";
 
 function App() {
@@ -31,9 +32,11 @@ function App() {
 
 function LoggedIn() {
   useLayoutEffect(() => {
-    const ends = [measureSamples(), followServer(), followLease(), followBounds()];
+    const ends = [measureSamples(), followServer(), followLease(), followBounds(), followAsked()];
+    window.addEventListener("keydown", handleStop, true);
     document.addEventListener("keydown", handleKey);
     return () => {
+      window.removeEventListener("keydown", handleStop, true);
       document.removeEventListener("keydown", handleKey);
       ends.forEach((end) => end());
     };
@@ -47,5 +50,5 @@ Object.assign(window, { skillcStudio: { told, operation } });
 const root = document.getElementById("app");
 if (root !== null) render(<App />, root);
 window.addEventListener(LOGGED_OUT, () => (session.value = null));
-window.addEventListener("hashchange", () => void findSession());
-void findSession();
+window.addEventListener("hashchange", () => void arrive());
+void arrive();

@@ -24,6 +24,15 @@ WAITS = 3000
 OUT = Path(__file__).parents[2] / "out" / "studio"
 
 
+REST = """# Something that goes on until it is stopped.
+
+task rest {
+    scene "yard.ttl"
+    do seq { wait 600 s }
+}
+"""
+
+
 def write_many() -> str:
     """Return a task of WAITS steps, none of which takes long."""
     steps = "\n".join(f"        wait {1 + number % 2} ms" for number in range(WAITS))
@@ -52,9 +61,10 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture(scope="package")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    """A server of a yard whose library also asks a question."""
+    """A server of a yard whose library also asks a question, and has a task that goes on until it is stopped."""
     folder = tmp_path_factory.mktemp("studio")
     write_question(folder)
+    (folder / "rest.skill").write_text(REST, encoding="utf-8")
     with serving(folder) as running:
         warm_up(running)
         yield running

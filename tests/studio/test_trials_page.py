@@ -43,8 +43,8 @@ def test_the_worst_case_of_a_series_is_one_click_from_its_replay(
     expect(page.locator(".tree-row[aria-level='1'].is-success")).to_have_count(2)
     page.get_by_role("button", name="Back to the cell").click()
     page.locator(".series").first.click()
-    page.once("dialog", lambda dialog: dialog.accept())
     shown.get_by_role("button", name="Forget").click()
+    shown.get_by_role("button", name="Forget them").click()
     expect(shown).to_be_hidden()
     assert server.client.get(f"/trials/{begun}").status_code == 404
 

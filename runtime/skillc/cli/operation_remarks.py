@@ -27,7 +27,7 @@ def remark_going_on(operation: str) -> None:
     """Print to stderr that an operation goes on without who watched it."""
     from skillc.cli.console import print_remark
 
-    print_remark(f"{operation} goes on; `skillc attach` shows it, `skillc stop` stops it")
+    print_remark(f"{operation} goes on; `skillc attach` shows it, `skillc stop {operation}` stops it")
 
 
 def describe_state(status: OperationStatus) -> str:

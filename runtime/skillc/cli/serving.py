@@ -18,7 +18,13 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 def cell_options(function: Function) -> Function:
     """Add `--cell`, as `scenes`, `--state`, `--backend` and `--seed`: which cells a server has, and how."""
     options = (
-        click.option("--cell", "scenes", type=PATH, multiple=True, help="A scene to run as a cell. Can be repeated."),
+        click.option(
+            "--cell",
+            "scenes",
+            type=PATH,
+            multiple=True,
+            help="A scene to run as a cell, here or in the folder of the LIBRARY. Can be repeated.",
+        ),
         click.option(
             "--state", type=FOLDER, default=Path(".skillc"), show_default=True, help="Keep the state in this folder."
         ),

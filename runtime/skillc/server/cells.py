@@ -35,10 +35,12 @@ def choose_cells(
 ) -> ServedCells:
     """Return a cell for each scene, named like its file, or for the default scenes of the libraries' projects.
 
-    A cell has the library in whose folder its scene is, otherwise the first one. RequestError if there is no scene, or
-    two have the same name; DiagnosticsError if a library has errors.
+    A scene is here, in the folder of a library, or shipped. A cell has the library in whose folder its scene is,
+    otherwise the first one. RequestError if there is no scene, or two have the same name; DiagnosticsError if a
+    library has errors.
     """
-    wanted = [find_scene(each).resolve() for each in scenes or _default_scenes(libraries)]
+    folders = [each for each in libraries if each.is_dir() and each.resolve() != Path().resolve()]
+    wanted = [find_scene(each, folders).resolve() for each in scenes or _default_scenes(libraries)]
     opened = tuple(open_library(each, wanted) for each in libraries)
     if not wanted:
         raise RequestError("name the scene of a cell with --cell FILE")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -136,18 +136,22 @@ def source_texts(library: LibraryFiles) -> dict[str, Source]:
     return {each.path: each for each in shown}
 
 
-def find_scene(scene: Path) -> Path:
-    """Return a scene file: the path itself, or relative to the project here, or a shipped scene of that name."""
+def find_scene(scene: Path, folders: Sequence[Path] = ()) -> Path:
+    """Return a scene file: the path itself, or relative to the project here or to `folders`, or a shipped scene."""
     found = inspect_path(scene)
     if found.kind == "file":
         return scene
     root = projects.find_root(Path())
     if root is not None and inspect_path(root / scene).kind == "file":
         return Path(os.path.relpath(root / scene))
+    for each in folders:
+        if inspect_path(each / scene).kind == "file":
+            return each / scene
     try:
         return catalogue.scene_path(str(scene))
     except FileNotFoundError as error:
-        missing = f"there is no file {scene} here, and {error}"
+        here = " or in ".join(("here", *map(str, folders)))
+        missing = f"there is no file {scene} {here}, and {error}"
         raise RequestError(missing if found.kind == "missing" else f"{scene} {found.is_what}") from error
 
 

@@ -18,23 +18,26 @@ MAX_SCENES = 4
 
 @dataclass(frozen=True, slots=True)
 class StudioChoice:
-    """A library, the scenes of its cells, and the name of the task to begin with, empty for none."""
+    """A library, the scenes of its cells, and the names of the cell and the task to begin with, empty for none."""
 
     library: Path
     scenes: tuple[Path, ...]
+    cell: str = ""
     task: str = ""
 
 
 def choose_studio(what: str | None, scenes: Sequence[Path]) -> StudioChoice:
     """Return what `what` names: a library or a task, by default the library of the project here, or the wiping library.
 
-    Without `scenes` they are that of the task, or those of the library's tasks. RequestError if there is none such.
+    Without `scenes` they are that of the task, or those of the library's tasks. The cell to begin with is that of the
+    first scene, if anything is named. RequestError if there is none such.
     """
     if what is not None and not _is_library(what):
         return _choose_task(what, scenes)
     files = find_library(Path(what)) if what is not None else default_library()
     place = Path(what) if what is not None and Path(what).is_file() else files.root
-    return StudioChoice(place, tuple(scenes) or tuple(_find_scenes(files, tasks_of(files))))
+    found = tuple(scenes) or tuple(_find_scenes(files, tasks_of(files)))
+    return StudioChoice(place, found, found[0].stem if found and (what is not None or scenes) else "")
 
 
 def _is_library(what: str) -> bool:
@@ -50,7 +53,7 @@ def _choose_task(reference: str, scenes: Sequence[Path]) -> StudioChoice:
     found = tuple(scenes) or tuple(_find_scenes(files, (entries[name],)))
     if not found:
         raise RequestError(f"the task `{reference}` names no scene that exists; name one with --cell FILE")
-    return StudioChoice(files.root, found, name)
+    return StudioChoice(files.root, found, found[0].stem, name)
 
 
 def _find_scenes(files: LibraryFiles, tasks: Sequence[TaskEntry]) -> Iterator[Path]:

@@ -25,12 +25,15 @@ import type {
   WorldFacts,
   WorldWrite,
 } from "./types";
+import { Turns } from "./turns";
 
 /** The event that a request was refused because nobody is logged in any more. */
 export const LOGGED_OUT = "logged-out";
 
 const PREFIX = "/api/v1";
 const PATIENCE_MS = 90_000;
+/** Browsers have six connections to a server at once: two are left for Stop, and for other pages. */
+const turns = new Turns(4);
 
 /** A request that was refused, or did not arrive (`status` 0). */
 export class ApiError extends Error {
@@ -57,64 +60,98 @@ function address(path: string, query: Query = {}): string {
   return `${PREFIX}${path}${search && `?${search}`}`;
 }
 
-async function send(path: string, init: RequestInit): Promise<Response> {
+/** An answer, all of which has come. */
+interface Answer {
+  status: number;
+  content: ArrayBuffer;
+}
+
+async function send(path: string, init: RequestInit): Promise<Answer> {
+  let hasBegun = false;
   try {
-    return await fetch(path, {
-      credentials: "same-origin",
-      signal: AbortSignal.timeout(PATIENCE_MS),
-      ...init,
-    });
+    const response = await fetch(path, { credentials: "same-origin", ...init });
+    hasBegun = true;
+    return { status: response.status, content: await response.arrayBuffer() };
   } catch (error) {
     if (error instanceof DOMException && error.name === "TimeoutError")
       throw new ApiError(0, "the server did not answer in time");
-    throw new ApiError(0, "the server cannot be reached");
+    if (error instanceof DOMException && error.name === "AbortError")
+      throw new ApiError(0, "the answer is not needed any more");
+    throw new ApiError(0, hasBegun ? "the answer of the server was cut off" : "the server cannot be reached");
   }
 }
 
+/** Return what ends a request: its patience, and `signal` if there is one. */
+function endingWith(signal: AbortSignal | undefined): AbortSignal {
+  const patience = AbortSignal.timeout(PATIENCE_MS);
+  if (signal === undefined) return patience;
+  const either = new AbortController();
+  if (signal.aborted) either.abort();
+  for (const each of [patience, signal]) each.addEventListener("abort", () => either.abort(each.reason));
+  return either.signal;
+}
+
 type Headers = Record<string, string>;
+
+export interface Manner {
+  headers?: Headers;
+  /** What ends the request when its answer is not needed any more. */
+  signal?: AbortSignal;
+  /** Whether it waits for no other request. */
+  isUrgent?: boolean;
+}
 
 export async function request(
   method: string,
   path: string,
   body?: unknown,
-  headers: Headers = {},
-): Promise<Response> {
+  { headers = {}, signal, isUrgent = false }: Manner = {},
+): Promise<Answer> {
   const json: Headers = body === undefined ? {} : { "Content-Type": "application/json" };
   const content = body === undefined ? null : JSON.stringify(body);
-  const response = await send(path, { method, headers: { ...json, ...headers }, body: content });
-  if (response.status === 401) window.dispatchEvent(new Event(LOGGED_OUT));
-  if (!response.ok) throw await refusal(response);
-  return response;
+  const begin = (): Promise<Answer> =>
+    send(path, {
+      method,
+      headers: { ...json, ...headers },
+      body: content,
+      signal: endingWith(signal),
+      priority: isUrgent ? "high" : "auto",
+    });
+  const answer = await (isUrgent ? begin() : turns.take(begin));
+  // A secret that is refused says nothing about the session.
+  if (answer.status === 401 && headers["Authorization"] === undefined)
+    window.dispatchEvent(new Event(LOGGED_OUT));
+  if (answer.status >= 400) throw refusal(answer);
+  return answer;
 }
 
-async function refusal(response: Response): Promise<ApiError> {
+function refusal(answer: Answer): ApiError {
   try {
-    const problem = (await response.json()) as ProblemDetails;
-    return new ApiError(response.status, problem.detail);
+    return new ApiError(answer.status, (readJson(answer) as ProblemDetails).detail);
   } catch {
-    return new ApiError(response.status, response.statusText);
+    return new ApiError(answer.status, `the server answered with status ${answer.status}`);
   }
 }
 
-/** Return the body of an answer; ApiError if the connection ends before all of it has come. */
-async function whole<T>(body: Promise<T>): Promise<T> {
+function readJson({ content }: Answer): unknown {
   try {
-    return await body;
+    return JSON.parse(new TextDecoder().decode(content));
   } catch {
-    throw new ApiError(0, "the answer of the server was cut off");
+    throw new ApiError(0, "the answer of the server cannot be read");
   }
 }
-
-const readJson = async <T>(response: Response): Promise<T> => (await whole(response.json())) as T;
-const readBytes = (response: Response): Promise<ArrayBuffer> => whole(response.arrayBuffer());
 
 export async function read<T>(path: string, query: Query = {}): Promise<T> {
-  return readJson(await request("GET", address(path, query)));
+  return readJson(await request("GET", address(path, query))) as T;
 }
 
-async function write<T>(method: string, path: string, body?: unknown, headers: Headers = {}): Promise<T> {
-  const response = await request(method, address(path), body, headers);
-  return response.status === 204 ? (undefined as T) : readJson(response);
+async function write<T>(method: string, path: string, body?: unknown, manner: Manner = {}): Promise<T> {
+  const answer = await request(method, address(path), body, manner);
+  return answer.status === 204 ? (undefined as T) : (readJson(answer) as T);
+}
+
+async function readBytes(path: string): Promise<ArrayBuffer> {
+  return (await request("GET", address(path))).content;
 }
 
 export const part = encodeURIComponent;
@@ -141,8 +178,9 @@ export const api = {
   session: () => read<Session>("/session"),
   /** Log in with a token, or with a code that is good for one time; the browser keeps the cookie. */
   logIn: (secret: string) =>
-    write<undefined>("POST", "/session", undefined, { Authorization: `Bearer ${secret}` }),
+    write<undefined>("POST", "/session", undefined, { headers: { Authorization: `Bearer ${secret}` } }),
   logOut: () => write<undefined>("DELETE", "/session"),
+  cells: () => read<CellStatus[]>("/cells"),
   version: () => read<{ skillc: string; api: string }>("/version"),
   library: (cell: string) => read<LibraryDescription>(`/cells/${part(cell)}/library`),
   world: (cell: string, query: Query = {}) => read<WorldFacts>(`/cells/${part(cell)}/world`, query),
@@ -150,12 +188,12 @@ export const api = {
     read<WorldWrite[]>(`/cells/${part(cell)}/world/history`, query),
   edit: (cell: string, edits: string[], why: string) =>
     write<undefined>("POST", `/cells/${part(cell)}/world/edits`, { edits, why }),
-  plan: (cell: string, wish: PlanWish) => write<PlanPreview>("POST", `/cells/${part(cell)}/plans`, wish),
+  plan: (cell: string, wish: PlanWish, signal: AbortSignal) =>
+    write<PlanPreview>("POST", `/cells/${part(cell)}/plans`, wish, { signal }),
   /** Do something in a simulated twin of the cell; its recording can be played. */
   rehearse: (cell: string, wish: PlanWish) =>
     write<Rehearsal>("POST", `/cells/${part(cell)}/rehearsals`, { ...wish, record: true }),
-  rehearsalRecording: async (id: string) =>
-    readBytes(await request("GET", address(`/rehearsals/${part(id)}/recording`))),
+  rehearsalRecording: (id: string) => readBytes(`/rehearsals/${part(id)}/recording`),
   rehearsal: (id: string) => read<Rehearsal>(`/rehearsals/${part(id)}`),
   devices: (cell: string) => read<DeviceStatus[]>(`/cells/${part(cell)}/robots`),
   lease: (cell: string) => read<Lease>(`/cells/${part(cell)}/lease`),
@@ -172,10 +210,11 @@ export const api = {
   replayTrial: (id: string, seed: number) =>
     write<TrialReplay>("POST", `/trials/${part(id)}/replays/${seed}`),
   trialReplay: (id: string, seed: number) => read<TrialReplay>(`/trials/${part(id)}/replays/${seed}`),
-  trialRecording: async (id: string, seed: number) =>
-    (await request("GET", address(`/trials/${part(id)}/replays/${seed}/recording`))).arrayBuffer(),
+  trialRecording: (id: string, seed: number) => readBytes(`/trials/${part(id)}/replays/${seed}/recording`),
   submit: (cell: string, wanted: OperationRequest, key: string) =>
-    write<OperationStatus>("POST", `/cells/${part(cell)}/operations`, wanted, { "Idempotency-Key": key }),
+    write<OperationStatus>("POST", `/cells/${part(cell)}/operations`, wanted, {
+      headers: { "Idempotency-Key": key },
+    }),
   operations: (cell: string, query: Query = {}) =>
     read<OperationStatus[]>(`/cells/${part(cell)}/operations`, query),
   operation: (id: string) => read<OperationStatus>(`/operations/${part(id)}`),
@@ -183,10 +222,9 @@ export const api = {
     read<Envelope[]>(`/operations/${part(id)}/events`, { after, limit: 1000 }),
   command: (id: string, command: CommandBody) =>
     write<OperationStatus>("POST", `/operations/${part(id)}/commands`, command),
-  stop: (id: string, reason: string) =>
-    write<OperationStatus>("POST", `/operations/${part(id)}/stop`, { reason }),
-  stopCell: (cell: string, reason: string) =>
-    write<CellStatus>("POST", `/cells/${part(cell)}/stop`, { reason }),
+  /** Stop all that goes on in a cell. */
+  stop: (cell: string, reason: string) =>
+    write<CellStatus>("POST", `/cells/${part(cell)}/stop`, { reason }, { isUrgent: true }),
   setPace: (cell: string, factor: number | null) =>
     write<CellStatus>("PUT", `/cells/${part(cell)}/pace`, { factor }),
   acknowledge: (cell: string) => write<CellStatus>("POST", `/cells/${part(cell)}/acknowledge`),
@@ -204,12 +242,9 @@ export const api = {
   file: (library: string, path: string) => read<SourceText>(`/libraries/${part(library)}/file`, { path }),
   /** Write a file if it is still the one with the hash `base`; 412 otherwise. */
   writeFile: async (library: string, path: string, text: string, base: string): Promise<SourceText> => {
-    const response = await request("PUT", address(`/libraries/${part(library)}/file`, { path }), {
-      text,
-      base_hash: base,
-    });
-    return readJson(response);
+    const body = { text, base_hash: base };
+    const place = address(`/libraries/${part(library)}/file`, { path });
+    return readJson(await request("PUT", place, body)) as SourceText;
   },
-  recording: async (id: string) =>
-    readBytes(await request("GET", address(`/operations/${part(id)}/recording`))),
+  recording: (id: string) => readBytes(`/operations/${part(id)}/recording`),
 };

@@ -5,6 +5,7 @@ import type { OperationRequest, OperationStatus } from "../api/types";
 import { takeOperation } from "./live";
 import type { Selection } from "./selection";
 import * as studio from "./studio";
+import { describeRequest } from "./text";
 
 /** Do something that the server may refuse; what it says is shown. Return whether it was done. */
 export async function attempt(what: () => Promise<unknown>, done = ""): Promise<boolean> {
@@ -58,21 +59,43 @@ export async function start(request: OperationRequest, key: string): Promise<boo
   return attempt(async () => showOperation(await api.submit(cell, request, key)));
 }
 
-/** Give a command to the operation that is shown. */
-export function command(body: CommandBody): Promise<boolean> {
+/** Give a command to an operation, by default the one that is shown. */
+export function command(body: CommandBody, id = studio.operationId.peek()): Promise<boolean> {
   return attempt(async () => {
-    const id = studio.operationId.value;
     if (id !== null) takeOperation(await api.command(id, body));
   });
 }
 
-/** Stop the operation that is shown; it needs no role and no lease. */
-export function stop(): Promise<boolean> {
-  return attempt(async () => {
-    const id = studio.operationId.value;
-    if (id !== null) await api.stop(id, "stopped in the studio");
-  });
+/** After how long without an answer to Stop the page says so. */
+const UNHEARD_MS = 3000;
+
+/** Stop all that goes on in the cell that is shown, whoever started it and whatever is shown; no role or lease is needed. */
+export async function stop(): Promise<void> {
+  const name = studio.cellName.peek();
+  if (name === null) return fail("Nothing was stopped: this page knows no cell yet.");
+  const stopped = studio.ongoing.peek().map(describeOwned).join(", ");
+  const unheard = (why: string): void =>
+    fail(`Whether ${name} stops is not known: ${why}. Use the emergency stop of the machine.`);
+  const timer = window.setTimeout(() => unheard("the server has not answered yet"), UNHEARD_MS);
+  try {
+    const { state } = await api.stop(name, "stopped in the studio");
+    const how = state === "off" ? "is off" : "was stopped";
+    // What the page does not know of yet is stopped as well, so that it never says that nothing was.
+    studio.message.value = { kind: "done", text: `${name} ${how}${stopped && `: ${stopped}`}.` };
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    unheard(error.message);
+  } finally {
+    window.clearTimeout(timer);
+  }
 }
+
+function fail(text: string): void {
+  studio.message.value = { kind: "error", text };
+}
+
+const describeOwned = ({ request }: OperationStatus): string =>
+  `${describeRequest(request)}${request.owner ? ` (${request.owner})` : ""}`;
 
 export function logOut(): Promise<boolean> {
   return attempt(async () => {

@@ -4,7 +4,7 @@ import { api, ApiError, type SourceName } from "../api/client";
 import type { Position } from "../api/types";
 import { activeCalls } from "./operation";
 import { attempt, command } from "./actions";
-import { allows, may, message, operation } from "./studio";
+import { may, mayCommand, message, ongoing, operation } from "./studio";
 
 /** An open file: its text on disk with its hash, and a draft that differs from it. */
 export interface OpenFile {
@@ -154,12 +154,15 @@ export async function revertFile(): Promise<void> {
   await openFile(current.library, current.path);
 }
 
-/** Set or remove a breakpoint: for the next operation, and for the one that goes on. */
+/** Set or remove a breakpoint: for the next operation, and for those that go on in the cell. */
 export function toggleBreakpoint(path: string, line: number): void {
   const wanted = `${path}:${line}`;
-  const next = new Set(breakpoints.value);
-  if (!next.delete(wanted)) next.add(wanted);
-  breakpoints.value = next;
-  if (allows("set-breakpoints") && may("operate"))
-    void command({ type: "set-breakpoints", breakpoints: [...next].sort() });
+  const isSet = !breakpoints.value.has(wanted);
+  const changed = (before: Iterable<string>): string[] =>
+    [...new Set([...before, wanted])].filter((each) => isSet || each !== wanted).sort();
+  breakpoints.value = new Set(changed(breakpoints.value));
+  if (!mayCommand()) return;
+  for (const each of ongoing.value)
+    if (each.allowed.includes("set-breakpoints"))
+      void command({ type: "set-breakpoints", breakpoints: changed(each.breakpoints) }, each.id);
 }

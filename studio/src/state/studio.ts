@@ -111,6 +111,19 @@ export const ENDS: readonly string[] = ["succeeded", "failed", "stopped", "inter
 /** Whether the operation that is shown goes on. */
 export const isOngoing = computed(() => status.value !== null && !ENDS.includes(status.value.state));
 
+/** What goes on or waits in the cell that is shown, whoever started it. */
+export const ongoing = computed(() =>
+  [...operations.value.values()].filter((each) => each.cell === cellName.value && !ENDS.includes(each.state)),
+);
+
+/** Return which operation of the cell goes on although another one, which has ended, is shown; nothing if none does. */
+export function describeUnseen(): string {
+  const other = isOngoing.value && replay.value === null ? undefined : ongoing.value[0];
+  return other === undefined
+    ? ""
+    : `${describeRequest(other.request)} goes on and is not shown; the panel Runs has it.`;
+}
+
 /** The run that is shown, and how it is: as the server says, or as a recording tells at its time. */
 export interface ShownRun {
   title: string;

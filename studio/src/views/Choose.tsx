@@ -1,13 +1,14 @@
 // Choosing what to do: a task of the library, or a goal; the plan is shown before anything moves.
 import { useSignal } from "@preact/signals";
-import { useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { PlanWish } from "../api/client";
 import type { ParameterDescription, TaskDescription } from "../api/types";
 import { start } from "../state/actions";
 import { breakpoints } from "../state/source";
-import { cell, facts, library, mayCommand, refusalOf, status } from "../state/studio";
+import { cell, facts, library, mayCommand, message, refusalOf, status } from "../state/studio";
 import { individualsOf } from "../state/text";
 import { GoalInput } from "./GoalInput";
+import { wantedTask } from "./layout";
 import { Preview } from "./Preview";
 import { usePreview } from "./previewing";
 import { Rehearse } from "./Rehearse";
@@ -17,6 +18,14 @@ type Wish =
 
 export function Choose({ onDone }: { onDone: () => void }) {
   const [wish, setWish] = useState<Wish | null>(null);
+  const [name, tasks] = [wantedTask.value, library.value?.tasks];
+  useEffect(() => {
+    if (name === null || tasks === undefined) return;
+    wantedTask.value = null;
+    const task = tasks.find((each) => each.name === name);
+    if (task !== undefined) setWish({ kind: "task", task, values: {} });
+    else message.value = { kind: "error", text: `The skills of this cell have no task ${name}.` };
+  }, [name, tasks]);
   if (library.value === null) return <LibraryMissing />;
   return (
     <div class="run stack">

@@ -8,7 +8,8 @@ import { LICENCES } from "./licences";
 const KEYS: readonly [keys: string[], what: string][] = [
   [["p"], "pause or resume; in contact the force is kept"],
   [["n", "i", "o"], "step over, into, out of a call"],
-  [["x"], "stop; needs no role, and always works"],
+  [["x"], "stop all that goes on in the cell, whoever started it; needs no role"],
+  [["Ctrl-Shift-X"], "the same, also while you write"],
   [["1", "2", "3", "4", "5"], "go to Run, Tree, Details, 3-D, Signals"],
   [["w", "f", "s", "e"], "show Why, World (facts), Source, Events"],
   [["r"], "choose what to run next"],
@@ -27,7 +28,8 @@ export function Help() {
   const isShown = helpShown.value;
   useEffect(() => {
     if (isShown) {
-      dialog.current?.showModal();
+      // Beside it the page can be used, Stop above all.
+      dialog.current?.show();
       api.version().then(
         (found) => setVersion(found.skillc),
         () => setVersion("unknown"),

@@ -1,25 +1,13 @@
-// Logging in: with the code in the address that `skillc studio` opens, or with a token that a person pastes.
+// Logging in with a token that a person pastes, and why the code in the address has not done it.
 import { useState } from "preact/hooks";
 import { api, ApiError } from "../api/client";
 import { session } from "../state/studio";
-
-/** Find out who is logged in; a code in the address is used once, and taken out of it. */
-export async function findSession(): Promise<void> {
-  const code = /^#code=(.+)$/.exec(location.hash)?.[1];
-  if (code !== undefined) {
-    history.replaceState(null, "", location.pathname);
-    await api.logIn(decodeURIComponent(code)).catch(() => undefined);
-  }
-  try {
-    session.value = await api.session();
-  } catch {
-    session.value = null;
-  }
-}
+import { codeProblem } from "./arriving";
 
 export function Login() {
   const [token, setToken] = useState("");
   const [problem, setProblem] = useState("");
+  const unused = codeProblem.value;
   const submit = async (event: Event): Promise<void> => {
     event.preventDefault();
     try {
@@ -34,9 +22,15 @@ export function Login() {
     <main class="login">
       <form class="stack" onSubmit={(event) => void submit(event)}>
         <h1>skillc studio</h1>
+        {unused !== "" && (
+          <p class="notice bad" role="alert">
+            {unused}
+          </p>
+        )}
         <p>
-          Run <code>skillc studio</code> in the folder of the server, and it opens this page for you. Or paste
-          a token:
+          Run <code>skillc studio</code>
+          {unused !== "" && " again"} in the folder of the server: it opens this page with a code that is good
+          once, for a minute. Or paste a token:
         </p>
         <label class="stack">
           <span class="small muted">Token</span>

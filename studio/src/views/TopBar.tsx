@@ -4,10 +4,12 @@ import { attempt, command, logOut, showCell, stop } from "../state/actions";
 import {
   allows,
   cell,
+  cellName,
   cells,
   connection,
-  isOngoing,
+  describeUnseen,
   mayCommand,
+  message,
   operation,
   refusalOf,
   replay,
@@ -135,35 +137,32 @@ interface ControlProps {
   hotkey: string;
   enabled: boolean;
   act: () => unknown;
-  tone?: string;
-  wide?: boolean;
 }
 
-function Control({ icon, label, hotkey, enabled, act, tone = "", wide = false }: ControlProps) {
-  const why = tone === "stop" ? "" : refusalOf("operate");
+function Control({ icon, label, hotkey, enabled, act }: ControlProps) {
   return (
     <button
-      class={`${tone} ${wide ? "" : "icon"}`}
+      class="icon"
       disabled={!enabled}
-      title={why || `${label} (${hotkey})`}
+      title={refusalOf("operate") || describeUnseen() || `${label} (${hotkey})`}
       aria-label={label}
       aria-keyshortcuts={hotkey}
       onClick={() => void act()}
     >
       <Icon name={icon} />
-      {wide && label}
     </button>
   );
 }
 
-/** Pause or resume, whichever is possible. */
+/** Pause or resume what is shown, whichever is possible; if something else goes on, that is said. */
 export function togglePause(): void {
   if (allows("pause")) void command({ type: "pause", reason: "paused in the studio" });
   else if (allows("resume")) void command({ type: "resume" });
+  else if (describeUnseen() !== "") message.value = { kind: "error", text: describeUnseen() };
 }
 
 function Transport() {
-  if (replay.value !== null) return isOngoing.value ? <StopControl /> : null;
+  if (replay.value !== null) return <StopControl />;
   const resumes = allows("resume");
   const can = mayCommand();
   return (
@@ -201,10 +200,20 @@ function Transport() {
   );
 }
 
-/** Stops the operation that goes on, also while a recording is played. */
+/** Stops the cell, whatever is shown of it; it is never disabled. */
 function StopControl() {
+  const name = cellName.value ?? "the cell";
   return (
-    <Control icon="stop" label="Stop" hotkey="x" enabled={isOngoing.value} act={stop} tone="stop" wide />
+    <button
+      class="stop"
+      title={`Stop all that goes on in ${name}, whoever started it (x; while you write, Ctrl-Shift-X)`}
+      aria-label="Stop"
+      aria-keyshortcuts="x Control+Shift+X"
+      onClick={() => void stop()}
+    >
+      <Icon name="stop" />
+      Stop
+    </button>
   );
 }
 

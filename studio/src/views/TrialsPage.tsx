@@ -1,4 +1,5 @@
 // A series of trials: how many passed, each measure as a distribution, and the worst case one click from its replay.
+import { useState } from "preact/hooks";
 import type { Series, Spread, TrialSeries } from "../api/types";
 import { may } from "../state/studio";
 import { formatNumber } from "../state/text";
@@ -54,18 +55,29 @@ export function TrialsPage({ series: { about, result } }: { series: Shown }) {
 }
 
 function Tools({ about }: { about: TrialSeries }) {
+  const [isAsking, setIsAsking] = useState(false);
+  if (isAsking)
+    return (
+      <div class="row" role="group" aria-label="Forget the series">
+        <span>Forget {about.done} trials for good?</span>
+        <button class="primary" ref={takeKeyboard} onClick={() => void removeSeries(about)}>
+          Forget them
+        </button>
+        <button onClick={() => setIsAsking(false)}>Keep them</button>
+      </div>
+    );
   return (
     <button
       disabled={!may("operate")}
       title={may("operate") ? "Its results are lost" : "This needs the role operate"}
-      onClick={() => {
-        if (window.confirm(`Forget the ${about.done} trials of this series?`)) void removeSeries(about);
-      }}
+      onClick={() => setIsAsking(true)}
     >
       {goesOn(about) ? "End and forget" : "Forget"}
     </button>
   );
 }
+
+const takeKeyboard = (element: HTMLElement | null): void => element?.focus();
 
 function Summary({ about, result }: { about: TrialSeries; result: Series }) {
   const percent = (share: number): string => `${Math.round(share * 100)} %`;

@@ -1,6 +1,6 @@
-// The keys of the page; they do nothing while somebody writes.
+// The keys of the page; they do nothing while somebody writes, but for the one that stops.
 import { command, stop } from "../state/actions";
-import { allows, isOngoing, mayCommand } from "../state/studio";
+import { allows, mayCommand } from "../state/studio";
 import {
   choosing,
   detailsTab,
@@ -35,9 +35,6 @@ const ACTIONS: Record<string, () => void> = {
   n: () => step("step-over"),
   i: () => step("step-into"),
   o: () => step("step-out"),
-  x: () => {
-    if (isOngoing.value) void stop();
-  },
   w: () => showDetails("why"),
   f: () => showDetails("world"),
   s: () => showDetails("source"),
@@ -76,7 +73,22 @@ function leaveField(): void {
   else focusPanel("tree");
 }
 
+/** Stop the cell, before anything else hears of the key: by `x` unless a text is written, and by Ctrl-Shift-X always. */
+export function handleStop(event: KeyboardEvent): void {
+  if (!isStop(event)) return;
+  event.preventDefault();
+  event.stopPropagation();
+  if (!event.repeat) void stop();
+}
+
+function isStop(event: KeyboardEvent): boolean {
+  const isOther = event.code === "KeyX" && event.key > "~"; // The same key of a keyboard without Latin letters.
+  if (event.altKey || !(isOther || event.key.toLowerCase() === "x")) return false;
+  return event.ctrlKey || event.metaKey ? event.shiftKey : !takesText(event);
+}
+
 export function handleKey(event: KeyboardEvent): void {
+  if (event.key === "Escape" && helpShown.value) return void (helpShown.value = false);
   if (event.key === "Escape" && isWriting(event)) return leaveField();
   if (event.ctrlKey || event.metaKey || event.altKey || isWriting(event)) return;
   const panel = PANELS[Number(event.key) - 1];
@@ -86,13 +98,25 @@ export function handleKey(event: KeyboardEvent): void {
   act();
 }
 
+/** Whether a key is for what has the keyboard: a text, a number, or a choice. */
 function isWriting(event: KeyboardEvent): boolean {
+  const target = event.composedPath()[0];
+  return (
+    takesText(event) ||
+    target instanceof HTMLSelectElement ||
+    (target instanceof HTMLInputElement && target.type !== "checkbox")
+  );
+}
+
+const TEXTS = ["text", "search", "password", "email", "tel", "url"];
+
+/** Whether a letter would be written into a text. */
+function takesText(event: KeyboardEvent): boolean {
   const target = event.composedPath()[0];
   if (!(target instanceof HTMLElement)) return false;
   return (
     target.isContentEditable ||
-    (target instanceof HTMLInputElement && target.type !== "checkbox") ||
     target instanceof HTMLTextAreaElement ||
-    target instanceof HTMLSelectElement
+    (target instanceof HTMLInputElement && TEXTS.includes(target.type))
   );
 }

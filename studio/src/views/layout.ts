@@ -43,6 +43,8 @@ export const signalsTab = kept<"signals" | "plan">("signalsTab", "signals");
 export const maximised = signal<PanelName | null>(null);
 /** Whether a person chooses something new although an operation is shown. */
 export const choosing = signal(false);
+/** The name of the task that is to be chosen as soon as the skills of the cell are known. */
+export const wantedTask = signal<string | null>(null);
 export const helpShown = signal(false);
 
 effect(() => {

@@ -25,9 +25,11 @@ export function usePreview(
   useEffect(() => {
     if (name === undefined || !isPlanned) return;
     let isCurrent = true;
+    // A plan that nobody needs any more keeps a planner of the server, and a connection of the browser.
+    const ending = new AbortController();
     setFound({ preview: null, problem: "" });
     const ask = (): void => {
-      api.plan(name, request).then(
+      api.plan(name, request, ending.signal).then(
         (preview) => isCurrent && setFound({ preview, problem: "" }),
         (error: unknown) => {
           if (!(error instanceof ApiError)) throw error;
@@ -40,6 +42,7 @@ export function usePreview(
     let timer = window.setTimeout(ask, SETTLED_MS);
     return () => {
       isCurrent = false;
+      ending.abort();
       window.clearTimeout(timer);
     };
   }, [wanted, name, isPlanned, worldSequence.value]);

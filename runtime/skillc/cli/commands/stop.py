@@ -1,4 +1,4 @@
-"""Stop an operation of a server, or all."""
+"""Stop what goes on in the cells of a server, or one operation."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
+from skillc.cli.console import print_remark
 from skillc.cli.operation_remarks import remark_status
 from skillc.cli.server_access import operation_argument
 from skillc.cli.server_completions import complete_cell
@@ -18,31 +19,32 @@ if TYPE_CHECKING:
 
 EXAMPLES = """
 skillc stop
-skillc stop --all
+skillc stop --cell cell
+skillc stop carry-20270104T070000Z-a1b2c3
 """
 
 
 @click.command(cls=Command, examples=EXAMPLES)
 @operation_argument
-@click.option("--all", "everything", is_flag=True, help="Stop all operations, of each cell unless --cell is given.")
-@click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="With --all, the cell.")
+@click.option("--all", "everything", is_flag=True, help="Stop all operations, as without OPERATION.")
+@click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="Stop those of this cell only.")
 @click.option("--why", default="stopped", help="The reason, which everybody sees.")
 @server_options
 def command(operation: str | None, everything: bool, cell: str | None, why: str) -> None:
-    """Halt OPERATION in the next tick, and wait until everything is at rest.
+    """Halt all that goes on, or OPERATION, in the next tick, and wait until everything is at rest.
 
-    This is no emergency stop.
+    Whoever started it, and whatever it waits for. This is no emergency stop.
     """
-    if everything and operation is not None:
-        raise click.UsageError("give an operation or --all")
-    if cell is not None and not everything:
-        raise click.UsageError("--cell is for --all")
+    if operation is not None and (everything or cell is not None):
+        raise click.UsageError("give an operation, or --all or --cell")
     with connect_server() as server:
-        if everything:
+        if operation is None:
             found = stop_all(server, cell, why)
         else:
             found = [server.operation(operation)]
             found[0].stop(why)
+        if not found:
+            print_remark("nothing goes on")
         for each in found:
             # wait ends: when the cell is at rest, by an interrupt, or when the server is away too long
             remark_status(each.wait())

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 Show: TypeAlias = Callable[[str], None]
 EXAMPLES = """
 skillc studio clean_whiteboard
+skillc studio sorting:sort_parts
 skillc studio my_project --cell cell.ttl
 skillc studio --no-browser
 """
@@ -60,14 +61,14 @@ def command(
 
     show = _print_address if no_browser else _open_browser
     choice = choose_studio(what, scenes)
-    running = _find_running(state, choice, named=what is not None or bool(scenes))
+    running = _find_running(state, choice)
     if running is not None:
         show(running)
         return
     _serve(choice, bind, state, backend, seed, show)
 
 
-def _find_running(state: Path, choice: StudioChoice, named: bool) -> str | None:
+def _find_running(state: Path, choice: StudioChoice) -> str | None:
     """Return the address of the page of the server that uses a state folder, with a code; None if none runs."""
     from skillc.client.connecting import connect
     from skillc.client.errors import UnavailableError
@@ -80,12 +81,12 @@ def _find_running(state: Path, choice: StudioChoice, named: bool) -> str | None:
     try:
         with connect(address, state=state) as server:
             cells = {each.name for each in server.cells()}
-            wanted = [each.stem for each in choice.scenes]
-            missing = [each for each in wanted if each not in cells] if named else []
+            wanted = [each.stem for each in choice.scenes] if choice.cell else []
+            missing = [each for each in wanted if each not in cells]
             if missing:
                 other = "end it, or give another --state FOLDER"
                 raise RequestError(f"the server at {address} has no cell {missing[0]}; {other}")
-            return _make_address(address, server.make_login_code(), choice, wanted[0] if named else "")
+            return _make_address(address, server.make_login_code(), choice)
     except UnavailableError:
         return None  # a server that was killed has left its address
 
@@ -102,8 +103,7 @@ def _serve(choice: StudioChoice, bind: str | None, state: Path, backend: Backend
     def show_page(server: ServerContext, address: str) -> None:
         client = server.state.tokens.find(read_token(state / ADMIN_TOKEN) or "")
         assert client is not None, "the state has made the token"
-        cell = served.cells[0].name if choice.task else ""
-        show(_make_address(address, server.codes.make(client.token), choice, cell))
+        show(_make_address(address, server.codes.make(client.token), choice))
 
     listening = Listening(*(parse_address(bind) if bind is not None else _find_port()))
     served = choose_cells((choice.library,), choice.scenes, state, backend, seed)
@@ -117,8 +117,9 @@ def _find_port() -> tuple[str, int]:
         return (host, 0) if probe.connect_ex((host, port)) == 0 else (host, port)
 
 
-def _make_address(address: str, code: str, choice: StudioChoice, cell: str) -> str:
-    about = {"code": code, "cell": cell, "task": choice.task}
+def _make_address(address: str, code: str, choice: StudioChoice) -> str:
+    """Return the address of the page; what follows its `#`, as `studio/src/state/address.ts` reads it, is not sent."""
+    about = {"code": code, "cell": choice.cell, "task": choice.task}
     return f"{address}/#{urlencode({name: value for name, value in about.items() if value})}"
 
 
