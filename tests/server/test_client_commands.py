@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 
 from operating.terminal import Terminal
 from server.running import RunningServer, wait_until
+from server.test_leases import client_of
 from skillc.cli.main import skillc
 
 
@@ -65,6 +66,20 @@ def test_a_task_is_planned_approved_paused_stepped_and_stopped(here: RunningServ
     assert events[-1]["event"]["type"] == "task-ended"
 
 
+def test_stop_means_all_that_goes_on_whoever_started_it(here: RunningServer) -> None:
+    first = here.submit(task="carry_all", approve=True)["id"]
+    with client_of(here, "ada", "operate") as ada:
+        second = ada.post("/cells/yard/operations", json={"task": "carry_two"}).json()["id"]
+    here.wait_for(first, "planned")
+    stopped = type_in("stop", "--why", "too many")
+    assert stopped.exit_code == 0
+    assert sorted(stopped.stderr.splitlines()) == sorted(
+        f"{each}: stopped: admin: too many" for each in (first, second)
+    )
+    again = type_in("stop", "--cell", "yard")
+    assert (again.exit_code, again.stderr) == (0, "nothing goes on\n")
+
+
 def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
     assert type_in("pace", "fast").stderr == "yard: pace fast\n"
     stepped = type_in("start", "--goal", "lab:Goal contain lab:crate-4", "--approve").stdout.strip()
@@ -88,7 +103,9 @@ def test_the_exit_code_says_how_a_task_ended(here: RunningServer) -> None:
         (("ps", "--server", "http://127.0.0.1:1"), 1, "start one with `skillc serve`"),
         (("ps", "--token-file", "none"), 2, "none has no token that this user can read"),
         (("ps", "--server", "http://example.org"), 2, "would get a token in the clear"),
-        (("stop", "one", "--all"), 2, "give an operation or --all"),
+        (("stop", "one", "--all"), 2, "give an operation, or --all or --cell"),
+        (("stop", "one", "--cell", "yard"), 2, "give an operation, or --all or --cell"),
+        (("stop", "--cell", "barn"), 2, "there is no cell `barn`"),
         (("step", "sideways"), 2, "not one of 'into', 'over', 'out'"),
         (("pace", "slow"), 2, "`slow` is no pace; write `fast`, `real`"),
         (("skip",), 2, "missing option '--why'"),

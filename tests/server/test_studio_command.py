@@ -87,8 +87,9 @@ def test_a_server_that_runs_is_used(
 ) -> None:
     again = studio(yard, monkeypatch, ".")
     assert again.exit_code == 0, again.output
-    page, _, browser = open_page(again.output.strip())
+    page, about, browser = open_page(again.output.strip())
     browser.close()
+    assert about["cell"] == ["yard"] and "task" not in about
     assert started[1].startswith(page) and again.output.strip() != started[1]
     refused = studio(yard, monkeypatch, ".", "--cell", "other.ttl")
     assert refused.exit_code == 2 and "has no cell other; end it, or give another --state" in refused.output
@@ -96,6 +97,7 @@ def test_a_server_that_runs_is_used(
 
 def names(choice_of: str | None, scenes: Sequence[Path] = ()) -> tuple[str, list[str], str]:
     choice = choose_studio(choice_of, scenes)
+    assert choice.cell == ("" if choice_of is None or not choice.scenes else choice.scenes[0].stem)
     return choice.library.name, [each.stem for each in choice.scenes], choice.task
 
 
@@ -106,6 +108,8 @@ def test_a_library_or_a_task_determines_the_cells(yard: Path, monkeypatch: pytes
     library, scenes, task = names(None)
     assert (library, task) == ("wiping", "") and {"ur5e_whiteboard", "iiwa_table"} <= set(scenes) and len(scenes) <= 4
     assert names("wiping") == names(None)
+    (tmp_path / "bare.skill").write_text("## Nothing to do yet.\n")
+    assert names("bare.skill") == ("bare.skill", [], "")
     assert names(str(yard)) == (yard.name, ["yard"], "")
     assert names(str(yard / "yard.skill"))[0] == "yard.skill"
     assert names("clean_whiteboard", (SHIPPED / "sorting" / "panda.ttl",))[1] == ["panda"]

@@ -22,9 +22,9 @@ export async function arrive(): Promise<void> {
   const who = await api.session().catch(() => null);
   codeProblem.value = who === null ? problem : "";
   session.value = who;
-  asked.value = cell === null && task === null ? null : { cell, task };
   if (who !== null && problem !== "")
     message.value = { kind: "error", text: `${problem} You are still logged in as ${who.name}.` };
+  asked.value = cell === null && task === null ? null : { cell, task };
 }
 
 /** Use a code up; return why that has not logged in, as a sentence. */
