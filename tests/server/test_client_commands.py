@@ -69,7 +69,7 @@ def test_a_task_is_planned_approved_paused_stepped_and_stopped(here: RunningServ
 def test_stop_means_all_that_goes_on_whoever_started_it(here: RunningServer) -> None:
     first = here.submit(task="carry_all", approve=True)["id"]
     with client_of(here, "ada", "operate") as ada:
-        second = ada.post("/cells/yard/operations", json={"task": "carry_two"}).json()["id"]
+        second = ada.post("/cells/yard/operations", json={"task": "carry_all", "approve": True}).json()["id"]
     here.wait_for(first, "planned")
     stopped = type_in("stop", "--why", "too many")
     assert stopped.exit_code == 0

@@ -149,6 +149,7 @@ def watching(browser: Browser, server: RunningServer) -> Iterator[Page]:
     open_studio(page, server)
     yield page
     context.close()
+    server.client.delete(f"/trials/{begun['id']}")
 
 
 @pytest.mark.parametrize("state", STATES)
@@ -177,7 +178,7 @@ def test_all_that_goes_on_is_stopped_whatever_its_state(
     watching.locator(".topbar .operation .badge").wait_for()
     show_end(watching)
     put_back(server)
-    for request, wanted in ((first, state), ({"task": "rest"}, "queued")):
+    for request, wanted in ((first, state), ({"task": "carry_all"}, "queued"), ({"task": "rest"}, "running")):
         found = anna.post("/cells/yard/operations", json=request).json()
         server.wait_for(found["id"], wanted)
     unseen = f"{first['task']} goes on and is not shown"
