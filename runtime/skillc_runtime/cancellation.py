@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from math import inf
 
 
@@ -56,3 +59,26 @@ class CancelToken:
         """Raise Cancelled if the work has to end now."""
         if (reason := self.reason) is not None:
             raise Cancelled(reason)
+
+
+_current: ContextVar[CancelToken | None] = ContextVar("current", default=None)
+
+
+@contextmanager
+def cancelling(token: CancelToken) -> Iterator[None]:
+    """End what is computed inside with Cancelled when the token says so, where it calls `check_current`.
+
+    For pure functions that are called in many places, such as the evaluation of conditions.
+    """
+    former = _current.set(token)
+    try:
+        yield
+    finally:
+        _current.reset(former)
+
+
+def check_current() -> None:
+    """Raise Cancelled if the work around it has to end."""
+    token = _current.get()
+    if token is not None:
+        token.check()

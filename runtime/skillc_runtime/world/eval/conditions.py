@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from typing import TypeAlias, assert_never
+from typing import assert_never
 
 from skillc_model.conditions import (
     And,
@@ -28,13 +28,12 @@ from skillc_model.conditions import (
 )
 from skillc_runtime.world.eval.expressions import Bindings, bound_value, compile_expression
 from skillc_runtime.world.eval.identity_cache import IdentityCache
-from skillc_runtime.world.eval.quantifiers import candidates
+from skillc_runtime.world.eval.quantifiers import compile_quantified
+from skillc_runtime.world.eval.scope import ConditionTest
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import are_equal
 from skillc_runtime.world.state.world_state import WorldState
-
-ConditionTest: TypeAlias = Callable[[WorldState, Bindings], bool]
 
 
 def evaluate(condition: Condition, state: WorldState, bindings: Bindings) -> bool:
@@ -70,7 +69,7 @@ def compile_condition(condition: Condition) -> ConditionTest:
             tests = tuple(compile_condition(part) for part in parts)
             return lambda state, bindings: any(test(state, bindings) for test in tests)
         case Exists() | Forall():
-            return _quantified(condition)
+            return compile_quantified(condition, compile_condition)
         case _:
             assert_never(condition)
 
@@ -137,22 +136,5 @@ def _compare(left: Expression, sign: str, right: Expression) -> ConditionTest:
             return any(compare(x, y) for x in lefts for y in rights)
         except TypeError as error:
             raise EvaluationError(f"{a!r} and {b!r} cannot be compared by {sign}") from error
-
-    return test
-
-
-def _quantified(condition: Exists | Forall) -> ConditionTest:
-    body, variable, cls = compile_condition(condition.body), condition.variable, condition.cls
-    wanted = isinstance(condition, Exists)
-    narrow = candidates(condition)
-
-    def test(state: WorldState, bindings: Bindings) -> bool:
-        scope = dict(bindings)
-        for individual in narrow(state, bindings):
-            if state.is_a(individual, cls):
-                scope[variable] = individual
-                if body(state, scope) == wanted:
-                    return wanted
-        return not wanted
 
     return test
