@@ -142,6 +142,7 @@ class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
     """A compiled library: the content of library.json, which is all that the runtime loads.
 
     `format` increases with every change to the meaning of the JSON; `namespace` is that of the terms it declares;
+    `uses` are the namespaces whose terms its files write by bare names;
     `implementations` is keyed by `Skill.name`; `hash` is the hash of the sources; `names` maps each PDDL name to its
     IRI or skill.
     """
@@ -149,6 +150,7 @@ class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
     format: int = FORMAT
     name: str
     namespace: str
+    uses: tuple[str, ...] = ()
     hash: str
     vocabulary: Vocabulary
     skills: dict[str, Skill] = {}

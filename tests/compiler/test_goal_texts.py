@@ -6,10 +6,11 @@ import msgspec
 import pytest
 from shipped import library, shelf, vocabulary
 
-from skillc_compiler.goals.parsing import parse_call, parse_goal
+from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
-from skillc_model.conditions import And, Condition, Exists, Forall, Individual, Literal
+from skillc_dsl.source import Source
+from skillc_model.conditions import And, Condition, Exists, Forall, Holds, Individual, Literal
 from skillc_model.format_condition import format_condition
 from skillc_rdf.vocabulary.types import Position
 
@@ -197,3 +198,28 @@ def test_a_wrong_call_is_explained(text: str, name: str) -> None:
     outcome = parse_call(text, wiping, scene(), {"lab": LAB})
     assert outcome.value is None
     assert [(d.name, d.span.line) for d in outcome.diagnostics] == [(name, 1)]
+
+
+OWN = """use skiros
+class Crate < Location
+relation on(Crate, Crate)
+"""
+
+
+def test_a_bare_name_means_what_it_means_in_the_library() -> None:
+    stacks = compile([Source("stacks.skill", OWN)], vocabulary(), shelf(), "stacks").value
+    crates = {LAB + name: (stacks.namespace + "Crate",) for name in "ab"}
+    here, anywhere = (
+        parse_goal("lab:a on lab:b", stacks.vocabulary, crates, {"lab": LAB}, home) for home in (home_of(stacks), ())
+    )
+    assert isinstance(here.value, Holds) and here.value.relation == stacks.namespace + "on"
+    assert [each.name for each in anywhere.diagnostics] == ["ambiguous-name"]
+
+
+TRIVIAL = ["not lab:Hand contain lab:Hand", "not 1 == 2", "lab:Hand contain lab:Hand implies lab:Board.isClean == true"]
+
+
+@pytest.mark.parametrize("text", TRIVIAL)
+def test_what_shall_not_hold_and_never_does_is_no_error(text: str) -> None:
+    asked = goal(text)
+    assert asked.value is not None and [each.name for each in asked.diagnostics] == ["always-true"]

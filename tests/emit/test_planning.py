@@ -9,11 +9,13 @@ from emit import samples
 from emit.samples import DRIVE, PICK, WIPE, assign, holds, iri, library, need, number, parameter, post, read
 from skillc_model.conditions import (
     And,
+    Anything,
     Compare,
     Condition,
     Exists,
     Given,
     HasProperty,
+    Holds,
     Literal,
     Not,
     Or,
@@ -68,6 +70,19 @@ def test_the_former_value_is_searched_for_where_the_precondition_does_not_name_i
         Change(Atom("core-at", ("?robot", "?to")), True),
         Change(old, False, (former,), old),
     )
+
+
+def test_nothing_is_deleted_where_the_precondition_says_that_there_is_no_former_value() -> None:
+    nowhere = Not(Holds(Variable("robot"), iri("at"), Anything()))
+    placed = varied(DRIVE, parameters=DRIVE.parameters[:2], pre=(need("nowhere", nowhere),))
+    assert action(placed).effects == (Change(Atom("core-at", ("?robot", "?to")), True),)
+
+
+def test_what_is_excluded_of_one_kind_only_leaves_others_to_be_deleted() -> None:
+    x = Variable("x")
+    nowhere = Not(Exists("x", iri("Place"), And((Holds(Variable("robot"), iri("at"), x), Holds(x, iri("at"), x)))))
+    placed = varied(DRIVE, parameters=DRIVE.parameters[:2], pre=(need("nowhere", nowhere),))
+    assert any(not each.positive and each.variables for each in action(placed).effects)
 
 
 def test_the_former_holder_is_deleted_even_if_no_post_says_so() -> None:

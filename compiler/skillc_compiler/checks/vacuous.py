@@ -11,9 +11,9 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
 from skillc_compiler.program.types import Thing, describe_type
-from skillc_compiler.program.walk import conditions_in, nodes_in
+from skillc_compiler.program.walk import nodes_in
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_model.conditions import Compare, Given, Holds, IsA, Literal, Or, Same, Variable
+from skillc_model.conditions import Compare, Given, Holds, IsA, Literal, Not, Or, Same, Variable
 from skillc_model.rewriting import constant_number, fold
 
 NAMES = ("always-true", "always-false")
@@ -26,8 +26,15 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each condition that is always true, a problem for each that is always false."""
     conflicts = Conflicts(program.vocabulary)
     for condition, parameters in _conditions(program):
-        for part in conditions_in(condition):
-            yield from _check_condition(conflicts, part, parameters)
+        for part, denied in _parts(condition):
+            yield from _check_condition(conflicts, part, parameters, denied)
+
+
+def _parts(condition: TypedCondition, denied: bool = False) -> Iterator[tuple[TypedCondition, bool]]:
+    """Yield a condition and its parts, each with whether the whole asks that it does not hold."""
+    yield condition, denied
+    for part in condition.parts:
+        yield from _parts(part, denied ^ isinstance(condition.meaning, Not))
 
 
 def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]]:
@@ -50,16 +57,20 @@ def _written_in(owner: Skill | Implementation) -> Iterator[TypedCondition]:
             yield from node.conditions
 
 
-def _check_condition(conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters) -> Iterator[Diagnostic]:
+def _check_condition(
+    conflicts: Conflicts, condition: TypedCondition, parameters: _Parameters, denied: bool
+) -> Iterator[Diagnostic]:
     found = _evaluate(conflicts, condition, parameters)
     if found is not None:
         answer, reason = found
+        trivial = answer or denied
+        what = "this always holds" if answer else "this never holds, as is asked" if denied else "this never holds"
         yield Diagnostic(
-            "always-true" if answer else "always-false",
+            "always-true" if trivial else "always-false",
             condition.span,
-            f"this {'always' if answer else 'never'} holds: {reason}",
+            f"{what}: {reason}",
             help="remove the condition, or ask for something else",
-            severity="warning" if answer else "error",
+            severity="warning" if trivial else "error",
         )
 
 

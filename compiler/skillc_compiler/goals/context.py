@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import Type, type_of
 from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
-from skillc_compiler.resolve.names import Homes, Names, bare_terms
+from skillc_compiler.resolve.names import KINDS, Homes, Kind, Names, bare_terms
 from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl.source import Span
 from skillc_model import skills as library
@@ -20,14 +20,16 @@ def make_context(
     individuals: Individuals,
     prefixes: Mapping[str, str],
     skills: Mapping[str, library.Skill] | None = None,
+    home: Sequence[str] = (),
 ) -> FileContext:
     """Return the context in which a goal is resolved; every unambiguous term may be written without its prefix.
 
+    A bare name means what it means in a library whose own and used namespaces are `home`, if anything.
     `individuals` are the IRIs of the scene with their classes; `prefixes` are allowed in addition to the vocabulary's.
     """
     callees = {name: _skill(skill) for name, skill in (skills or {}).items()}
     names = Names(
-        bare=bare_terms(vocabulary, vocabulary.prefixes),
+        bare=_bare_terms(vocabulary, tuple(home)),
         known={
             "class": set(vocabulary.classes),
             "relation": set(vocabulary.relations),
@@ -46,6 +48,13 @@ def make_context(
         implementations={name: skill.implementations for name, skill in (skills or {}).items()},
         individuals=most_specific_classes(vocabulary, individuals),
     )
+
+
+def _bare_terms(vocabulary: Vocabulary, home: tuple[str, ...]) -> dict[Kind, dict[str, tuple[str, ...]]]:
+    """Return the terms that bare names denote: those of the `home` namespaces, or else of any."""
+    known = bare_terms(vocabulary, vocabulary.prefixes)
+    own = bare_terms(vocabulary, (prefix for prefix, base in vocabulary.prefixes.items() if base in home))
+    return {kind: {**known[kind], **own[kind]} for kind in KINDS}
 
 
 def _skill(skill: library.Skill) -> Skill:

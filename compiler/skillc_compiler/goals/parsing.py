@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
@@ -41,24 +41,35 @@ BETWEEN = frozenset(("==", "!=", "<", "<=", ">", ">=", "is", "has"))
 
 
 def parse_goal(
-    text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
+    text: str,
+    vocabulary: Vocabulary,
+    individuals: Individuals,
+    prefixes: Mapping[str, str] | None = None,
+    home: Sequence[str] = (),
 ) -> Outcome[Condition | None]:
     """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
-    `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares. The value is
-    None if there are errors; spans are positions in `text`, with the path `goal`. A goal may also be a condition in
+    `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares, and
+    `home` the namespaces that bare names refer to first (see `home_of`). The value is None if there are errors; spans are positions in `text`, with the path `goal`. A goal may also be a condition in
     JSON, as a compiled library has it.
     """
     if is_json(text):
         return _goal_in_json(text, vocabulary, individuals, prefixes or {})
-    return _bounded(lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {})), text, "goal")
+    return _bounded(
+        lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {}, None, home)), text, "goal"
+    )
+
+
+def home_of(library: SkillLibrary) -> tuple[str, ...]:
+    """Return the namespaces whose terms a library writes by bare names: its own, and those that it uses."""
+    return (library.namespace, *library.uses)
 
 
 def parse_call(
     text: str, library: SkillLibrary, individuals: Individuals, prefixes: Mapping[str, str] | None = None
 ) -> Outcome[tree.Call | None]:
     """Parse a call such as `Wipe(surface: lab:Board)`, like `parse_goal`, with the path `call`."""
-    asked = make_context(library.vocabulary, individuals, prefixes or {}, library.skills)
+    asked = make_context(library.vocabulary, individuals, prefixes or {}, library.skills, home_of(library))
     return _bounded(lambda: _call(text, asked), text, "call")
 
 

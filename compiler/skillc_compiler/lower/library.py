@@ -15,6 +15,7 @@ from skillc_compiler.lower.memo import LowerMemo
 from skillc_compiler.program.spans import SpanIndex
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, TypedNode
 from skillc_compiler.program.walk import calls_in
+from skillc_compiler.resolve.declarations import used_vocabularies
 from skillc_compiler.resolve.files import library_namespace
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model import skills as library
@@ -38,6 +39,7 @@ def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerM
     unnamed = SkillLibrary(
         name=program.name,
         namespace=_namespace(program),
+        uses=_uses(program),
         hash=_hash(program.files),
         vocabulary=program.vocabulary,
         skills={
@@ -54,6 +56,15 @@ def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerM
         },
     )
     return msgspec.structs.replace(unnamed, names=_assign_names(unnamed, memo))
+
+
+def _uses(program: Program) -> tuple[str, ...]:
+    """Return the namespaces that the files of a library use, and those of the files that they import."""
+    prefixes = program.vocabulary.prefixes
+    used = {prefix for unit in program.files for prefix in used_vocabularies(unit.file, program.vocabulary)}
+    return tuple(
+        sorted({*map(prefixes.__getitem__, used & prefixes.keys()), *(unit.namespace for unit in program.files)})
+    )
 
 
 def _assign_names(unnamed: SkillLibrary, memo: LowerMemo) -> dict[str, str]:

@@ -10,7 +10,7 @@ from typing import assert_never
 from msgspec import structs
 
 from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
-from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, Typed, conjunction, conjuncts
+from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, Typed, Universal, conjunction, conjuncts, rename_terms
 from skillc_model.pddl.names import make_variable
 from skillc_model.pddl.translate import NeedsNumbers, Scope, Translator
 from skillc_model.read_write import UniqueSide, unique_sides
@@ -69,7 +69,8 @@ class Effects:
             sides[unique.side] = fixed
             sides[1 - unique.side] = self._known_partner(unique, fixed)
             for change in self._retract(unique.relation, *sides):
-                yield from self._of_others(change, fixed, kept, added)
+                if not self._is_excluded(change):
+                    yield from self._of_others(change, fixed, kept, added)
 
     def _of_others(self, change: Change, fixed: Typed, kept: Typed, added: Atom) -> Iterator[Change]:
         """Yield the deletion of the former partners of `fixed` other than `kept`, its partner afterwards.
@@ -86,6 +87,17 @@ class Effects:
             yield change
         elif former != kept.name:
             yield structs.replace(change, condition=conjunction((change.condition, Negation(Equal(former, kept.name)))))
+
+    def _is_excluded(self, change: Change) -> bool:
+        """Whether the precondition says that nothing is to be deleted: `not hand holds _`."""
+        hierarchy = self.translator.symbols.hierarchy
+        for each in conjuncts(self.known):
+            match each, change.variables:
+                case Universal(variable, body), (former,) if hierarchy.is_below(former.type, variable.type):
+                    denied = Negation(rename_terms(change.atom, {former.name: variable.name}))  # type: ignore[arg-type]
+                    if variable.name not in change.atom.terms and denied in conjuncts(body):
+                        return True
+        return False
 
     def _known_partner(self, unique: UniqueSide, fixed: Typed) -> Typed | None:
         """Return the partner of the fixed term that the precondition names, None if it names none."""

@@ -10,7 +10,7 @@ from msgspec import structs
 from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.task_scenes import classes_by_individual
 from skillc_compiler.goals.json_text import is_json
-from skillc_compiler.goals.parsing import parse_call, parse_goal
+from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_model.format_condition import format_condition
@@ -66,7 +66,7 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
 def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
     """Return the assignment of a goal, as a condition, in PDDL or in JSON; DiagnosticsError if it has errors."""
     individuals = classes_by_individual(state, library.vocabulary)
-    goal = _valid(parse_goal(text, library.vocabulary, individuals, state.vocabulary.prefixes), text)
+    goal = _valid(parse_goal(text, library.vocabulary, individuals, state.vocabulary.prefixes, home_of(library)), text)
     name = format_condition(goal, state.vocabulary) if is_json(text) else text
     return Assignment(name, state, AchieveGoal(goal))
 

@@ -11,7 +11,7 @@ from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.project.project import Project
 from skillc.services.reporting import SilentReporter
 from skillc.services.stores import load_world
-from skillc_compiler.goals.parsing import parse_call, parse_goal
+from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.vocabulary.types import Position
@@ -38,7 +38,7 @@ def make_named_task(project: Project, name: str, library: SkillLibrary, scene: P
     place = project.place_of("tasks", name, key)
     source = Position(place.path, place.line, place.column)
     if key == "goal":
-        goal = parse_goal(text, library.vocabulary, individuals, prefixes)
+        goal = parse_goal(text, library.vocabulary, individuals, prefixes, home_of(library))
         _require_valid(goal, project, name, key)
         return Task(name=name, scene=str(scene), goal=goal.value, goal_text=text, source=source)
     call = parse_call(text, library, individuals, prefixes)

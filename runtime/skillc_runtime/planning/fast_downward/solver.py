@@ -33,7 +33,7 @@ from skillc_runtime.planning.process import (
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.platforms.signals import FILE_TOO_LARGE
 
-HEAD_START_S = 0.2
+HEAD_START_S = 0.5
 """How much later LAMA starts than A*, which has solved most tasks by then."""
 
 MAX_COST = 2**30

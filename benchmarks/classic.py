@@ -1,0 +1,84 @@
+"""Classic planning problems beside Fast Downward alone, on hand-written PDDL: CPU and wall-clock time, cold.
+
+Run it as `python benchmarks/classic.py [PROBLEMS]`, with the number of random problems of each size, 5 by default.
+`ours` is the whole command `skillc plan`, from the files to the validated plan that is proved optimal; `start` is that
+command for a goal that already holds, and `alone` is Fast Downward's driver with `astar(lmcut())`.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import median
+from typing import NamedTuple
+
+from _blocks import DOMAIN, Blocks, library
+
+from skillc_runtime.planning.fast_downward.solver import find_fast_downward
+
+SIZES = (4, 5, 6, 7, 8)
+BOUND = 2.0
+"""How many times as long as Fast Downward alone, without the start of the program, a proof may take."""
+
+
+class Took(NamedTuple):
+    """What a command has taken, in s, and what it printed."""
+
+    cpu_s: float
+    wall_s: float
+    output: str
+
+
+def main() -> None:
+    """Measure and print a line for each size."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    print(f"{'blocks':>6}{'start':>15}{'ours':>15}{'alone':>15}{'(ours-start)/alone':>22}{'proved':>9}")
+    print(f"{'':>6}{3 * '     CPU   wall'}{'median':>12}{'worst':>10}")
+    for size in SIZES:
+        rows = [_measured(Blocks.draw(size, seed)) for seed in range(count)]
+        start, ours, alone = (Took(*(median(each[i][j] for each in rows) for j in (0, 1)), "") for i in range(3))  # type: ignore[arg-type]
+        ratios = sorted((one.cpu_s - begun.cpu_s) / other.cpu_s for begun, one, other in rows)
+        proved = sum("proved optimal" in one.output for _, one, _ in rows)
+        times = "".join(f"{each.cpu_s:8.2f}{each.wall_s:7.2f}" for each in (start, ours, alone))
+        holds = "holds" if ratios[-1] <= BOUND else "BROKEN"
+        print(f"{size:>6}{times}{median(ratios):12.2f}{ratios[-1]:10.2f}{proved:>6}/{count}  {holds}", flush=True)
+
+
+def _measured(problem: Blocks) -> tuple[Took, Took, Took]:
+    """Return what the start of the program, our command and Fast Downward alone have taken."""
+    with tempfile.TemporaryDirectory() as made:
+        folder = Path(made, "blocks")
+        folder.mkdir()
+        for name, text in {
+            "blocks.skill": library(),
+            "cell.ttl": problem.scene,
+            "domain.pddl": DOMAIN,
+            "problem.pddl": problem.problem,
+        }.items():
+            (folder / name).write_text(text, "utf-8")
+        plan = (sys.executable, "-m", "skillc", "plan", "--library", ".", "--scene", "cell.ttl", "--no-plan-cache")
+        here = " and ".join(f"lab:{one} on lab:{other}" for one, other in problem.start if other)
+        _take((*plan, "--goal", "lab:b0 == lab:b0"), folder)  # the compiled library is cached from here on
+        start = _take((*plan, "--goal", here or "lab:b0.onTable == true"), folder)
+        ours = _take((*plan, "--goal", problem.goal), folder)
+        programs = find_fast_downward()
+        assert programs is not None, "the extra `planner` is needed"
+        alone = _take((*programs.driver, "domain.pddl", "problem.pddl", "--search", "astar(lmcut())"), folder)
+        return start, ours, alone
+
+
+def _take(command: Sequence[str], folder: Path) -> Took:
+    before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    ended = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    after, wall_s = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter() - began
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    return Took(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall_s, ended.stdout)
+
+
+if __name__ == "__main__":
+    main()
