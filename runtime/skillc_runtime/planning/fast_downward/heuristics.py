@@ -1,6 +1,6 @@
 """Chooses the admissible heuristics of Fast Downward for a task, by the features of the translated task.
 
-LM-cut supports neither conditional effects nor axioms and exits with code 34. Merge-and-shrink (with label reduction
+LM-cut and pattern databases support neither conditional effects nor axioms, and exit with code 34. Merge-and-shrink (with label reduction
 and bisimulation) and h-max support conditional effects; h-max also runs with axioms, but is not documented to be
 admissible with them. The blind heuristic is admissible for every task.
 """
@@ -29,6 +29,10 @@ class Heuristic:
 
 
 LM_CUT = Heuristic("lmcut()")
+SHORT_LM_CUT = Heuristic("lmcut()", share=0.1)
+"""Most tasks are solved at once with LM-cut or not in the whole time."""
+PATTERNS = Heuristic("ipdb(max_time=5)", share=0.5)
+"""Pattern databases: strong where few variables matter, such as where a robot and some parts are."""
 H_MAX = Heuristic("hmax()")
 BLIND = Heuristic("blind()")
 MERGE_AND_SHRINK = Heuristic(
@@ -60,7 +64,7 @@ def choose_heuristics(features: TaskFeatures) -> tuple[Heuristic, ...]:
         return (BLIND,)
     if features.conditional_effects:
         return (MERGE_AND_SHRINK, H_MAX, BLIND)
-    return (LM_CUT, BLIND)
+    return (SHORT_LM_CUT, PATTERNS, LM_CUT, BLIND)
 
 
 def _count_effect_conditions(lines: Iterable[str]) -> Iterator[int]:

@@ -7,8 +7,8 @@ out changes the value of no formula in any reachable state.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
-from typing import assert_never
+from collections.abc import Callable, Iterator
+from typing import TypeAlias, assert_never
 
 from skillc_model.pddl.domain import Meaning, PlanningDomain, Predicate, PropertyMeaning, RelationMeaning
 from skillc_model.pddl.formulas import (
@@ -28,6 +28,9 @@ from skillc_model.pddl.formulas import (
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.state.world_state import WorldState
 
+MayHold: TypeAlias = Callable[[Atom], bool]
+"""Whether an atom about a variable may be true for the values that are considered."""
+
 
 def find_relevant_types(domain: PlanningDomain, vocabulary: Vocabulary) -> frozenset[str]:
     """Return the types whose objects are all relevant; other objects are if they have an asserted fact."""
@@ -35,7 +38,7 @@ def find_relevant_types(domain: PlanningDomain, vocabulary: Vocabulary) -> froze
     types = {each.type for action in domain.actions for each in action.parameters}
     for action in domain.actions:
         for formula in (action.precondition, action.hold, *(change.condition for change in action.effects)):
-            types |= set(_list_deciding_types(formula, facts))
+            types |= set(_list_deciding_types(formula, lambda atom: atom.predicate not in facts))
     return frozenset(types)
 
 
@@ -66,44 +69,44 @@ def _mentions(meaning: Meaning, individual: str, state: WorldState) -> bool:
             return False
 
 
-def _list_deciding_types(formula: Formula, facts: Set[str]) -> Iterator[str]:
+def _list_deciding_types(formula: Formula, may_hold: MayHold) -> Iterator[str]:
     """Yield the types of quantified variables for which an object without facts may decide the value."""
     match formula:
         case Atom() | Equal() | Negation():
             pass
         case Conjunction(parts) | Disjunction(parts):
             for part in parts:
-                yield from _list_deciding_types(part, facts)
+                yield from _list_deciding_types(part, may_hold)
         case Existential(variable, body):
-            if _assume_no_facts(body, variable.name, facts) != FALSE:
+            if simplify_for(body, variable.name, may_hold) != FALSE:
                 yield variable.type
-            yield from _list_deciding_types(body, facts)
+            yield from _list_deciding_types(body, may_hold)
         case Universal(variable, body):
-            if _assume_no_facts(body, variable.name, facts) != TRUE:
+            if simplify_for(body, variable.name, may_hold) != TRUE:
                 yield variable.type
-            yield from _list_deciding_types(body, facts)
+            yield from _list_deciding_types(body, may_hold)
         case _:
             assert_never(formula)
 
 
-def _assume_no_facts(formula: Formula, variable: str, facts: Set[str]) -> Formula:
-    """Return the formula simplified for a variable about which none of the `facts` holds."""
+def simplify_for(formula: Formula, variable: str, may_hold: MayHold) -> Formula:
+    """Return the formula simplified for values of a variable about which only atoms that `may_hold` can be true."""
     match formula:
-        case Atom(predicate, terms):
-            return FALSE if variable in terms and predicate in facts else formula
-        case Negation(Atom(predicate, terms)):
-            return TRUE if variable in terms and predicate in facts else formula
+        case Atom(terms=terms):
+            return FALSE if variable in terms and not may_hold(formula) else formula
+        case Negation(Atom(terms=terms) as atom):
+            return TRUE if variable in terms and not may_hold(atom) else formula
         case Equal() | Negation():
             return formula
         case Conjunction(parts):
-            return conjunction(_assume_no_facts(part, variable, facts) for part in parts)
+            return conjunction(simplify_for(part, variable, may_hold) for part in parts)
         case Disjunction(parts):
-            return disjunction(_assume_no_facts(part, variable, facts) for part in parts)
+            return disjunction(simplify_for(part, variable, may_hold) for part in parts)
         case Existential(inner, body):
-            found = _assume_no_facts(body, variable, facts)
+            found = simplify_for(body, variable, may_hold)
             return FALSE if found == FALSE else Existential(inner, found)
         case Universal(inner, body):
-            found = _assume_no_facts(body, variable, facts)
+            found = simplify_for(body, variable, may_hold)
             return TRUE if found == TRUE else Universal(inner, found)
         case _:
             assert_never(formula)

@@ -12,7 +12,7 @@ from skillc_model.conditions import Anything, Condition, Exists, Forall, Holds, 
 from skillc_model.pddl.constants import most_specific
 from skillc_model.pddl.costs import common_scale
 from skillc_model.pddl.domain import Action, ComputedCost, ExclusionMeaning, PlanningDomain, Predicate
-from skillc_model.pddl.formulas import TRUE, Atom, Formula, Negation, Typed, conjunction, rename_terms
+from skillc_model.pddl.formulas import FALSE, TRUE, Atom, Formula, Negation, Typed, conjunction, rename_terms
 from skillc_model.pddl.goals import add_goal_predicates, ground_goal
 from skillc_model.pddl.names import assign_object_names, make_unique
 from skillc_model.pddl.problem import Problem, action_durations
@@ -107,7 +107,8 @@ def pose_problem(
     domain = add_goal_predicates(wanted, library, domain)
     useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, wanted)
     constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
-    selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), size)
+    closed = None if _has_wildcard(goal) or wanted in (TRUE, FALSE) else wanted
+    selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), size, closed)
     types = selection.kept
     if _has_wildcard(goal):
         wanted = _ground_goal(goal, library, domain, named | types.keys(), state)
