@@ -16,6 +16,8 @@ from skillc_runtime.planning.fast_downward.heuristics import (
     H_MAX,
     LM_CUT,
     MERGE_AND_SHRINK,
+    PATTERNS,
+    SHORT_LM_CUT,
     Heuristic,
     TaskFeatures,
     choose_heuristics,
@@ -45,7 +47,7 @@ CONDITIONAL, SIMPLE = "(and (wet) (when (not (clean)) (clean)) (when (clean) (no
 @pytest.mark.parametrize(
     ("effect", "read", "expected"),
     [
-        (SIMPLE, "(wet)", (LM_CUT, BLIND)),
+        (SIMPLE, "(wet)", (SHORT_LM_CUT, PATTERNS, LM_CUT, BLIND)),
         (CONDITIONAL, "(wet)", (MERGE_AND_SHRINK, H_MAX, BLIND)),
         (SIMPLE, "(not (done))", (BLIND,)),
         (CONDITIONAL, "(not (done))", (BLIND,)),
