@@ -82,8 +82,10 @@ def draw_scene(places: int, parts: int, seed: int) -> str:
     """Return a robot, places on a random tree of roads, and parts at random places, in Turtle."""
     draw = random.Random(f"{places} {parts} {seed}")
     lines = [PREFIXES, "lab:place-0 a skiros:Location ."]
-    for number in range(1, places):
-        lines.append(f"lab:place-{number} a skiros:Location ; own:road lab:place-{draw.randrange(number)} .")
+    lines += (
+        f"lab:place-{number} a skiros:Location ; own:road lab:place-{draw.randrange(number)} ."
+        for number in range(1, places)
+    )
     for number in range(parts):
         place = draw.randrange(places)
         lines += (f"lab:part-{number} a skiros:Product .", f"lab:place-{place} skiros:contain lab:part-{number} .")

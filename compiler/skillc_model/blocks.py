@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 
 import msgspec
 
 from skillc_model.conditions import And, Condition, Exists, Forall, Not, Or
+from skillc_model.rewriting import map_children
+from skillc_model.scopes import Nesting
 from skillc_model.traversal import free_variables
 
 
@@ -25,6 +27,24 @@ def make_block(condition: Exists | Forall) -> Block:
     body = condition.body if isinstance(condition, Exists) else negate(condition.body)
     variables = {condition.variable: condition.cls}
     return Block(variables, tuple(_list_parts(body, variables, free_variables(condition))))
+
+
+def narrow_scopes(condition: Condition) -> Condition:
+    """Return an equivalent condition with all quantifiers in it moved inwards (see `scopes`)."""
+    if not isinstance(condition, Exists | Forall):
+        return map_children(condition, narrow_scopes) if isinstance(condition, Not | And | Or) else condition
+    block = make_block(condition)
+    parts = [(narrow_scopes(part), free_variables(part)) for part in block.parts]
+
+    def quantify(name: str, body: Condition) -> Condition:
+        return Exists(name, block.variables[name], body)
+
+    nested = Nesting(parts, quantify, _join).nest(list(block.variables))
+    return nested if isinstance(condition, Exists) else negate(nested)
+
+
+def _join(parts: Sequence[Condition]) -> Condition:
+    return parts[0] if len(parts) == 1 else And(tuple(parts))
 
 
 def negate(condition: Condition) -> Condition:

@@ -82,3 +82,9 @@ def check_current() -> None:
     token = _current.get()
     if token is not None:
         token.check()
+
+
+def limit_current(seconds: float) -> CancelToken:
+    """Return a token that ends after `seconds`, and not later than the work around it."""
+    token = _current.get()
+    return CancelToken(seconds) if token is None else token.limited(seconds)

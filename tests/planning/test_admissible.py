@@ -104,7 +104,7 @@ def test_an_optimum_is_proved_where_effects_depend_on_what_holds(monkeypatch: py
     assert needs == [TaskFeatures(conditional_effects=True, axioms=False)]
 
 
-@pytest.mark.parametrize(("failing", "proved"), [("lmcut", True), ("lmcut blind", False)])
+@pytest.mark.parametrize(("failing", "proved"), [("lmcut", True), ("lmcut ipdb blind", False)])
 def test_where_a_search_fails_the_next_heuristic_gets_its_turn(failing: str, proved: bool, tmp_path: Path) -> None:
     programs = find_fast_downward()
     assert programs is not None

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from functools import reduce
 
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
+from skillc_model.blocks import narrow_scopes
 from skillc_model.conditions import (
     And,
     Arithmetic,
@@ -30,7 +32,11 @@ from skillc_model.conditions import (
 )
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.world.eval.conditions import compile_condition, evaluate
+from skillc_runtime.world.eval.deciding_facts import deciding_facts
+from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import Bindings
+from skillc_runtime.world.eval.grounds import find_grounds
+from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, assign, fact, individual, iri
@@ -107,6 +113,8 @@ def test_a_condition_has_the_value_that_trying_all_individuals_gives(state: Worl
         value = ERROR
     event(f"{len(possible)} outcomes, {value}")
     assert value in possible or ERROR in possible
+    with suppress(EvaluationError):  # parts that guard others may come after them
+        assert evaluate(narrow_scopes(condition), state, PASSED) == value or ERROR in possible
 
 
 Outcomes = frozenset[bool | str]
@@ -183,3 +191,15 @@ def test_a_search_that_takes_long_ends_when_its_time_is_up() -> None:
         condition = Exists(name, iri("Location"), condition)
     with cancelling(CancelToken(0.05)), pytest.raises(Cancelled):
         evaluate(condition, _shops(40), {})
+
+
+def test_what_decides_nested_quantifiers_is_found_without_trying_all_combinations() -> None:
+    state = _shops(4)
+    last = Holds(Variable("x9"), iri("contain"), Individual(iri("board")))
+    condition = _chain(10, last)  # 6 ** 10 combinations
+    assert not evaluate(condition, state, {})
+    assert "none of" in explain(condition, state, {}, state.vocabulary)
+    assert not deciding_facts([condition], state, {})  # nothing contains the board
+    assert find_grounds(condition, WorldModel(state), {})
+    possible = _chain(10, Holds(Variable("x8"), iri("near"), Variable("x9")))
+    assert deciding_facts([possible], state, {})

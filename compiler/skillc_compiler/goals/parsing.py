@@ -49,9 +49,9 @@ def parse_goal(
 ) -> Outcome[Condition | None]:
     """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
-    `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares, and
-    `home` the namespaces that bare names refer to first (see `home_of`). The value is None if there are errors; spans are positions in `text`, with the path `goal`. A goal may also be a condition in
-    JSON, as a compiled library has it.
+    `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares, and `home` the
+    namespaces that bare names refer to first (see `home_of`). The value is None if there are errors; spans are
+    positions in `text`, with the path `goal`. A goal may also be a condition in JSON, as a compiled library has it.
     """
     if is_json(text):
         return _goal_in_json(text, vocabulary, individuals, prefixes or {})

@@ -10,7 +10,18 @@ from typing import assert_never
 from msgspec import structs
 
 from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
-from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, Typed, Universal, conjunction, conjuncts, rename_terms
+from skillc_model.pddl.formulas import (
+    Atom,
+    Change,
+    Equal,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjunction,
+    conjuncts,
+    rename_terms,
+)
 from skillc_model.pddl.names import make_variable
 from skillc_model.pddl.translate import NeedsNumbers, Scope, Translator
 from skillc_model.read_write import UniqueSide, unique_sides

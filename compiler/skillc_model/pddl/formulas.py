@@ -93,6 +93,8 @@ def conjunction(parts: Iterable[Formula]) -> Formula:
     """Return the flat conjunction of the parts without duplicates; FALSE if a part is FALSE."""
     flat: dict[Formula, None] = {}
     for part in parts:
+        if part == FALSE:
+            return FALSE
         flat.update(dict.fromkeys(part.parts if isinstance(part, Conjunction) else (part,)))
     if FALSE in flat:
         return FALSE
@@ -103,6 +105,8 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
     """Return the flat disjunction of the parts without duplicates; TRUE if a part is TRUE."""
     flat: dict[Formula, None] = {}
     for part in parts:
+        if part == TRUE:
+            return TRUE
         flat.update(dict.fromkeys(part.parts if isinstance(part, Disjunction) else (part,)))
     if TRUE in flat:
         return TRUE

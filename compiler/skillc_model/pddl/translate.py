@@ -44,6 +44,7 @@ from skillc_model.pddl.formulas import (
     existential,
 )
 from skillc_model.pddl.names import make_variable
+from skillc_model.pddl.scoping import narrow_scopes
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.read_write import terms_read
 
@@ -207,7 +208,8 @@ class Translator:
     def _exists(self, name: str, cls: str, body: Condition, scope: Scope) -> Formula:
         place = self._place(name, cls, scope)
         member = self.membership(cls, place)
-        return existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
+        found = existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
+        return narrow_scopes(found) if isinstance(found, Existential) else found
 
     def membership(self, cls: str, place: BoundVariable) -> Formula:
         """Return the test that the variable is of the class; TRUE if its PDDL type implies it."""

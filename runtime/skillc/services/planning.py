@@ -14,6 +14,7 @@ from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import PlanResult
 from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 
@@ -45,7 +46,13 @@ def prepare_planners(use_cache: bool) -> Planners:
     return find_planners(None if folder is None else FolderPlanCache(folder / "plans"))
 
 
-def plan_goal(loaded: LoadedTask, measure: Measure, planners: Planners, cancel: CancelToken) -> Answer:
+def plan_goal(
+    loaded: LoadedTask,
+    measure: Measure,
+    planners: Planners,
+    cancel: CancelToken,
+    report: ReportProgress = ignore_progress,
+) -> Answer:
     """Plan for the goal of a task: with little work, with work proved minimal in the whole scene, or a short makespan.
 
     RequestError if the task has a body instead of a goal.
@@ -55,8 +62,9 @@ def plan_goal(loaded: LoadedTask, measure: Measure, planners: Planners, cancel: 
         raise RequestError(f"the task `{assignment.name}` has a body, not a goal; run it with `skillc run`")
     goal = assignment.objective.goal
     if measure == "makespan":
-        return minimise_makespan(library, assignment.state, goal, planners, cancel)
-    return solve(library, assignment.state, goal, planners.for_work, cancel, prove=measure == "proven work")
+        return minimise_makespan(library, assignment.state, goal, planners, cancel, report=report)
+    prove = measure == "proven work"
+    return solve(library, assignment.state, goal, planners.for_work, cancel, prove=prove, report=report)
 
 
 def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:

@@ -8,7 +8,7 @@ from skillc_model.conditions import Condition
 from skillc_model.pddl.formulas import FALSE, conjuncts
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.cancellation import Cancelled, CancelToken
+from skillc_runtime.cancellation import Cancelled, cancelling, limit_current
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
@@ -17,6 +17,9 @@ from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable
 from skillc_runtime.world.eval.explain import RelationObstacle
 from skillc_runtime.world.state.world_state import WorldState
+
+REACHABILITY_S = 10.0
+"""The time limit for one goal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,16 +37,22 @@ class UnreachableGoal:
 def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Condition) -> UnreachableGoal | None:
     """Return why no plan can reach the goal, even if actions deleted nothing; None if a plan may exist or if unknown.
 
-    In a large scene only the part near the goal is considered in detail; the rest is abstracted (`relax_scene`).
+    In a large scene only the part near the goal is considered in detail; the rest is abstracted (`relax_scene`). It is
+    not known, either, if the time limit ends before.
     """
     try:
-        if already_holds(goal, state):
-            return None
-        posed = pose_problem(library, state, goal, (), AT_ONCE)
+        with cancelling(limit_current(REACHABILITY_S)):
+            return _explain(library, state, goal)
     except GoalError as error:
         return UnreachableGoal(str(error), proved=False)
-    except TooManyValues:
+    except (TooManyValues, Cancelled):
         return None
+
+
+def _explain(library: SkillLibrary, state: WorldState, goal: Condition) -> UnreachableGoal | None:
+    if already_holds(goal, state):
+        return None
+    posed = pose_problem(library, state, goal, (), AT_ONCE)
     problem = relax_scene(posed, state) if posed.narrowed else posed.problem
     if problem is None or _is_reachable(problem):
         return None
@@ -53,7 +62,7 @@ def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Conditio
 
 def _is_reachable(problem: Problem) -> bool:
     """Whether all parts of the goal are reachable; True also if the time limit ends before this is known."""
-    grounding = Grounding(problem, CancelToken(EXPLANATION_S))
+    grounding = Grounding(problem, limit_current(EXPLANATION_S))
     try:
         grounding.explore()
         wanted = grounding.goal()

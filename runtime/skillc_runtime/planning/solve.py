@@ -10,7 +10,7 @@ from msgspec import structs
 from skillc_model.conditions import Condition
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.plan import (
     GaveUp,
@@ -72,11 +72,15 @@ def solve(
         return explain_unsolvable(posed, goal, state)
 
     try:
-        if already_holds(goal, state):
-            return Solved(Plan((), 0.0), "proven", "the world as it is")
-        return plan_in_stages(PlanningStages(pose, answer, search, explain, cancel), state, size, prove=prove)
+        with cancelling(cancel):
+            if already_holds(goal, state):
+                return Solved(Plan((), 0.0), "proven", "the world as it is")
+        with cancelling(cancel):
+            return plan_in_stages(PlanningStages(pose, answer, search, explain, cancel), state, size, prove=prove)
     except GoalError as reason:
         return GaveUp(str(reason), searched=False)
+    except Cancelled as reason:
+        return GaveUp(str(reason))
 
 
 def _plan_and_validate(
@@ -90,7 +94,11 @@ def _plan_and_validate(
     failures: list[str] = []
     for planner in planners:
         report(PlanningProgress(planner=planner.name))
-        result = _validate(planner.plan(posed.problem, cancel, report), posed, state, goal)
+        try:
+            with cancelling(cancel):
+                result = _validate(planner.plan(posed.problem, cancel, report), posed, state, goal)
+        except Cancelled as reason:
+            result = GaveUp(str(reason))
         match result:
             case Solved() | Unsolvable():
                 return result

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
 from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
-from skillc_runtime.cancellation import Cancelled, CancelToken
+from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling, limit_current
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.grounding import Grounding
@@ -40,9 +40,11 @@ def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) 
     """Return why a problem has no plan, as far as reachability without deletions shows."""
     causes: tuple[str, ...] = ()
     obstacles: tuple[RelationObstacle, ...] = ()
+    limit = limit_current(EXPLANATION_S)
     try:
-        explanation = _Explanation(posed, state)
-        reasons = tuple(explanation.explain_goal(goal))
+        with cancelling(limit):
+            explanation = _Explanation(posed, state, limit)
+            reasons = tuple(explanation.explain_goal(goal))
         obstacles = tuple(dict.fromkeys(explanation.obstacles))
         found = list(map(str, obstacles)) or explanation.wrong or explanation.missing
         causes = tuple(dict.fromkeys(found))[:MAX_LISTED]
@@ -60,14 +62,14 @@ class _Explanation:
     that no individuals have.
     """
 
-    def __init__(self, posed: PosedProblem, state: WorldState) -> None:
+    def __init__(self, posed: PosedProblem, state: WorldState, limit: CancelToken) -> None:
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
         self._state, self._iris = state, posed.problem.names
         skipped = any(each.kind == "skills" for each in posed.restricted)
         self._no_skill = "no plannable skill" if skipped else "no skill"
         self._nothing = "no plannable skill" if skipped else "nothing"
         self._formatter = FormulaFormatter(posed.problem, posed.library)
-        self._grounding = Grounding(posed.problem, CancelToken(EXPLANATION_S))
+        self._grounding = Grounding(posed.problem, limit)
         self._grounding.explore()
         self.obstacles: list[RelationObstacle] = []
         self.wrong: list[str] = []

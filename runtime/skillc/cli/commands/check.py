@@ -15,6 +15,7 @@ from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
 from skillc.cli.diagnostics_output import FORMS, JSON, exit_code, print_diagnostics
 from skillc.cli.options import PATH, json_option
+from skillc.cli.slow_notice import notice_if_slow
 from skillc.services.checking import (
     STDIN,
     CheckRequest,
@@ -92,9 +93,10 @@ def command(
     form = JSON if as_json else form
     if watch:
         return _watch(request, form)
-    if diff:
-        return _show_fixes(request, unsafe_fixes)
-    return _fix(request, unsafe_fixes, form) if fix else _show(check_paths(request), form)
+    with notice_if_slow("checking .."):
+        if diff:
+            return _show_fixes(request, unsafe_fixes)
+        return _fix(request, unsafe_fixes, form) if fix else _show(check_paths(request), form)
 
 
 def _show(result: CheckResult, form: str) -> int:

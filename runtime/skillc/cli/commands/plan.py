@@ -7,9 +7,6 @@ Exit code 3 if no plan is found.
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,12 +26,12 @@ from skillc.cli.options import (
 from skillc.cli.server_access import cell_options, refuse_options
 from skillc.cli.server_completions import complete_asked_argument, complete_asked_task
 from skillc.cli.server_connection import asks_cell
-from skillc.cli.settings import output_settings
+from skillc.cli.slow_notice import notice_if_slow
 
 if TYPE_CHECKING:
     from skillc.services.planning import Measure
+    from skillc_runtime.planning.progress import PlanningProgress
 
-NOTICE_AFTER_S = 2.0
 EXAMPLES = """
 skillc plan clean_table
 skillc plan --scene cell.ttl --goal "lab:Bin-A contain lab:Part-1"
@@ -91,6 +88,7 @@ def command(
     from skillc.services.task_loading import TaskRequest, load_task
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
+    from skillc_runtime.planning.progress import describe_progress
 
     if asks_cell():
         refuse_options(scene=scene, library=library, store=store, reset=reset)
@@ -102,24 +100,14 @@ def command(
         raise click.UsageError("--prove requires --minimise work; for makespan the answer always has a lower bound")
     measure: Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
     with load_task(request, Terminal()) as loaded:
-        with _notice_if_slow(deadline):
-            answer = plan_goal(loaded, measure, prepare_planners(plan_cache), CancelToken(deadline))
+        progress: list[PlanningProgress] = []
+        with notice_if_slow(
+            f"planning, for at most {deadline:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
+        ):
+            planners, cancel = prepare_planners(plan_cache), CancelToken(deadline)
+            answer = plan_goal(loaded, measure, planners, cancel, progress.append)
         if as_json:
             click.echo(plan_as_json(answer, loaded))
         else:
             print_text(format_plan(answer, loaded))
     return 3 if isinstance(answer, Unsolvable | GaveUp) else 0
-
-
-@contextmanager
-def _notice_if_slow(deadline_s: float) -> Iterator[None]:
-    """Print to stderr that planning is in progress once it has taken longer than NOTICE_AFTER_S."""
-    text = f"planning, for at most {deadline_s:g} s .."
-    wanted = not output_settings().quiet
-    notice = threading.Timer(NOTICE_AFTER_S, lambda: click.echo(text, err=True) if wanted else None)
-    notice.daemon = True
-    notice.start()
-    try:
-        yield
-    finally:
-        notice.cancel()

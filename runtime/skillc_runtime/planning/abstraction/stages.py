@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
 
 from skillc_model.pddl.problem import Problem
-from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.initial_state import TooManyValues
@@ -59,7 +59,7 @@ def plan_in_stages(
     while True:
         try:
             posed = stages.pose(size)
-        except TooManyValues as reason:
+        except (TooManyValues, Cancelled) as reason:
             return best or GaveUp(str(reason))
         if size is None or not posed.narrowed:
             return _plan_whole_scene(best, posed, stages)
@@ -133,5 +133,10 @@ def _explain_unreachable(posed: PosedProblem, stages: PlanningStages, state: Wor
 
 
 def _search_lower_bound(posed: PosedProblem, stages: PlanningStages, state: WorldState) -> PlanResult | None:
-    problem = relax_scene(posed, state)
-    return None if problem is None else stages.search(problem, stages.cancel.limited(BOUND_S))
+    part = stages.cancel.limited(BOUND_S)
+    try:
+        with cancelling(part):
+            problem = relax_scene(posed, state)
+            return None if problem is None else stages.search(problem, part)
+    except Cancelled:
+        return None

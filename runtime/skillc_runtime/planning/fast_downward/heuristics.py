@@ -1,8 +1,8 @@
 """Chooses the admissible heuristics of Fast Downward for a task, by the features of the translated task.
 
-LM-cut and pattern databases support neither conditional effects nor axioms, and exit with code 34. Merge-and-shrink (with label reduction
-and bisimulation) and h-max support conditional effects; h-max also runs with axioms, but is not documented to be
-admissible with them. The blind heuristic is admissible for every task.
+LM-cut and pattern databases support neither conditional effects nor axioms, and exit with code 34. Merge-and-shrink
+(with label reduction and bisimulation) and h-max support conditional effects; h-max also runs with axioms, but is not
+documented to be admissible with them. The blind heuristic is admissible for every task.
 """
 
 from __future__ import annotations

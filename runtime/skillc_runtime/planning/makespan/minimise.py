@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, makespan_lower_bound_s
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
@@ -67,8 +67,9 @@ def minimise_makespan(
     if isinstance(least_work, Solved) and not least_work.plan.steps:
         return _schedule_empty_plan(least_work, problem)
     try:
-        posed = pose_problem(library, state, goal, without, AT_ONCE)
-    except TooManyValues as why:
+        with cancelling(cancel):
+            posed = pose_problem(library, state, goal, without, AT_ONCE)
+    except (TooManyValues, Cancelled) as why:
         return GaveUp(str(why))
     problem = replace(problem, library=posed.library)
     first = _schedule_least_work(least_work, problem) if isinstance(least_work, Solved) else least_work

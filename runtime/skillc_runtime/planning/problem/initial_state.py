@@ -23,6 +23,7 @@ from skillc_model.pddl.domain import (
 )
 from skillc_model.pddl.formulas import Atom, Typed
 from skillc_model.pddl.problem import CostValue
+from skillc_runtime.cancellation import check_current
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.properties import property_of
@@ -31,6 +32,8 @@ from skillc_runtime.world.state.values import Value, has_value
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_VALUES = 1_000_000
+CHECKED_AFTER = 256
+"""After how many combinations it is asked whether there is time left."""
 
 
 class TooManyValues(Exception):
@@ -124,7 +127,10 @@ class InitialState:
         if prod(map(len, members)) > MAX_VALUES:
             sizes = " x ".join(str(len(each)) for each in members if len(each) > 1)
             raise TooManyValues(f"{reader} would have to be evaluated for {sizes} objects")
-        return product(*members)
+        for count, names in enumerate(product(*members)):
+            if count % CHECKED_AFTER == 0:
+                check_current()
+            yield names
 
     def _duration_s(self, function: CostFunction, names: tuple[str, ...]) -> Fraction:
         bindings = {variable: self._iris[name] for variable, name in zip(function.variables, names, strict=True)}

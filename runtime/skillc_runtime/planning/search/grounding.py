@@ -110,9 +110,11 @@ class Grounding:
             case Disjunction(parts):
                 return disjunction(self.reduce(part, values) for part in parts)
             case Existential(variable, body):
+                self._cancel.check()
                 names = self._members[variable.type]
                 return disjunction(self.reduce(body, {**values, variable.name: name}) for name in names)
             case Universal(variable, body):
+                self._cancel.check()
                 names = self._members[variable.type]
                 return conjunction(self.reduce(body, {**values, variable.name: name}) for name in names)
             case _:

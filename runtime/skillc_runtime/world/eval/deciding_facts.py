@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from heapq import nsmallest
 from itertools import islice
@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_model.blocks import narrow_scopes
 from skillc_model.conditions import (
     Condition,
     Exists,
@@ -23,9 +24,10 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.traversal import children
+from skillc_model.traversal import children, free_variables_in_order
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import iri_of
+from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.eval.quantifiers import candidates
 from skillc_runtime.world.state.labelled import (
     LabelledClass,
@@ -42,8 +44,10 @@ from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 4
 """The maximum number of facts for an unbound term or a quantifier."""
-
 _Names: TypeAlias = Mapping[str, Value]
+
+
+_narrowed: IdentityCache[Condition, Condition] = IdentityCache(narrow_scopes)
 
 
 def deciding_facts(conditions: Iterable[Condition], state: WorldState, bindings: _Names) -> tuple[LabelledFact, ...]:
@@ -51,11 +55,14 @@ def deciding_facts(conditions: Iterable[Condition], state: WorldState, bindings:
 
     Unbound names stand for any individual. Facts that cannot be evaluated are left out.
     """
-    found = (fact for condition in conditions for fact in _facts(condition, state, bindings))
+    seen: set[Hashable] = set()
+    narrow = [_narrowed(condition) for condition in conditions]
+    found = (fact for condition in narrow for fact in _facts(condition, state, bindings, seen))
     return tuple(dict.fromkeys(found))
 
 
-def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterator[LabelledFact]:
+def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names, seen: set[Hashable]) -> Iterator[LabelledFact]:
+    """Yield the facts that a condition reads; `seen` are the quantified ones that were read, with what they read."""
     words = state.vocabulary
     match item:
         case Holds(subject, relation, object_):
@@ -74,13 +81,23 @@ def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names) -> Iterato
                 yield LabelledIdentity(label(one, words), label(other, words), one == other)
         case Or(parts):
             for alternative in _true(parts, state, bindings) or parts:
-                yield from _facts(alternative, state, bindings)
+                yield from _facts(alternative, state, bindings, seen)
         case Exists() | Forall():
-            for individual in _deciding(item, state, bindings):
-                yield from _facts(item.body, state, {**bindings, item.variable: individual})
+            yield from _quantified(item, state, bindings, seen)
         case _:
             for part in children(item):
-                yield from _facts(part, state, bindings)
+                yield from _facts(part, state, bindings, seen)
+
+
+def _quantified(
+    item: Exists | Forall, state: WorldState, bindings: _Names, seen: set[Hashable]
+) -> Iterator[LabelledFact]:
+    values = (bindings.get(name) for name in free_variables_in_order(item))
+    key = (id(item), *(each if isinstance(each, str) else id(each) for each in values))
+    if key not in seen:
+        seen.add(key)
+        for individual in _deciding(item, state, bindings):
+            yield from _facts(item.body, state, {**bindings, item.variable: individual}, seen)
 
 
 def _related(subject: str | None, relation: str, object_: str | None, state: WorldState) -> Iterator[LabelledFact]:

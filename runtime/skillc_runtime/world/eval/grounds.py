@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias, assert_never
 
 import msgspec
 
+from skillc_model.blocks import narrow_scopes
 from skillc_model.conditions import (
     And,
     Compare,
@@ -25,7 +26,7 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.traversal import walk
+from skillc_model.traversal import free_variables_in_order, walk
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
 from skillc_runtime.world.state.evidence import DecidingWrite
@@ -53,13 +54,14 @@ Grounds: TypeAlias = tuple[Ground, ...]
 
 def find_grounds(condition: Condition, world: WorldModel, bindings: Bindings) -> Grounds:
     """Return the facts that decide a condition, each once; of alternatives, those with the fewest assumptions."""
-    return _Finder(world).of(condition, bindings)
+    return _Finder(world).of(narrow_scopes(condition), bindings)
 
 
 class _Finder:
     def __init__(self, world: WorldModel) -> None:
         self._world = world
         self._state: WorldState = world.snapshot()
+        self._quantified_before: dict[Hashable, Grounds] = {}
 
     def of(self, condition: Condition, bindings: Bindings) -> Grounds:
         match condition:
@@ -75,7 +77,7 @@ class _Finder:
             case And(parts) | Or(parts):
                 return self._compound(parts, isinstance(condition, And), bindings)
             case Exists() | Forall():
-                return self._quantified(condition, bindings)
+                return self._remembered(condition, bindings)
             case Same() | Given():
                 return ()
             case _:
@@ -87,6 +89,14 @@ class _Finder:
         if alone:
             return _least_assumed([self.of(part, bindings) for part in alone])
         return _unique(ground for part in parts for ground in self.of(part, bindings))
+
+    def _remembered(self, condition: Exists | Forall, bindings: Bindings) -> Grounds:
+        """Return the facts of a quantified condition, found once for the individuals that it reads."""
+        values = (bindings.get(name) for name in free_variables_in_order(condition))
+        key = (id(condition), *(each if isinstance(each, str) else id(each) for each in values))
+        if key not in self._quantified_before:
+            self._quantified_before[key] = self._quantified(condition, bindings)
+        return self._quantified_before[key]
 
     def _quantified(self, condition: Exists | Forall, bindings: Bindings) -> Grounds:
         exists = isinstance(condition, Exists)

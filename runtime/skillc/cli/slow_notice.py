@@ -1,0 +1,36 @@
+"""Says on stderr what a command is doing once it takes long, and again as long as it goes on."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import click
+
+from skillc.cli.settings import output_settings
+
+FIRST_AFTER_S, AGAIN_AFTER_S = 2.0, 10.0
+
+
+@contextmanager
+def notice_if_slow(text: str, describe: Callable[[], str] = lambda: "") -> Iterator[None]:
+    """Print `text` after FIRST_AFTER_S, and every AGAIN_AFTER_S what `describe` then returns, or else `text`."""
+    ended = threading.Event()
+
+    def notice() -> None:
+        if not ended.wait(FIRST_AFTER_S):
+            click.echo(text, err=True)
+        while not ended.wait(AGAIN_AFTER_S):
+            click.echo(describe() or text, err=True)
+
+    if output_settings().quiet:
+        yield
+        return
+    thread = threading.Thread(target=notice, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
