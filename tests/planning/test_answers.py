@@ -60,7 +60,7 @@ def test_the_answer_names_what_it_was_made_without(depot: Path) -> None:
     said = plan(depot, "lab:truck stores lab:c150")
     assert said.exit_code == 0
     assert "1 step, 2 s expected, proved optimal" in said.stdout
-    assert "planned without lab:c" in said.stdout and "more: they are far from what the goal refers to" in said.stdout
+    assert "planned without lab:d" in said.stdout and "more: they are far from what the goal refers to" in said.stdout
     assert said.stdout.rstrip().endswith("yet no better plan needs them")
 
 
@@ -68,7 +68,9 @@ def test_machines_get_the_whole_list(depot: Path) -> None:
     told = json.loads(plan(depot, "lab:truck stores lab:c150", "--prove", "--json").stdout)
     assert told["optimal"] == "proven" and told["plan_optimal"]
     far = [each for each in told["left_out"] if not each["harmless"]]
-    assert len(far) == 1 and len(far[0]["what"]) > 300
+    assert len(far) == 1 and len(far[0]["what"]) > 150 and all(":d" in each for each in far[0]["what"])
+    needless = next(each for each in told["left_out"] if "no step that helps" in each["why"])
+    assert needless["harmless"] and len(needless["what"]) == 199 and "lab:c150" not in needless["what"]
 
 
 def test_a_goal_out_of_reach_of_a_large_scene_says_why(depot: Path) -> None:
