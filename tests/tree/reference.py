@@ -151,7 +151,7 @@ def _decorated(node: tree.Try | tree.Invert | tree.Once, model: Model, scope: Sc
     if isinstance(node, tree.Once):
         scope.once[node.source] = result
         return _lasting(result)
-    if result.hold:
+    if result.hold and not model.dry:
         return result
     if isinstance(node, tree.Try):
         return Result(still=result.still) if result.ok else Result()

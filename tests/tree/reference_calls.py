@@ -36,7 +36,7 @@ def _implementation(skill: Skill, implementation: Implementation, model: Model, 
     if not all(true(pre.condition, model, scope) for pre in implementation.pre):
         return Result("pre", refused=True)
     if not all(true(hold.condition, model, scope) for hold in implementation.hold):
-        return Result("hold", hold=not model.dry, refused=True)
+        return Result("hold", hold=True, refused=True)
     if device and holders and holders[-1] not in scope.calls:
         return Result("lock", refused=True)
     key = (object(), *scope.branch)

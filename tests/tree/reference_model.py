@@ -34,7 +34,7 @@ class Model:
     """The whole world of the reference: flags, time, scripts, locks, and the log.
 
     The key of a lock names the branches of reactive selectors that it is in. In a `dry` one nothing is done: primitives
-    run for ever, and nothing is locked.
+    run for ever, nothing is locked, a retry is judged by its first round, and a broken hold is a failure like others.
     """
 
     library: SkillLibrary

@@ -62,7 +62,7 @@ class _Writer:
         self.scripts: dict[str, list[Script]] = {}
 
     def node(self, depth: int) -> tree.Node:
-        if depth == 0 or self.left <= 0:
+        if depth <= 0 or self.left <= 0:
             return self.leaf()
         kind = self.draw(st.sampled_from(self.kinds))
         make = {

@@ -68,7 +68,7 @@ class TryNode(Node):
 
     def foresee(self, freed: Holders) -> Status:
         status = self.child.dry_start(freed)
-        return SUCCESS if status is FAILURE else status
+        return SUCCESS if status is FAILURE else status  # whether it breaks a hold, only its start tells
 
     def on_start(self) -> Status:
         return self.on_child_ended(self.child.start())
