@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import Literal
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Misfit
@@ -17,6 +17,8 @@ EXAMPLES: dict[InputKind, str] = {
     "call": "a call is `Skill(parameter: value, ..)`",
 }
 _COMMENT = re.compile(r"[#;].*")
+MOST_SOUGHT = 20
+"""For so many words of a goal a similar name is looked for."""
 _BARE = re.compile(r"(?<![\w:.?\"-])[A-Za-z]\w*(?:-\w+)*(?![\w:(\"-])")
 _DECLARED = re.compile(r"\b([A-Za-z]\w*+)\s*+:\s")
 
@@ -62,12 +64,20 @@ def _prefixes(
 ) -> Iterator[Diagnostic]:
     local = {name.rpartition(":")[2]: name for name in individuals}
     variables = {name for line in lines for name in _DECLARED.findall(line)}
+    sought: dict[str, list[str]] = {}
     for number, line in enumerate(lines, start=1):
         for found in _BARE.finditer(line):
             word = found.group()
-            alike = [word] if word in local else difflib.get_close_matches(word, local, n=1) if "-" in word else []
+            alike = [word] if word in local else _similar(word, local, sought) if "-" in word else []
             if alike and word not in variables and not means_something(word):
                 span = Span(what, number, found.start() + 1, number, found.end() + 1)
                 meant = local[alike[0]]
                 fix = Fix(span, meant, f"write `{meant}`")
                 yield Diagnostic("missing-prefix", span, f"`{word}` has no prefix", f"write `{meant}`", fix=fix)
+
+
+def _similar(word: str, names: Collection[str], sought: dict[str, list[str]]) -> list[str]:
+    """Return the name that is similar to a word, if it is one of the first MOST_SOUGHT words; `sought` keeps these."""
+    if word not in sought and len(sought) < MOST_SOUGHT:
+        sought[word] = difflib.get_close_matches(word, names, n=1)
+    return sought.get(word, [])

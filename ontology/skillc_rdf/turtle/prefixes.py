@@ -13,6 +13,8 @@ from skillc_rdf.turtle.tokens import Token
 
 ALIKE = 0.85
 """The similarity (0 to 1) from which a namespace counts as a misspelling of another."""
+MOST_SEARCHES, LONGEST = 100, 64
+"""How often a text is searched for a similar prefix, and the longest prefix for which it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +35,7 @@ class Prefixes:
         self._used: set[str] = set()
         self._lost: set[str] = set()
         self._missing: dict[str, list[Token]] = {}
+        self._searched: dict[tuple[str, int], str | None] = {}
 
     def declare(self, name: Token, value: Token, iri: str) -> None:
         """Add a declaration; a namespace that is a misspelling of the known one is replaced by it."""
@@ -68,7 +71,7 @@ class Prefixes:
 
     def _meant(self, name: Token, iri: str) -> str:
         known = self._known.get(name.text.removesuffix(":"))
-        if known is None or iri in self._known.values():
+        if known is None or iri in self._known.values() or len(iri) > 2 * len(known):
             return iri
         return known if SequenceMatcher(None, known, iri).ratio() >= ALIKE else iri
 
@@ -99,6 +102,14 @@ class Prefixes:
         return Diagnostic("unknown-prefix", place, message, f"begin the file with `@prefix {prefix}: <IRI> .`")
 
     def _near(self, prefix: str) -> str | None:
+        """Return the declared prefix that is similar, None if there is none or too many were searched for."""
+        search = prefix, len(self._declared)
+        if search not in self._searched:
+            allowed = len(self._searched) < MOST_SEARCHES and len(prefix) <= LONGEST
+            self._searched[search] = self._find_near(prefix) if allowed else None
+        return self._searched[search]
+
+    def _find_near(self, prefix: str) -> str | None:
         if prefix in self._known and not any(self._known[prefix] == each.iri for each in self._declared.values()):
             return None
         near = get_close_matches(prefix, self._declared, n=1, cutoff=0.7)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import TypeAlias, assert_never
 
 import pyoxigraph as ox
@@ -16,12 +16,14 @@ from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.scene.foreign_terms import TermUse, group_foreign_terms, report_foreign_terms
 from skillc_runtime.scene.interpretation import Interpretation, Mistake, interpret_table
 from skillc_runtime.scene.statements import iri_of
-from skillc_runtime.scene.suggestions import suggest
+from skillc_runtime.scene.suggestions import Suggestion, suggest
 from skillc_runtime.scene.table import tabulate
 from skillc_runtime.store.literals import read_literal
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.values import show
 
+MOST_SUGGESTED = 50
+"""For so many mistakes of a scene the names that may be meant are looked for, among all that it has."""
 LocatedChange: TypeAlias = tuple[Change, Statement]
 """A change with the statement that states it."""
 
@@ -39,6 +41,7 @@ class LocatedFacts:
         self._declared = {iri_of(each.subject): each for each in reversed(said) if each.predicate == RDF_TYPE}
         wrong = (each for each in self._meaning.mistakes if each.kind == "wrong literal")
         self._unreadable = set(map(self._position, wrong))
+        self._suggested = 0
 
     def changes(self) -> list[LocatedChange]:
         """Return the changes of the statements: individuals first, then relations in order, then values."""
@@ -143,7 +146,7 @@ class LocatedFacts:
 
     def _without_class(self, subject: str, each: Statement) -> Diagnostic:
         place = each.subject_place
-        near = suggest(subject, place, self._vocabulary, self._declared)
+        near = self._suggest(lambda: suggest(subject, place, self._vocabulary, self._declared))
         help_ = near.help if near.fix else "say what it is: `a CLASS ;`"
         return Diagnostic("unknown-individual", place, f"{self._short(subject)} has no class", help_, fix=near.fix)
 
@@ -169,12 +172,7 @@ class LocatedFacts:
         """Return the problem of an undeclared individual at its first use; labels mark the others."""
         first = uses[0]
         ranges = {each.range for use in uses for each in self._vocabulary.relations[use.predicate].signatures}
-        fitting = [
-            one
-            for one, classes in self._classes.items()
-            if any(self._vocabulary.is_a(cls, range_) for cls in classes for range_ in ranges)
-        ]
-        near = suggest(iri, first.object_place, self._vocabulary, fitting or self._declared, fitting)
+        near = self._suggest(lambda: self._suggest_individual(iri, first.object_place, ranges))
         notes = [Label(use.object_place, "and here") for use in uses[1:]]
         if near.fix is not None:
             meant = next((s for one, s in self._declared.items() if self._short(one) == near.fix.text), None)
@@ -183,10 +181,22 @@ class LocatedFacts:
         edit = near.fix if len(uses) == 1 else None
         return Diagnostic("unknown-individual", first.object_place, message, near.help, labels=tuple(notes), fix=edit)
 
+    def _suggest_individual(self, wrong: str, place: Span, classes: Collection[str]) -> Suggestion:
+        """Return the individual that may be meant, of one of these classes if there are any."""
+        is_a = self._vocabulary.is_a
+        fitting = [one for one, own in self._classes.items() if any(is_a(cls, each) for cls in own for each in classes)]
+        return suggest(wrong, place, self._vocabulary, fitting or self._declared, fitting)
+
+    def _suggest(self, search: Callable[[], Suggestion]) -> Suggestion:
+        """Return what may be meant; nothing if that was looked for too often in this scene."""
+        self._suggested += 1
+        return search() if self._suggested <= MOST_SUGGESTED else Suggestion("")
+
     def _unknown(
         self, kind: str, iri: str, place: Span, known: Iterable[str], fitting: Sequence[str] = ()
     ) -> Diagnostic:
-        near = suggest(iri, place, self._vocabulary, known, fitting if len(fitting) < len(list(known)) else ())
+        some = fitting if len(fitting) < len(list(known)) else ()
+        near = self._suggest(lambda: suggest(iri, place, self._vocabulary, known, some))
         help_ = near.help or f"declare the {kind} in a .skill file or in an ontology"
         return Diagnostic(f"unknown-{kind}", place, f"there is no {kind} {self._short(iri)}", help_, fix=near.fix)
 
