@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 MOST = 3
 """The maximum number of names that are suggested."""
+_REMEMBERED = 1 << 16
+"""How many pairs of names are remembered: a library is compiled again for each fix that may be offered."""
 
 
 def did_you_mean(wrong: str, candidates: Iterable[str]) -> str:
@@ -57,6 +60,7 @@ def _share_words(one: set[str], other: set[str]) -> bool:
     return bool(one and other) and (one <= other or other <= one)
 
 
+@lru_cache(_REMEMBERED)
 def _distance(wrong: str, name: str) -> int | None:
     """Return the number of changes from one name to the other, None if they are too many for the length."""
     length = min(len(wrong), len(name))

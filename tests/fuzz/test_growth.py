@@ -1,0 +1,38 @@
+"""Texts that once took time in the square of their length, or twice as long with each part, are read in linear time."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from fuzz.kinds._growth import MOST_EXPONENT, measure_growth
+from fuzz.kinds.growth import Shape, check_growth
+
+ONCE = [
+    ("detect", Shape('<?xml version="1.0"?>\n', "<!-- c -->\n", "", "", "<rdf:RDF/>")),
+    ("address", Shape("http://", "a0 http://", "", "", "")),
+    ("page", Shape("a", " ", "", "", "")),
+    ("question", Shape("", "1.1", "", "", "")),
+    pytest.param("turtle", Shape("", "..a", "", "", ""), marks=pytest.mark.slow),
+    pytest.param(
+        "turtle", Shape("", "@prefix pp0: <http://p0#> .\n", "", "qp0:a a qp0:b .\n", ""), marks=pytest.mark.slow
+    ),
+    pytest.param("query", Shape("", '\\"', "", "", ""), marks=pytest.mark.slow),
+    pytest.param("suppressions", Shape("", "# allow x0: why\n", "", "", ""), marks=pytest.mark.slow),
+    pytest.param("reparse", Shape("", "# c\n", "", "", ""), marks=pytest.mark.slow),
+    pytest.param("parse", Shape("", "skill S0 {\n", "", "", ""), marks=pytest.mark.slow),
+    pytest.param("goal", Shape("", "a", "", "", " "), marks=pytest.mark.slow),
+]
+
+
+@pytest.mark.parametrize(("door", "shape"), ONCE)
+def test_what_once_took_long_grows_with_its_length(door: str, shape: Shape) -> None:
+    check_growth(door, shape)
+
+
+@pytest.mark.slow
+def test_the_square_of_the_length_is_noticed() -> None:
+    pattern = re.compile("a*b")
+    growth = measure_growth(pattern.search, lambda count: "a" * count, 10_000)
+    assert growth.exponent > MOST_EXPONENT
