@@ -83,7 +83,8 @@ KINDS = {
 }
 """Of which classes the things are that parameters of these names stand for."""
 
-MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "blend": 0.01, "settle": 5.0, "patience": 5.0, "travel": 0.5}
+MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "resistance": 15.0, "blend": 0.01, "settle": 5.0}
+WAITING = {"patience": 5.0, "travel": 0.5}
 PRESSING = {
     "stiffness": 0.0,
     "force": 10.0,
@@ -131,7 +132,7 @@ def arguments(scene: str, cell: Cell) -> dict[str, object]:
     beside = Pose(tool.position + np.array([0.02, 0.0, 0.025]), tool.rotation)
     poses = {"via": beside, "target": raised, "path": [raised, tool], "at": tool}
     directions = {"along": -tool.rotation[:, 2], "plane": tool.rotation[:, 0]}
-    return {**things(scene), **MOTION, **PRESSING, **SWINGING, **FIGURE, **ASKING, **poses, **directions}
+    return {**things(scene), **MOTION, **WAITING, **PRESSING, **SWINGING, **FIGURE, **ASKING, **poses, **directions}
 
 
 class Pushing(Primitive):
