@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
 import pytest
@@ -39,6 +40,12 @@ def double(number: int, after_s: float = 0.0) -> int:
     return 2 * number
 
 
+def double_once_released(number: int, file: Path) -> int:
+    while not file.exists():
+        time.sleep(0.005)
+    return 2 * number
+
+
 def refuse(depth: float) -> None:
     raise SkillFailure("there is no room: {depth:.1f mm} are missing", depth=Quantity(depth, "m"))
 
@@ -54,6 +61,7 @@ def break_down() -> None:
 WAYS: dict[str, Callable[[], Computation]] = {
     "quick": lambda: Computation(double, (21,)),
     "slow": lambda: Computation(double, (21, Thinking.takes_s)),
+    "held": lambda: Computation(double_once_released, (21, Thinking.released)),
     "refuse": lambda: Computation(refuse, (0.003,)),
     "die": lambda: Computation(os._exit, (7,), name="the look for a place"),
     "break": lambda: Computation(break_down),
@@ -68,6 +76,7 @@ class Thinking(Scripted):
     """Computes at its start, if its name says so, before it does what its script says."""
 
     takes_s: ClassVar[float] = 0.2
+    released: ClassVar[Path]
 
     def start(self) -> None:
         super().start()
@@ -106,6 +115,14 @@ class Thought:
         return running.worker.pid
 
 
+@pytest.fixture(autouse=True)
+def released(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """Return the file whose existence lets what is held go on."""
+    file = tmp_path / "released"
+    monkeypatch.setattr(Thinking, "released", file, raising=False)
+    return file
+
+
 def think(body: object, kind: type[StagedCell] = LockStepCell, **scripts: Script) -> Thought:
     """Return a run of a body that was submitted."""
     cell = kind(world(), {name: [script] for name, script in scripts.items()})
@@ -121,14 +138,15 @@ def is_alive(pid: int) -> bool:
     return True
 
 
-def test_in_lock_step_time_stands_still_until_it_is_computed() -> None:
-    slow = think(par("all", act("slow"), act("other")), other=Script(ticks=5))
+def test_in_lock_step_time_stands_still_until_it_is_computed(released: Path) -> None:
+    slow = think(par("all", act("held"), act("other")), other=Script(ticks=5))
     slow.tick(100)
     assert slow.watched.run.computing and slow.watched.loop.is_computing
     assert slow.stage.now == pytest.approx(0.01) and slow.stage.said("tick") == ["tick other"]
+    released.touch()
     assert slow.watched.until_end() == "succeeded"
-    assert slow.stage.said()[:4] == ["start slow", "start other", "tick other", "tick other"]
-    assert "found 42 slow" in slow.stage.said() and slow.stage.said("halt") == []
+    assert slow.stage.said()[:4] == ["start held", "start other", "tick other", "tick other"]
+    assert "found 42 held" in slow.stage.said() and slow.stage.said("halt") == []
 
 
 def test_how_long_it_takes_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -141,15 +159,16 @@ def test_how_long_it_takes_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> N
     assert told[0] == told[1] and len(told[0]) > 10
 
 
-def test_where_time_cannot_stand_still_the_others_go_on_and_it_is_not_ticked() -> None:
-    slow = think(par("all", act("slow"), act("other")), StagedCell, other=Script(ticks=10))
+def test_where_time_cannot_stand_still_the_others_go_on_and_it_is_not_ticked(released: Path) -> None:
+    slow = think(par("all", act("held"), act("other")), StagedCell, other=Script(ticks=10))
     slow.tick(20)
     assert slow.watched.run.computing and not slow.watched.loop.is_computing
     assert slow.stage.now == pytest.approx(0.2) and slow.stage.said() == [
-        "start slow",
+        "start held",
         "start other",
         *10 * ["tick other"],
     ]
+    released.touch()
     while slow.watched.run.computing:
         slow.watched.loop.wait(1.0)
     assert slow.watched.until_end() == "succeeded"
@@ -176,15 +195,16 @@ def test_what_does_not_want_to_end_is_halted_nevertheless() -> None:
     assert "could not be halted: RuntimeError: it does not want to end" in note.message
 
 
-def test_a_pause_lets_it_go_on_and_takes_the_result_afterwards() -> None:
-    slow = think(act("slow"))
+def test_a_pause_lets_it_go_on_and_takes_the_result_afterwards(released: Path) -> None:
+    slow = think(act("held"))
     slow.tick(3)
     assert slow.watched.request(commands.Pause()) is None
     assert slow.watched.until("paused").run.state == "paused" and not slow.watched.loop.is_computing
+    released.touch()
     slow.tick(50)
-    assert "found 42 slow" not in slow.stage.said()
+    assert "found 42 held" not in slow.stage.said()
     assert slow.watched.request(commands.Resume()) is None
-    assert slow.watched.until_end() == "succeeded" and "found 42 slow" in slow.stage.said()
+    assert slow.watched.until_end() == "succeeded" and "found 42 held" in slow.stage.said()
 
 
 def test_what_finds_that_it_cannot_start_lets_another_way_be_tried() -> None:
@@ -213,10 +233,11 @@ def test_what_is_not_computed_fails_and_says_why(way: str, kind: str, message: s
     assert failure.kind == kind
 
 
-def test_nothing_is_left_of_what_was_computed() -> None:
-    slow = think(seq(act("slow"), act("slow")))
+def test_nothing_is_left_of_what_was_computed(released: Path) -> None:
+    slow = think(seq(act("held"), act("held")))
     slow.tick(3)
     pid = slow.worker()
+    released.touch()
     assert slow.watched.until_end() == "succeeded" and not is_alive(pid)
 
 

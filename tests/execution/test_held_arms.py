@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import closing
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from skillc_runtime.collision import motion_search, path_planning
 from skillc_runtime.collision.path_planning import plan_joint_path
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody
+from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.primitives.move import TakePosture
 from skillc_runtime.recording import commands
@@ -27,7 +29,7 @@ from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.model import WorldModel
 from tree.library import Library, act
 
-SEARCH_S = 0.5
+TICKS, POLL_S = 30, 0.01
 
 
 class GoAside(TakePosture):
@@ -38,14 +40,19 @@ class GoAside(TakePosture):
 
 
 @pytest.fixture(autouse=True)
-def slow_search(monkeypatch: pytest.MonkeyPatch) -> None:
+def released(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """Let searches go on until a file exists, which is returned."""
+    file = tmp_path / "released"
+
     def search(*arguments: object) -> object:
-        time.sleep(SEARCH_S)
+        while not file.exists():
+            time.sleep(POLL_S)
         return plan_joint_path(*arguments)  # type: ignore[arg-type]
 
     monkeypatch.setattr(motion_search, "plan_joint_path", search)
     monkeypatch.setattr(path_planning, "MAX_CHECKS", 1)
     monkeypatch.setattr(path_planning, "DRAWN", 1)
+    return file
 
 
 def begin(*changes: Change) -> tuple[KinematicCell, CellLoop, Watched]:
@@ -73,28 +80,34 @@ def blocked() -> Iterator[tuple[KinematicCell, CellLoop, Watched]]:
         yield inside, loop, watched
 
 
-def hold(inside: KinematicCell, loop: CellLoop, watched: Watched) -> float:
-    """Tick while it computes; return for how long of the cell's time the arm held."""
+def hold(inside: KinematicCell, loop: CellLoop, watched: Watched, released: Path) -> None:
+    """Tick while a path is searched for, and the arm holds; then let the search end."""
     watched.until("running")
     before, began = inside.arm(ARM[SCENE]).measured.q, loop.backend.clock.now
-    while watched.run.computing:
-        assert loop.tick()
-        if watched.run.computing:
-            assert np.abs(inside.arm(ARM[SCENE]).measured.q - before).max() < 1e-3
-    return loop.backend.clock.now - began
+    for _ in range(TICKS):
+        assert loop.tick() and watched.run.computing
+        assert np.abs(inside.arm(ARM[SCENE]).measured.q - before).max() < 1e-3
+    assert loop.backend.clock.now - began > 0.9 * TICKS * TICK_S
+    released.touch()
 
 
-def test_time_goes_on_while_the_arm_holds_and_then_it_moves(free: tuple[KinematicCell, CellLoop, Watched]) -> None:
+@pytest.mark.slow
+def test_time_goes_on_while_the_arm_holds_and_then_it_moves(
+    free: tuple[KinematicCell, CellLoop, Watched], released: Path
+) -> None:
     inside, _, watched = free
-    assert hold(*free) > 0.1
+    hold(*free, released)
     assert watched.until_end() == "succeeded"
     assert inside.arm(ARM[SCENE]).measured.at_joints(aside(SCENE))
 
 
-def test_without_a_path_it_fails_and_has_not_moved(blocked: tuple[KinematicCell, CellLoop, Watched]) -> None:
+def test_without_a_path_it_fails_and_has_not_moved(
+    blocked: tuple[KinematicCell, CellLoop, Watched], released: Path
+) -> None:
     inside, _, watched = blocked
     q = inside.arm(ARM[SCENE]).measured.q
-    assert hold(*blocked) > 0.1 and watched.until_end() == "failed"
+    hold(*blocked, released)
+    assert watched.until_end() == "failed"
     assert watched.run.failure is not None and "lab:Pillar; no way around was found" in watched.run.failure.message
     assert inside.arm(ARM[SCENE]).measured.at_joints(q)
 

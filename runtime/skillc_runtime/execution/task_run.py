@@ -138,7 +138,10 @@ class TaskRun(RunStatus):
                 pass
             case _:
                 assert self._attempt is not None, "a pause concerns what runs"
-                self._pause.obey(command, self._attempt.tree)
+                tree = self._attempt.tree
+                self._pause.obey(command, tree)
+                if tree.awaits_result:  # its next tick comes with the result
+                    self._pause.follow(tree)
 
     def _try(self, command: commands.Command) -> RefusedCommand | None:
         """Do the part of a command that may turn out to be impossible; return why, and then nothing has changed."""

@@ -20,6 +20,11 @@ class Computations:
         self._idle: list[WorkerProcess] = []
 
     @property
+    def awaited(self) -> bool:
+        """Whether a primitive waits for a result, which may have arrived."""
+        return bool(self._running)
+
+    @property
     def pending(self) -> bool:
         """Whether a computation goes on that has no result yet."""
         return any(each.poll() is None for each in self._running.values())

@@ -78,6 +78,11 @@ class TreeRun:
         return self._pause.phase != "none"
 
     @property
+    def awaits_result(self) -> bool:
+        """Whether a primitive waits for what it computes, however far that is."""
+        return self._context.computations.awaited
+
+    @property
     def computing(self) -> bool:
         """Whether primitives wait for what they compute beside the ticks, and the run is not paused."""
         return self.status is RUNNING and not self.paused and self._context.computations.pending
