@@ -76,7 +76,7 @@ def test_the_hand_is_sampled_with_what_its_fingers_measure() -> None:
     (one, _), drawing, _ = sorted_parts()
     assert float(np.diff(drawing.path.time).min()) >= PERIOD_S - 1e-6
     assert one.released_s is not None
-    held = drawing.picks[0].samples.between(one.grasped_s, one.released_s - 1.0)
+    held = drawing.picks[0].samples.between(one.grasped_s + PERIOD_S, one.released_s - 1.0)
     assert held.opening == pytest.approx(0.04, abs=1e-3)
     assert held.measured_opening == pytest.approx(held.opening)
     assert np.isnan(held.finger_force).all()
