@@ -138,7 +138,7 @@ def test_an_added_arm_does_the_task_of_a_template(
     ran = call(project, "run")
     assert ran.exit_code == 0, ran.output
     if template == "wipe":
-        assert "isClean == true  sensed by Inspect" in ran.output and "100.0%" in ran.output
+        assert "isClean == true  idealised by Inspect" in ran.output and "100.0%" in ran.output
     elif template == "pick-place":
         misses = re.findall(r"really (\d+) mm .* (\d+) mm from where it should be", ran.output)
         assert len(misses) == 2 and all(float(mm) <= 5 for pair in misses for mm in pair), ran.output

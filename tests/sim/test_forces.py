@@ -56,7 +56,7 @@ class Biased:
         return np.array([0.0, 0.0, BIAS_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
 
-@pytest.mark.parametrize(("task", "wanted"), [("clean_whiteboard", "8.0"), ("clean_desk", "10.0")])
+@pytest.mark.parametrize(("task", "wanted"), [("clean_whiteboard", "8 N"), ("clean_desk", "10 N")])
 def test_a_force_that_is_measured_in_its_band_is_verified(task: str, wanted: str) -> None:
     prepared, cell = start(task)
     ended = execute_task(prepared, library(), cell)
@@ -74,7 +74,7 @@ def test_a_wrist_that_reads_a_newton_too_much_verifies_nothing() -> None:
     ended = execute_task(prepared, library(), cell)
     assert ended.status == "succeeded" and ended.verified is False
     assert format_unverified(force_of(ended)) == (
-        "lab:Ur5e-1.pushForce == 8.0 is only assumed: the arm measured 1.00 N when it touched nothing; less this error "
+        "lab:Ur5e-1.pushForce == 8 N is only assumed: the arm measured 1.00 N when it touched nothing; less this error "
         "it pressed with 7.00 N for 8 N"
     )
 

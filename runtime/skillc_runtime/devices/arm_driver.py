@@ -64,7 +64,7 @@ class ArmMeasurements(Protocol):
 
     @property
     def felt(self) -> Array | None:
-        """The same as it is measured, by a sensor or by the torques of the joints; None where nothing measures it."""
+        """The wrench (6,) that a sensor or the torques of the joints measure, N and N m; None if nothing does."""
         ...
 
     @property
