@@ -39,7 +39,9 @@ def test_what_is_not_verified_is_said_with_the_reason() -> None:
     execution, _ = run_shipped("press_button")
     assert list(map(format_unverified, unverified_facts(execution.facts))) == [
         "lab:Button-1.isOn == true is only idealised: AwaitSwitch measured it without physics; "
-        "a cell with physics would have to confirm it"
+        "a cell with physics would have to confirm it",
+        "lab:Ur5e-1.pushForce == 10 N is only idealised: Push measured it without physics; "
+        "a cell with physics would have to confirm it",
     ]
 
 
