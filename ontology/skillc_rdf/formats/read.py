@@ -22,7 +22,7 @@ DEEPEST = 200
 MOST_MEGABYTES = 16
 """The greatest length of one text in a file, in MB, which is the parser's."""
 _SINGLE_QUOTED = re.compile(r"(<!ENTITY\s+[\w.-]+\s+)'([^'\"]*)'")
-_ENCODING = re.compile(r"(<\?xml[^>]*?)\s+encoding\s*=\s*[\"'][\w.-]+[\"']")
+_ENCODING = re.compile(r"\A(<\?xml[^>]*?)\sencoding\s*=\s*[\"'][\w.-]+[\"']")
 
 
 class UnreadableError(ValueError):
