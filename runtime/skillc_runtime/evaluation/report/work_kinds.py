@@ -8,6 +8,7 @@ The two lists are apart because a run without a report draws nothing, and what d
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import TypeAlias
 
 from skillc_runtime.evaluation.report.drives import measure_drives
 from skillc_runtime.evaluation.report.grasps import measure_grasp
@@ -16,6 +17,9 @@ from skillc_runtime.evaluation.report.pushes import PushRecord, find_pushes, mea
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.searches import find_searches, measure_search
 from skillc_runtime.evaluation.report.work_result import WorkResult
+
+WorkKind: TypeAlias = Callable[[RunRecord], Iterator[WorkResult]]
+"""A kind of work: yields the numbers of each piece of it in a run."""
 
 
 def measure_work(record: RunRecord) -> tuple[WorkResult, ...]:
@@ -29,7 +33,7 @@ def find_other_pushes(record: RunRecord) -> Iterator[PushRecord]:
     yield from (push for push in find_pushes(record) if not wiped.intersection(push.on))
 
 
-KINDS: tuple[Callable[[RunRecord], Iterator[WorkResult]], ...] = (
+KINDS: tuple[WorkKind, ...] = (
     lambda record: (measure_push(each, record) for each in find_other_pushes(record)),
     lambda record: (measure_search(each, record) for each in find_searches(record)),
     lambda record: (measure_guidance(each, record) for each in find_free_periods(record)),
