@@ -178,11 +178,13 @@ def test_all_that_goes_on_is_stopped_whatever_its_state(
     watching.locator(".topbar .operation .badge").wait_for()
     show_end(watching)
     put_back(server)
-    for request, wanted in ((first, state), ({"task": "carry_all"}, "queued"), ({"task": "rest"}, "running")):
-        found = anna.post("/cells/yard/operations", json=request).json()
-        server.wait_for(found["id"], wanted)
+    started = list[str]()
+    waiting = {"task": "carry_all", "approve": True}
+    for request, wanted in ((first, (state,)), (waiting, ("queued", "planned")), ({"task": "rest"}, ("running",))):
+        started.append(str(anna.post("/cells/yard/operations", json=request).json()["id"]))
+        server.wait_for(started[-1], *wanted)
     unseen = f"{first['task']} goes on and is not shown"
-    pause = watching.get_by_role("button", name="Pause")
+    pause = watching.get_by_role("button", name="Pause", exact=True)
     expect(pause).to_have_attribute("title", f"{unseen}; the panel Runs has it.")
     watching.keyboard.press("p")
     expect(watching.get_by_role("alert").filter(has_text=unseen)).to_be_visible()
@@ -190,8 +192,8 @@ def test_all_that_goes_on_is_stopped_whatever_its_state(
     expect(watching.get_by_role("status").filter(has_text="was stopped")).to_contain_text(
         "carry_all (anna), rest (anna)"
     )
-    ended = [each for each in server.client.get("/cells/yard/operations").json() if each["request"]["owner"] == "anna"]
-    assert {each["state"] for each in ended} == {"stopped"}
+    for operation in started:
+        server.wait_for(operation, "stopped")
 
 
 def test_a_key_that_writes_stops_nothing(watching: Page, server: RunningServer, anna: httpx.Client) -> None:
