@@ -44,7 +44,7 @@ def parse_in_both_ways(text: str) -> bool:
     """Whether a text is parsed in one pass, with the same result as by the parser that reports mistakes."""
     source = Source("a.skill", text)
     lexed = tokenize(source)
-    direct = build_directly(lexed.value, source)
+    direct = None if lexed.diagnostics else build_directly(lexed.value, source)
     whole = parse_with_problems(source, lexed, None)
     assert whole.diagnostics or direct is not None
     assert direct is None or whole == Outcome(direct)

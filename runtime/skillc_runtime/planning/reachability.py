@@ -14,7 +14,7 @@ from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
-from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable
+from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable, pose_to_explain
 from skillc_runtime.world.eval.explain import RelationObstacle
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -56,7 +56,8 @@ def _explain(library: SkillLibrary, state: WorldState, goal: Condition) -> Unrea
     problem = relax_scene(posed, state) if posed.narrowed else posed.problem
     if problem is None or _is_reachable(problem):
         return None
-    reason = explain_unsolvable(replace(posed, problem=problem), goal, state)
+    whole = replace(posed, problem=problem) if posed.narrowed else pose_to_explain(posed, state, goal, (), AT_ONCE)
+    reason = explain_unsolvable(whole, goal, state)
     return UnreachableGoal("; ".join(reason.causes) or reason.why, not posed.restricted, reason.obstacles)
 
 

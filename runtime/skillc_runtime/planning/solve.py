@@ -26,7 +26,7 @@ from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
 from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds, pose_problem
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress, ignore_progress
-from skillc_runtime.planning.unsolvability import UnsolvabilityReason, explain_unsolvable
+from skillc_runtime.planning.unsolvability import UnsolvabilityReason, explain_unsolvable, pose_to_explain
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -69,7 +69,8 @@ def solve(
         return chosen[0].plan(problem, part, ignore_progress)
 
     def explain(posed: PosedProblem) -> UnsolvabilityReason:
-        return explain_unsolvable(posed, goal, state)
+        whole = posed if posed.narrowed else pose_to_explain(posed, state, goal, without, size)
+        return explain_unsolvable(whole, goal, state)
 
     try:
         with cancelling(cancel):

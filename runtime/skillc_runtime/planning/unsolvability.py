@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from skillc_model.conditions import Condition
@@ -10,7 +10,9 @@ from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
 from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling, limit_current
 from skillc_runtime.planning.formula_text import FormulaFormatter
-from skillc_runtime.planning.problem.pose import PosedProblem
+from skillc_runtime.planning.plan import Step
+from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
+from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.world.eval.explain import RelationObstacle, explain, find_obstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -34,6 +36,17 @@ class UnsolvabilityReason:
     why: str
     causes: tuple[str, ...] = ()
     obstacles: tuple[RelationObstacle, ...] = ()
+
+
+def pose_to_explain(
+    posed: PosedProblem, state: WorldState, goal: Condition, without: Sequence[Step], size: AbstractionSize | None
+) -> PosedProblem:
+    """Return a problem without a plan with the individuals that no helpful step involves: without a plan none does.
+
+    Where that would leave out others, it is returned as it is.
+    """
+    complete = pose_problem(posed.library, state, goal, without, size, keep_unneeded=True)
+    return posed if complete.narrowed else complete
 
 
 def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) -> UnsolvabilityReason:

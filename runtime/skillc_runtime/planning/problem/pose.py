@@ -91,11 +91,14 @@ def pose_problem(
     goal: Condition,
     without: Sequence[Step] = (),
     size: AbstractionSize | None = None,
+    *,
+    keep_unneeded: bool = False,
 ) -> PosedProblem:
     """Return the problem of reaching the goal from a version of the world without the steps in `without`.
 
     Irrelevant skills and individuals are left out, and skills that planners cannot use; with a `size` also individuals
-    that are far from those of the goal. GoalError if the goal names an unknown individual or cannot be expressed.
+    that are far from those of the goal. Individuals that no helpful step involves are left out, too, unless they are to
+    be kept, for an explanation. GoalError if the goal names an unknown individual or cannot be expressed.
     """
     library = _with_vocabulary(library, state.vocabulary)
     kinds = group_by_class(state)
@@ -107,7 +110,7 @@ def pose_problem(
     domain = add_goal_predicates(wanted, library, domain)
     useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, wanted)
     constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
-    closed = None if _has_wildcard(goal) or wanted in (TRUE, FALSE) else wanted
+    closed = None if keep_unneeded or _has_wildcard(goal) or wanted in (TRUE, FALSE) else wanted
     selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), size, closed)
     types = selection.kept
     if _has_wildcard(goal):
