@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress, Travel
+from skillc_runtime.devices.guarded_push import GuardedPush, MeasuredForce, PushProgress, Travel
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.known_limits import find_excess
@@ -129,12 +129,16 @@ class Push(Primitive):
         return Status.RUNNING
 
     def release(self) -> None:
-        """Stop pushing, and write with which force the arm pushed: sensed if that was measured."""
+        """Stop pushing, and note with which force the arm pushed."""
         if self._progress is None:
             return
         self.arm.compliance.end_push(self._progress)
         if self._has_pressed and self._push.force_n > 0.0:
-            write_push_force(self.cell.world, self._arm, self._push.force_n, self._progress.force)
+            self.note_force(self._progress.force)
+
+    def note_force(self, measured: MeasuredForce) -> None:
+        """Write with which force the arm pushed: sensed if that was measured."""
+        write_push_force(self.cell.world, self._arm, self._push.force_n, measured)
 
     def pause(self) -> None:
         """Stop approaching; a tool in contact goes on pressing."""

@@ -12,6 +12,7 @@ from skillc_runtime.world.state.labelled import Quantity, label
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.devices.guarded_push import MeasuredForce
     from skillc_runtime.motion.pose import Array
 
 APPROACH_M_S: Final = 0.02
@@ -55,6 +56,9 @@ class PressOnSupport(Push):
                 reason=str(failure),
                 travel=Quantity(self._travel, "m"),
             ) from failure
+
+    def note_force(self, measured: MeasuredForce) -> None:
+        """Write nothing: that something carries the object counts, and not with which force that was felt."""
 
     def _tick_unless_sinking(self) -> Status:
         status = super().tick()
