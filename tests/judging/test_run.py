@@ -47,12 +47,12 @@ CLAIM = "lab:Part-A is claimed in lab:Bin-A but lies on lab:Table, 0.42 m away"
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a library with a skill that nobody carries out."""
     (tmp_path / "put.skill").write_text(LIBRARY, encoding="utf-8")
-    (tmp_path / "cell.ttl").write_text(_with_shipped_classes(SCENE.read_text("utf-8")), "utf-8")
+    (tmp_path / "cell.ttl").write_text(with_shipped_classes(SCENE.read_text("utf-8")), "utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
-def _with_shipped_classes(scene: str) -> str:
+def with_shipped_classes(scene: str) -> str:
     return scene.replace("sorting:WorkPart", "skiros:Product").replace("sorting:Bin", "skiros:Container")
 
 

@@ -19,7 +19,6 @@ from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.evaluation.report.verdict import judge_claims
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.execution.assignment import NotStarted, prepare_task
 from skillc_runtime.execution.execute import execute_task
@@ -79,7 +78,7 @@ class CaseRunner:
             pushed=isinstance(somebody, Hand) and somebody.acted,
             sim_time_s=cell.now,
             wall_time_s=execution.wall_time_s,
-            false_claims=judge_claims(cell),
+            false_claims=execution.false_claims,
         )
 
     def _make_cell(self, real: WorldState, believed: WorldState, seed: int) -> SimulatedCell | KinematicCell:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from cells import ARM, ERASER, GRIPPER, at_the_eraser, grasp, lift, reach_for_eraser, run
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.move import MoveJoints
 from skillc_runtime.primitives.primitive import SkillFailure
 from skillc_runtime.primitives.weigh import Weigh
 from skillc_runtime.world.state.changes import SetProperty
@@ -34,6 +37,13 @@ def make_heavier(there: SimulatedCell, kg: float) -> None:
     there.advance(0.5)
 
 
+def carry_aside(there: SimulatedCell, scene: str) -> None:
+    """Go aside in a motion of the joints, after which an arm that takes torques is not led by its tool."""
+    here = there.arm(ARM[scene]).motion.stopping_pose()
+    aside = Pose(here.position + np.array([0.0, 0.03, 0.05]), here.rotation)
+    run(there, MoveJoints(there, arm=ARM[scene], target=aside, pace=0.5))
+
+
 @pytest.mark.parametrize("scene", KINDS)
 def test_a_thing_as_heavy_as_known_is_felt_to_be_held(scene: str) -> None:
     there = lifted(scene)
@@ -42,11 +52,14 @@ def test_a_thing_as_heavy_as_known_is_felt_to_be_held(scene: str) -> None:
     assert known is not None and (known.evidence, known.origin) == ("sensed", "Weigh")
 
 
+@pytest.mark.parametrize("led", ["line", "joints"])
 @pytest.mark.parametrize("scene", KINDS)
 @pytest.mark.parametrize(("kg", "felt"), [(0.3, r"0\.4\d"), (-0.08, r"0\.0\d")])
-def test_a_thing_of_another_weight_is_something_else(scene: str, kg: float, felt: str) -> None:
+def test_a_thing_of_another_weight_is_something_else(scene: str, kg: float, felt: str, led: str) -> None:
     there = lifted(scene)
     make_heavier(there, kg)
+    if led == "joints":
+        carry_aside(there, scene)
     with pytest.raises(
         SkillFailure, match=rf"holds weighs {felt} kg, lab:Eraser-1 weighs 0\.12 kg: it is something else"
     ):
@@ -56,6 +69,14 @@ def test_a_thing_of_another_weight_is_something_else(scene: str, kg: float, felt
     assert not state.holds(GRIPPER[scene], CONTAIN, ERASER) and state.value(ERASER, LOCATED) is False
     assert known is not None and known.evidence == "sensed" and known.origin.startswith("Weigh: what ")
     assert there.gripper(GRIPPER[scene]).holding == ERASER, "something is still between the fingers"
+
+
+def test_an_arm_that_measures_nothing_feels_no_weight() -> None:
+    scene = "iiwa_table"
+    there = lifted(scene)
+    there._drivers[ARM[scene]].measured.felt_wrench = lambda: None
+    with pytest.raises(SkillFailure, match="lab:Iiwa-1 measures neither forces nor torques: it cannot feel whether "):
+        weigh(there, scene)
 
 
 def test_a_weight_below_the_tolerance_tells_nothing() -> None:

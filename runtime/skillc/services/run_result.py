@@ -15,7 +15,6 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.verdict import judge_result
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
 from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.execution.execute import Execution
@@ -89,8 +88,7 @@ def report_run(
     state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
     record = RunRecord(trees, choices, state, truth, samples.trace)
     works, began_s = measure_work(record), samples.trace.began_s
-    summary = summarise_run(execution, choices, library, record.wipings, simulation, works, began_s)
-    result = judge_result(summary, simulation)
+    result = summarise_run(execution, choices, library, record.wipings, simulation, works, began_s)
     if folder is None:
         return RunResult(result)
     from skillc.services.run_report import write_run  # what draws takes long to import

@@ -30,7 +30,6 @@ class CompliantArmDriver:
         self.compliance = ComplianceControl(self._task, setup.gains.law.release_damping)
         self._validator = CommandValidator(setup.arm, self.measured.state, setup.safety)
         self._safety = self._validator.safety
-        self.measured.feels_force = setup.arm.capabilities.feels_force
         self.measured.felt_wrench = lambda: self._safety.felt_wrench(self.measured.state)
         self.fault: str | None = None
         self.broken: str | None = None

@@ -20,15 +20,14 @@ class MeasuredArm:
     """The last state of an arm, implementing `ArmMeasurements`: world axes, SI units, arrays that are copies.
 
     `base` returns the pose of the arm's base in the world; `contact_wrench` the wrench (6,) of the environment on the
-    tool, N and N m, base axes. `state` is the measurement itself, in base; it is set once a control period.
-    `felt_wrench` returns what is measured of that wrench, and never what is commanded; None where nothing measures it.
-    `feels_force` is whether a sensor measures `wrench`.
+    tool as the control law knows it, N and N m, base axes. `state` is the measurement itself, in base; it is set once a
+    control period. `felt_wrench` returns what is measured of that wrench, and never what is commanded; None where
+    nothing measures it.
     """
 
     def __init__(self, base: Callable[[], Pose], contact_wrench: Callable[[], Array], state: ArmState) -> None:
         self.base, self.state = base, state
         self._contact_wrench = contact_wrench
-        self.feels_force = False
         self.felt_wrench: Callable[[], Array | None] = lambda: None
 
     @property
@@ -43,8 +42,9 @@ class MeasuredArm:
 
     @property
     def wrench(self) -> Array:
-        """The wrench (6,) of the environment on the tool, N and N m, world axes; measured or estimated."""
-        return self._in_world(self._contact_wrench())
+        """What is `felt`; where nothing measures it, the wrench (6,) of the environment that the law is to exert."""
+        felt = self.felt
+        return self._in_world(self._contact_wrench()) if felt is None else felt
 
     @property
     def felt(self) -> Array | None:

@@ -54,12 +54,7 @@ class ArmMeasurements(Protocol):
 
     @property
     def wrench(self) -> Array:
-        """The wrench (6,) of the environment on the tool, N and N m; measured, or what the arm is to exert."""
-        ...
-
-    @property
-    def feels_force(self) -> bool:
-        """Whether a sensor measures `wrench`."""
+        """The wrench (6,) of the environment on the tool, N and N m: `felt`, or what the arm is to exert without it."""
         ...
 
     @property

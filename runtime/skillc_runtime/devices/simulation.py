@@ -87,6 +87,11 @@ class Simulation(Backend, Protocol):
         """Whether it computes contact and weight, so that what idealised devices read of them counts as verified."""
         ...
 
+    @property
+    def things_lie_still(self) -> bool:
+        """Whether nothing that no hand holds falls, rolls, tips or slides."""
+        ...
+
     def find_false_claims(self) -> tuple[str, ...]:
         """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
         ...

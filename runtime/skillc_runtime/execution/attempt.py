@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.backend import Backend, Judge
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PlannedSteps, PreparedTask
+from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.monitor import PlanMonitor
 from skillc_runtime.execution.plans.progress import measure_progress
@@ -25,8 +26,8 @@ from skillc_runtime.recording.node_outcome import NodeOutcome
 TICK_S = 0.01
 """The tree is ticked at 100 Hz of the cell's time: every ten control periods."""
 
-SETTLE_S = 5.0
-"""How long, after the end, everything that moves may take to come to rest."""
+SETTLE_S, FALL_S = 5.0, 2.0
+"""How long, after the end, devices may take to come to rest, and then what lies free, which nobody holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,7 @@ class AttemptResult:
     """How a body ended, its tree and the number of its last node.
 
     `invalidated` says why the plan no longer led to the goal, if it was halted for that. `claims` are the posts of the
-    outermost calls that succeeded.
+    outermost calls that succeeded, `broken_calls` what did not.
     """
 
     prepared: PreparedTask
@@ -80,6 +81,7 @@ class AttemptResult:
     last_node: int
     invalidated: str | None
     claims: tuple[Claim, ...] = ()
+    broken_calls: tuple[BrokenCall, ...] = ()
 
     @property
     def reason(self) -> str:
@@ -99,6 +101,8 @@ class AttemptResult:
 
 class Attempt:
     """Runs a body until it ends or its plan becomes invalid, then waits until its devices are at rest.
+
+    In a cell whose truth is known it waits as well until nothing falls or rolls: its claims are judged at its end.
 
     `ticking` while the tree runs; `ended` once everything is at rest.
     """
@@ -122,7 +126,7 @@ class Attempt:
         self.ticking, self.ended = True, False
         self._invalidated: str | None = None
         self._monitor = self._watch_plan()
-        self._settling_ticks = 0
+        self._settling_ticks = self._falling_ticks = 0
         self._asked: tuple[Prompt, ...] = ()
 
     def tick(self, devices: frozenset[str] | None) -> None:
@@ -133,11 +137,9 @@ class Attempt:
         if self.tree.status is Status.RUNNING:
             return
         self._secure(devices)
-        backend, limit = self._context.backend, round(SETTLE_S / TICK_S)
-        if backend.broken is not None or backend.is_at_rest(devices) or self._settling_ticks >= limit:
+        if self._devices_rest(devices) and self._things_lie():
             self.tree.check_devices()
             self.ended = True
-        self._settling_ticks += 1
 
     def halt(self, reason: str) -> None:
         """Halt the tree; the attempt ends when everything is at rest."""
@@ -157,7 +159,14 @@ class Attempt:
         """Return how the attempt ended."""
         tree = self.tree
         return AttemptResult(
-            self.prepared, tree.status, tree.failure, tree.outcome, tree.last_node, self._invalidated, tree.claims
+            self.prepared,
+            tree.status,
+            tree.failure,
+            tree.outcome,
+            tree.last_node,
+            self._invalidated,
+            tree.claims,
+            tree.broken_calls,
         )
 
     def _tell_prompts(self) -> None:
@@ -174,6 +183,22 @@ class Attempt:
             if self._monitor is not None:
                 self._monitor.stop()
             self._context.emit_notes(self._context.backend.secure(devices))
+
+    def _devices_rest(self, devices: frozenset[str] | None) -> bool:
+        """Whether devices are at rest, or have had enough time for that."""
+        backend = self._context.backend
+        if backend.broken is not None or backend.is_at_rest(devices):
+            return True
+        self._settling_ticks += 1
+        return self._settling_ticks > round(SETTLE_S / TICK_S)
+
+    def _things_lie(self) -> bool:
+        """Whether nothing falls or rolls, as far as that is known, or has done so for long enough."""
+        backend = self._context.backend
+        if not isinstance(backend, Judge) or backend.things_lie_still:
+            return True
+        self._falling_ticks += 1
+        return self._falling_ticks > round(FALL_S / TICK_S)
 
     def _watch_plan(self) -> PlanMonitor | None:
         match self.prepared:

@@ -29,7 +29,8 @@ BackendT = TypeVar("BackendT", bound=Backend)
 class Execution(Generic[BackendT]):
     """How a task ended: its attempts, none if it never ran, the back-end of its cell, the wall-clock time it took.
 
-    `facts` are those that a success rests on, `verified` is whether none of them is only assumed.
+    `facts` are those that a success rests on, `false_claims` sentences about what the world model claims that is not so
+    in the simulator; `verified` is whether no fact is only assumed, and no claim is false.
     """
 
     task: str
@@ -40,6 +41,7 @@ class Execution(Generic[BackendT]):
     wall_time_s: float
     facts: tuple[KnownFact, ...] = ()
     verified: bool | None = None
+    false_claims: tuple[str, ...] = ()
 
     @property
     def last(self) -> AttemptResult:
@@ -86,8 +88,17 @@ def drive(loop: CellLoop, run: TaskRun, attend: Callable[[], bool] = lambda: Tru
 def describe_execution(run: TaskRun, backend: BackendT, wall_time_s: float) -> Execution[BackendT]:
     """Return how a run ended."""
     assert run.end is not None, "a run that has ended"
-    attempts = tuple(run.attempts)
-    return Execution(run.assignment.name, attempts, run.end, run.failure, backend, wall_time_s, run.facts, run.verified)
+    return Execution(
+        run.assignment.name,
+        tuple(run.attempts),
+        run.end,
+        run.failure,
+        backend,
+        wall_time_s,
+        run.facts,
+        run.verified,
+        run.false_claims,
+    )
 
 
 def prepare_after(first: Preparation, then: StartPreparation) -> StartPreparation:

@@ -8,6 +8,7 @@ from typing import TypeAlias
 from msgspec import structs
 
 from skillc_model.conditions import Condition
+from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
@@ -39,16 +40,22 @@ def collect_success_facts(claims: Iterable[Claim], world: WorldModel, with_physi
 
 
 def collect_forces(
-    world: WorldModel, writes_before: int, arms: frozenset[str] | None, with_physics: bool
+    world: WorldModel,
+    writes_before: int,
+    broken: Sequence[BrokenCall],
+    arms: frozenset[str] | None,
+    with_physics: bool,
 ) -> tuple[KnownFact, ...]:
     """Return with which force each of the arms, all if None, has pushed since write number `writes_before`.
 
-    Of several pushes the one that is known worst counts.
+    Of several pushes the one that is known worst counts. Those of `broken` calls do not: no success rests on them.
     """
     pushes: dict[str, list[tuple[SetProperty, DecidingWrite]]] = {}
     for write in world.ledger.writes:
         for change in write.changes if write.decides.number > writes_before else ():
-            if isinstance(change, SetProperty) and change.property == PUSH_FORCE:
+            if not isinstance(change, SetProperty) or change.property != PUSH_FORCE:
+                continue
+            if not any(call.has_written(write.decides.number, change.individual) for call in broken):
                 pushes.setdefault(change.individual, []).append((change, write.decides))
     worst = {arm: _worst(made) for arm, made in pushes.items()}
     words = world.snapshot().vocabulary

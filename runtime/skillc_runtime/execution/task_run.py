@@ -259,7 +259,8 @@ class TaskRun(RunStatus):
         self.state = self.end = state
         self.reason, self.failure = describe_failure(failure) if failure else "", failure
         if state == "succeeded":
-            pushed = collect_forces(world, self._writes_before, arms, with_physics)
+            broken = [call for attempt in self.attempts for call in attempt.broken_calls]
+            pushed = collect_forces(world, self._writes_before, broken, arms, with_physics)
             self.facts = (*collect_facts(self.attempts[-1], world, with_physics), *pushed)
         self.false_claims = () if judge is None else judge.find_false_claims()
         self._emit(

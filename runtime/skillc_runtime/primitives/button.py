@@ -40,9 +40,8 @@ class AwaitSwitch(Primitive):
         raise_fault(self.arm)
         if self._switched_at is None and self._switch.switched:
             self._switched_at, self._forces = self.cell.now, []
-        measured, felt = self.arm.measured, self.arm.measured.felt
-        wrench = measured.wrench if felt is None else felt
-        self._forces.append(-float(wrench[:3] @ measured.pose.rotation[:, 2]))
+        measured = self.arm.measured
+        self._forces.append(-float(measured.wrench[:3] @ measured.pose.rotation[:, 2]))
         if self._switched_at is not None and self.cell.now - self._switched_at >= PRESS_HOLD_S:
             self._note()
             return Status.SUCCESS

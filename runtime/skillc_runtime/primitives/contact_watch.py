@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class KeepContact(Primitive):
     """Checks in every tick whether the tool presses on a surface; writes the share of the time in which it did.
 
-    An arm without a sensor at its wrist knows only what it is to exert: the share is assumed then.
+    An arm that neither measures forces nor torques knows only what it is to exert: the share is assumed then.
 
     SkillFailure if contact was lost, within the last `over` s, for longer than the surface allows.
     """
@@ -61,7 +61,7 @@ class KeepContact(Primitive):
 
     def _note(self) -> None:
         share = SetProperty(self._surface, CONTACT_SHARE, self._contacts / self._samples)
-        self.cell.world.commit([share], "KeepContact", "sensed" if self.arm.measured.feels_force else "assumed")
+        self.cell.world.commit([share], "KeepContact", "assumed" if self.arm.measured.felt is None else "sensed")
 
     def _failure(self) -> SkillFailure:
         return SkillFailure(

@@ -39,8 +39,8 @@ KNOWN_M: Final = 0.05
 class TouchGuard:
     """Watches that nothing resists the motions of an arm with more than `limit_n`, unless it yields along an axis.
 
-    An arm feels it with a force sensor. Without one it feels it by the deviation from its reference, while it is led
-    along lines.
+    An arm feels it with a force sensor or by the torques of its joints. Without either it feels it by the deviation
+    from its reference, while it is led along lines.
     """
 
     def __init__(self, cell: Cell, arm: str, limit_n: float) -> None:

@@ -33,13 +33,21 @@ class Weigh(Primitive):
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, tolerance: float) -> None:
         super().__init__(cell)
-        self.arm, self._gripper, self._object, self._tolerance_kg = cell.arm(arm), gripper, object, tolerance
+        self.arm, self._arm = cell.arm(arm), arm
+        self._gripper, self._object, self._tolerance_kg = gripper, object, tolerance
         self._known_kg = self._began = self._still_since = 0.0
         self._forces: list[Array] = []
 
     def start(self) -> None:
-        """SkillFailure if another object or none is held, or if the known weight is too small to be felt."""
+        """SkillFailure if the arm cannot feel weights, if another object or none is held, or one that is too light."""
         raise_fault(self.arm)
+        if self.arm.measured.felt is None:
+            raise SkillFailure(
+                "{arm} measures neither forces nor torques: it cannot feel whether {gripper} holds {object}",
+                arm=label(self._arm, self.cell.world.snapshot().vocabulary),
+                gripper=self._hand,
+                object=self._thing,
+            )
         state, held = self.cell.world.snapshot(), self.cell.gripper(self._gripper).holding
         if held != self._object:
             raise SkillFailure("{gripper} does not hold {object}", gripper=self._hand, object=self._thing)

@@ -10,6 +10,7 @@ from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cargo import InertialCargo
 from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
+from skillc_runtime.backends.mujoco.stillness import lie_still
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
@@ -58,6 +59,12 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
                     gripper, names, things, arm, self.model, self.data, self.variation.seed
                 )
         return arms, hands
+
+    @property
+    def things_lie_still(self) -> bool:
+        """Whether nothing that no hand holds falls, rolls, tips or slides; nothing moves once the cell is broken."""
+        held = [each.carries for each in self._hands.values()]
+        return self._broken is not None or lie_still(self.scene, held, self.model, self.data)
 
     def _prepare(self) -> None:
         mujoco.mj_forward(self.model, self.data)

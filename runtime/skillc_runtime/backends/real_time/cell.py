@@ -144,6 +144,12 @@ class RealTimeCell:
         """Whether contact and weight are computed."""
         return self._simulated.has_physics
 
+    @property
+    def things_lie_still(self) -> bool:
+        """Whether nothing that no hand holds falls, rolls, tips or slides."""
+        with self._turn:
+            return self._simulated.things_lie_still
+
     def find_false_claims(self) -> tuple[str, ...]:
         """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
         with self._turn:

@@ -231,6 +231,11 @@ class ModelledCell(ABC, Generic[A, G]):
         palm = part_name(self.scene.names[self._hands[arm].individual], "palm")
         self.data.body(palm).xfrc_applied[:3] = force_n
 
+    @property
+    def things_lie_still(self) -> bool:
+        """Whether nothing that no hand holds falls, rolls, tips or slides, as without physics."""
+        return True
+
     def find_false_claims(self) -> tuple[str, ...]:
         """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each.
 

@@ -62,6 +62,7 @@ def summarise_run(
         status=_find_status(execution),
         verified=execution.verified,
         facts=execution.facts,
+        false_claims=execution.false_claims,
         sim_time_s=took_s,
         wall_time_s=wall,
         real_time_factor=took_s / wall if wall else 0.0,

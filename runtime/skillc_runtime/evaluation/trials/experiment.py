@@ -9,8 +9,6 @@ from math import inf
 from pathlib import Path
 from typing import TypeAlias
 
-from msgspec import structs
-
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.ground_truth import GroundTruth
@@ -20,7 +18,6 @@ from skillc_runtime.evaluation.measures.work import Work
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.verdict import judge_claims
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushableCell, PushDisturbance, TakeDisturbance
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
@@ -84,8 +81,7 @@ class TrialRunner:
             cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
-        trial = self._run(self._prepared, cell).measure(cell)
-        return structs.replace(trial, false_claims=judge_claims(cell))
+        return self._run(self._prepared, cell).measure(cell)
 
     def record(self, seed: int, recording: RecordTrial) -> TaskResult:
         """Run the trial of a seed again and record it; NotRecorded, SheetError or FrameError if it cannot start."""
@@ -126,6 +122,7 @@ class _Executed:
             status=result.status,
             reason=result.failure,
             verified=result.verified,
+            false_claims=result.false_claims,
             assumed=tuple(format_fact(fact.fact) for fact in unverified_facts(result.facts)),
             variation=result.variation,
             works=(*_measure_work(self.evidence), *placements.measure(result.placements)),

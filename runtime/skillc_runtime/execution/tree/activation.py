@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import TypeAlias, assert_never, cast
+from typing import Literal, TypeAlias, assert_never, cast
 
 from skillc_model import tree
 from skillc_model.skills import Compound, Implementation, Primitive, Skill
+from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
@@ -97,6 +98,11 @@ class Activation:
     def release_locks(self) -> None:
         """Release the locks of the call."""
         self._context.locks.release(self._holder)
+
+    def broken(self, status: Literal["failed", "halted"]) -> BrokenCall:
+        """Return what is remembered of this run, once it has ended without success and all is undone."""
+        named = frozenset(each for each in self.frame.values() if isinstance(each, str))
+        return BrokenCall(status, self._writes_at_start, self._context.cell.world.ledger.count, named)
 
     def posts_hold(self) -> bool:
         """Whether all posts are true in this tick's state."""

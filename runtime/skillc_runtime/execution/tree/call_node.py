@@ -154,6 +154,8 @@ class CallNode(Node):
 
     def stop(self, reason: str) -> None:
         super().stop(reason)
+        if self.activation is not None:
+            self.context.broken_calls.append(self.activation.broken("halted"))
         self.context.locks.release(self)
 
     def remains_satisfied(self) -> bool:
@@ -242,6 +244,7 @@ class CallNode(Node):
         if isinstance(activation.body, PrimitiveNode):
             activation.body.undo_now()
         activation.release_locks()
+        self.context.broken_calls.append(activation.broken("failed"))
         self._remember_failure(activation.implementation.name, failure)
         if not self.skill.fallback:
             return self.fail(failure)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.cell import Cell
+from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.tree.active_primitives import ActivePrimitives
 from skillc_runtime.execution.tree.computations import Computations
 from skillc_runtime.execution.tree.gate import Gate
@@ -31,7 +32,7 @@ class TreeContext:
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
     calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
     that a pause concerns, `computations` what they compute. A primitive or a wait fails `step_deadline_s` after its
-    start; None if it may take any time.
+    start; None if it may take any time. `broken_calls` are those that did not succeed up to now.
     """
 
     __slots__ = (
@@ -39,6 +40,7 @@ class TreeContext:
         "_snapshot",
         "_stopped",
         "active",
+        "broken_calls",
         "cell",
         "computations",
         "emit",
@@ -71,6 +73,7 @@ class TreeContext:
         self.step_deadline_s = step_deadline_s
         self.run_cell = RunCell(cell)
         self.active, self.computations = ActivePrimitives(), Computations()
+        self.broken_calls: list[BrokenCall] = []
         self._stopped, self._own_offset = False, 0.0
         self.time = self.now = 0.0
         self.state: WorldState

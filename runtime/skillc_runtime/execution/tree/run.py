@@ -8,6 +8,7 @@ from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell, WatchdogTimeout
 from skillc_runtime.devices.prompts import Prompt
+from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.build import build_node
@@ -135,6 +136,12 @@ class TreeRun:
     def claims(self) -> tuple[Claim, ...]:
         """The posts of the outermost calls that succeeded, with the values of their variables."""
         return tuple(_collect_claims(self._root))
+
+    @property
+    def broken_calls(self) -> tuple[BrokenCall, ...]:
+        """The calls that failed, and of a run without success those that were halted: it is not known how far."""
+        succeeded = self.status is Status.SUCCESS
+        return tuple(each for each in self._context.broken_calls if each.status == "failed" or not succeeded)
 
     @property
     def listener_problems(self) -> tuple[str, ...]:

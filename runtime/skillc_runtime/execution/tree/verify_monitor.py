@@ -54,7 +54,10 @@ def _describe_violation(
             return "" if evaluate(condition, state, frame) else None
         case Measures(operator=operator, limit=limit):
             for arm in _find_arms(implementation, vocabulary, frame):
-                force_n = float(np.linalg.norm(cell.arm(arm).measured.wrench[:3]))
+                felt = cell.arm(arm).measured.felt
+                if felt is None:
+                    return f": {vocabulary.short(arm)} has nothing that measures its force"
+                force_n = float(np.linalg.norm(felt[:3]))
                 if evaluate(Compare(Literal(force_n), operator, limit), state, frame):
                     return f": {vocabulary.short(arm)} measures {force_n:.1f} N"
     return None
