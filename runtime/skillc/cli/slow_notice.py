@@ -33,4 +33,4 @@ def notice_if_slow(text: str, describe: Callable[[], str] = lambda: "") -> Itera
         yield
     finally:
         ended.set()
-        thread.join()
+        thread.join(AGAIN_AFTER_S)

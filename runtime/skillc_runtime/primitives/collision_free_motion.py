@@ -35,6 +35,9 @@ if TYPE_CHECKING:
 MAX_SEARCHES = 5
 """How often a motion is looked for because the arm, or what is around it, was moved meanwhile."""
 
+SETTLING_TICKS = 150
+"""For how many ticks at most an arm that still settles is waited for before a motion is looked for again."""
+
 SAME_M, SAME_RAD = 5e-4, 5e-4
 """How far from where a motion was to start an arm may be and still follow it."""
 
@@ -62,6 +65,7 @@ def move_collision_free(cell: Cell, arm: str, goals: JointGoals, pace: float, un
         if np.abs(driver.motion.stopping_joints() - model.start).max() < SAME_RAD and seen.is_current(cell):
             driver.motion.follow_joints(found)
             return
+        yield from _wait_until_still(driver)
     raise _restless()
 
 
@@ -84,6 +88,7 @@ def move_tool_along(cell: Cell, arm: str, make: Callable[[], Trajectory]) -> Com
         if _is_same(trajectory.at(0.0).pose, driver.motion.stopping_pose()) and seen.is_current(cell):
             driver.motion.follow_tool(found)
             return
+        yield from _wait_until_still(driver)
     raise _restless()
 
 
@@ -135,6 +140,13 @@ def _come_to_rest(cell: Cell, arm: str) -> ArmDriver:
     if not driver.motion.done:
         driver.motion.stop()
     return driver
+
+
+def _wait_until_still(driver: ArmDriver) -> Computing:
+    for _ in range(SETTLING_TICKS):
+        if driver.measured.still:
+            return
+        yield None
 
 
 def _is_same(one: Pose, other: Pose) -> bool:
