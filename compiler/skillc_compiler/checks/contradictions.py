@@ -12,6 +12,7 @@ from skillc_compiler.logic.conjunctions import (
     equal_names_in,
     rename_fact,
 )
+from skillc_compiler.logic.related import RelatedFacts
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program
@@ -31,15 +32,17 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _in_group(conflicts: Conflicts, group: ConjunctionGroup) -> Iterator[Diagnostic]:
     names = equal_names_in((*group.given, *group.own))
-    earlier = {(fact.meaning, fact.holds): fact for fact in (rename_fact(each, names) for each in group.given)}
+    earlier = RelatedFacts(conflicts)
+    for given in group.given:
+        earlier.add(rename_fact(given, names))
     own: set[object] = set()
     for fact in (rename_fact(each, names) for each in group.own):
         if (fact.meaning, fact.holds) in own:
             continue  # what contradicts it, contradicts the one before it
-        against = next((other for other in earlier.values() if conflicts.exclude(other, fact)), None)
+        against = earlier.first_excluding(fact)
         if against is not None:
             yield _problem(fact, against)
-        earlier[fact.meaning, fact.holds] = fact
+        earlier.add(fact)
         own.add((fact.meaning, fact.holds))
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
+from skillc_compiler.logic.related import TopicIndex, topics_of_fact
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement
@@ -34,25 +36,31 @@ def _check_posts(
     whole = (*given, *own)
     names = equal_names(whole)
     posts = [(rename_fact(f, names), r) for r in whole if r.kind == "post" for f in facts_in(r.condition)]
-    gone = [fact.meaning for fact, _ in posts if not fact.holds and isinstance(fact.meaning, Holds)]
     pre = (rename_fact(fact, names) for r in whole if r.kind == "pre" for fact in facts_in(r.condition))
-    known = [fact for fact in pre if fact.holds]
-    staying = [fact for fact in known if not _is_undone(conflicts, fact, gone)]
-    for number, (fact, post) in enumerate(posts):
-        if post not in own or not fact.holds or not isinstance(fact.meaning, Holds):
-            continue
-        others = [*(each for each, _ in posts[:number] if each.holds), *staying]
-        yield from _check_axioms(conflicts, fact, fact.meaning, post, others)
+    gone, before, staying = TopicIndex[Holds](), TopicIndex[TypedFact](), TopicIndex[TypedFact]()
+    for fact, _ in posts:
+        if not fact.holds and isinstance(fact.meaning, Holds):
+            gone.add(fact.meaning, topics_of_fact(conflicts, fact))
+    for fact in pre:
+        if fact.holds and not _is_undone(conflicts, fact, gone):
+            staying.add(fact, topics_of_fact(conflicts, fact))
+    for fact, post in posts:
+        if fact.holds and isinstance(fact.meaning, Holds):
+            topics = tuple(topics_of_fact(conflicts, fact))
+            others = chain(before.related(topics), staying.related(topics))
+            yield from _check_axioms(conflicts, fact, fact.meaning, post, others) if post in own else ()
+            before.add(fact, topics)
 
 
-def _is_undone(conflicts: Conflicts, fact: TypedFact, gone: list[Holds]) -> bool:
+def _is_undone(conflicts: Conflicts, fact: TypedFact, gone: TopicIndex[Holds]) -> bool:
     if not isinstance(fact.meaning, Holds):
         return True
-    return any(covers(absent, link) for absent in gone for link in conflicts.implied(fact.meaning))
+    links = tuple(conflicts.implied(fact.meaning))
+    return any(covers(absent, link) for absent in gone.related(topics_of_fact(conflicts, fact)) for link in links)
 
 
 def _check_axioms(
-    conflicts: Conflicts, fact: TypedFact, meaning: Holds, post: Requirement, others: list[TypedFact]
+    conflicts: Conflicts, fact: TypedFact, meaning: Holds, post: Requirement, others: Iterable[TypedFact]
 ) -> Iterator[Diagnostic]:
     name = local_name(meaning.relation)
     if conflicts.is_impossible(meaning):

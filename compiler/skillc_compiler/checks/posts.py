@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain, islice
 
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
 from skillc_compiler.logic.effects import NoEffect, effects_of
+from skillc_compiler.logic.related import TopicIndex, topics_of_effect, topics_of_fact
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement
@@ -18,6 +20,8 @@ from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")
 NEEDS = Need.NAMES
 READS = Reads.DECLARATION
+MOST_CONFLICTS = 20
+"""With so many earlier posts the contradictions of one are reported."""
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
@@ -33,12 +37,10 @@ def _check_posts(
     conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]
 ) -> Iterator[Diagnostic]:
     names = equal_names((*given, *own))
-    known = [
-        (_with_equal_names(effect, names), post)
-        for post in given
-        if post.kind == "post"
-        for effect in effects_of(post.condition)
-    ]
+    known = TopicIndex[tuple[Effect, Requirement]]()
+    for post in given:
+        for effect in effects_of(post.condition) if post.kind == "post" else ():
+            _add(conflicts, known, _with_equal_names(effect, names), post)
     for post in (requirement for requirement in own if requirement.kind == "post"):
         for effect in effects_of(post.condition):
             if isinstance(effect, NoEffect):
@@ -47,12 +49,22 @@ def _check_posts(
                 continue
             if not post.sensed:
                 yield from _check_computed(conflicts.vocabulary, effect, post)
-            seen = _with_equal_names(effect, names)
-            for other, earlier in known:
-                if not isinstance(other, NoEffect) and not isinstance(seen, NoEffect):
-                    yield from _check_conflict(conflicts, seen, post, other, earlier)
-            known.append((seen, post))
+            seen = substitute(effect, names)
+            others = known.related(topics_of_effect(conflicts, seen))
+            found = (_check_conflict(conflicts, seen, post, other, earlier) for other, earlier in others)
+            yield from islice(chain.from_iterable(found), MOST_CONFLICTS)
+            _add(conflicts, known, seen, post)
     yield from _check_measured(conflicts, own, given, names)
+
+
+def _add(
+    conflicts: Conflicts,
+    known: TopicIndex[tuple[Effect, Requirement]],
+    effect: Effect | NoEffect,
+    post: Requirement,
+) -> None:
+    if not isinstance(effect, NoEffect):
+        known.add((effect, post), topics_of_effect(conflicts, effect))
 
 
 def _with_equal_names(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
@@ -67,11 +79,14 @@ def _check_measured(
     posts = [post for post in (*given, *own) if post.kind == "post"]
     facts = [(rename_fact(fact, names), post) for post in posts for fact in facts_in(post.condition)]
     valued = [(fact, post) for fact, post in facts if isinstance(fact.meaning, Compare | HasProperty)]
-    for number, (fact, post) in enumerate(valued):
-        for other, earlier in valued[:number] if post in own else ():
+    known = TopicIndex[tuple[TypedFact, Requirement]]()
+    for fact, post in valued:
+        topics = tuple(topics_of_fact(conflicts, fact))
+        for other, earlier in known.related(topics) if post in own else ():
             both_assigned = _is_assigned(fact) and _is_assigned(other)
             if not both_assigned and (post.sensed or earlier.sensed) and conflicts.exclude(fact, other):
                 yield _report_either("contradicting-posts", post, earlier, "another post says the opposite")
+        known.add((fact, post), topics)
 
 
 def _is_assigned(fact: TypedFact) -> bool:

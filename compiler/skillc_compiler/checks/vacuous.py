@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from skillc_compiler.logic.bounds import Bound, are_disjoint, compare_constants, constant_bound
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import facts_in
+from skillc_compiler.logic.related import RelatedFacts
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
@@ -96,10 +97,11 @@ def _evaluate(conflicts: Conflicts, condition: TypedCondition, parameters: _Para
 
 def _evaluate_or(conflicts: Conflicts, condition: TypedCondition) -> tuple[bool, str] | None:
     """Find two parts of an `or` of which one holds whenever the other does not."""
-    denied = [(fact, part) for part in condition.parts for fact in facts_in(part, holds=False)]
-    pairs = ((one, other) for i, (one, _) in enumerate(denied) for other, _ in denied[:i])
-    if any(conflicts.exclude(one, other) for one, other in pairs):
-        return True, "if one part does not hold, another does"
+    denied = RelatedFacts(conflicts)
+    for fact in (each for part in condition.parts for each in facts_in(part, holds=False)):
+        if denied.first_excluding(fact) is not None:
+            return True, "if one part does not hold, another does"
+        denied.add(fact)
     return None
 
 
