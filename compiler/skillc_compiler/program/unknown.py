@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias
 
 import msgspec
+from msgspec import structs
 
 from skillc_compiler.program.spans import is_within_lines
 from skillc_dsl import syntax as s
@@ -19,6 +20,8 @@ UnknownKind: TypeAlias = Literal[
     "class", "relation", "property", "type", "prefix", "individual", "value",
     "function", "skill", "implementation", "parameter", "argument",
 ]  # fmt: skip
+MOST_COMPARED = 50_000
+"""So many candidates are compared with the unknown names of a library; the later ones of a flood have no suggestion."""
 LIBRARY = ""
 """The owner of names that a library declares outside of skills."""
 
@@ -69,6 +72,17 @@ class UnknownName(msgspec.Struct, frozen=True, dict=True):
     def help(self) -> str:
         """What to write instead."""
         return self.otherwise if self.line else did_you_mean(self.written.text, self.candidates) or self.otherwise
+
+
+def limit_candidates(names: Iterable[UnknownName]) -> Iterator[UnknownName]:
+    """Yield the names; once MOST_COMPARED candidates have been given to different names, others have none."""
+    left, given = MOST_COMPARED, set[tuple[str | None, str, str]]()
+    for each in names:
+        key = each.owner, each.kind, each.written.text
+        if key not in given and left >= len(each.candidates):
+            left -= len(each.candidates)
+            given.add(key)
+        yield each if key in given else structs.replace(each, candidates=())
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from functools import partial
 from msgspec import structs
 
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
-from skillc_compiler.program.unknown import LostNames, find_lost
+from skillc_compiler.program.unknown import LostNames, find_lost, limit_candidates
 from skillc_compiler.resolve.declarations import (
     Bare,
     FileDeclarations,
@@ -69,7 +69,9 @@ def resolve_program(
         implementations=tuple(_implementations(files, contexts, skills, resolver)),
         tasks=tuple(_tasks(files, contexts, scenes, resolver)),
         used={path: frozenset().union(*(each.used for each in found)) for path, found in resolver.found.items()},
-        unknown=tuple(name for found in resolver.found.values() for each in found for name in each.unknown),
+        unknown=tuple(
+            limit_candidates(name for found in resolver.found.values() for each in found for name in each.unknown)
+        ),
         lost=lost,
     )
     problems = (problem for found in resolver.found.values() for each in found for problem in each.problems)

@@ -195,7 +195,7 @@ def _ends(terms: Terms, iri: str, predicate: str) -> tuple[str, ...]:
     """
     found = {terms.named(cls) for cls in alternatives(terms.graph, iri, predicate)}
     named = {terms.named(cls) for cls in terms.graph.iris(iri, predicate)}
-    wider = {cls for cls in named for other in named if cls != other and cls in terms.ancestors(other)}
+    wider = named & {above for cls in named for above in terms.ancestors(cls) - {cls}}
     kept = {cls for cls in found - wider if not cls.startswith(BUILT_IN)}
     return tuple(sorted(kept))
 

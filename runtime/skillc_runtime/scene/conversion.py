@@ -46,6 +46,7 @@ class SubjectLines(Lines):
         self._subjects = origin.subjects
         self._finder = SubjectFinder(origin.source, dict(origin.prefixes), base)
         self._found: dict[str, Span] = {"": Span(self.path, 1, 1, 1, 1)}
+        self._at: dict[Span, list[str]] = {self._found[""]: [""]}
 
     def place(self, start: int, end: int) -> Span:
         """Return the span of the subject of the line at an offset."""
@@ -56,11 +57,12 @@ class SubjectLines(Lines):
         subject = self._subjects[line - 1] if line <= len(self._subjects) else ""
         if subject not in self._found:
             self._found[subject] = self._finder.find(subject) or self._found[""]
+            self._at.setdefault(self._found[subject], []).append(subject)
         return self._found[subject]
 
     def subject(self, span: Span) -> str:
         """Return the subject at a span that this object has given, empty if it is not known."""
-        found = [subject for subject, place in self._found.items() if place == span]
+        found = self._at.get(span, [])
         return found[0] if len(found) == 1 else ""
 
 

@@ -10,7 +10,7 @@ import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
-from skillc_rdf.turtle.statements import SOMETHING, Statement
+from skillc_rdf.turtle.statements import SOMETHING, Node, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.scene.foreign_terms import TermUse, group_foreign_terms, report_foreign_terms
@@ -42,6 +42,7 @@ class LocatedFacts:
         wrong = (each for each in self._meaning.mistakes if each.kind == "wrong literal")
         self._unreadable = set(map(self._position, wrong))
         self._suggested = 0
+        self._first: dict[str, dict[Node, Statement]] = {}
 
     def changes(self) -> list[LocatedChange]:
         """Return the changes of the statements: individuals first, then relations in order, then values."""
@@ -133,9 +134,8 @@ class LocatedFacts:
         """Yield the problem of a second value of a functional property, if the class of the individual is known."""
         if subject not in self._classes:
             return
-        term, rows = self._vocabulary.properties[second.predicate], self._rows[second.predicate, True]
-        readable = (self._said[position] for position in rows if position not in self._unreadable)
-        first = next(each for each in readable if each.subject == second.subject)
+        term = self._vocabulary.properties[second.predicate]
+        first = self._first_values(second.predicate)[second.subject]
         values = [read_literal(each.object, term) for each in (first, second) if isinstance(each.object, ox.Literal)]
         both = " and ".join(map(show, values))
         message = f"{self._short(subject)} has two values of {self._short(term.iri)}: {both}"
@@ -143,6 +143,14 @@ class LocatedFacts:
         point = _decimal(first, second)
         help_ = f"write `{point.text}`: decimals take a point" if point else "keep one of them"
         yield Diagnostic("functional-property", second.object_place, message, help_, labels=notes, fix=point)
+
+    def _first_values(self, predicate: str) -> dict[Node, Statement]:
+        """Return the first statement about each subject with a readable value of a property."""
+        if predicate not in self._first:
+            rows = self._rows[predicate, True]
+            readable = (self._said[position] for position in reversed(rows) if position not in self._unreadable)
+            self._first[predicate] = {each.subject: each for each in readable}
+        return self._first[predicate]
 
     def _without_class(self, subject: str, each: Statement) -> Diagnostic:
         place = each.subject_place
