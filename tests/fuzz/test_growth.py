@@ -6,9 +6,11 @@ import re
 
 import pytest
 
+from fuzz.kinds._doors import HEAD
 from fuzz.kinds._growth import MOST_EXPONENT, measure_growth
 from fuzz.kinds.growth import Shape, check_growth
 
+SKILL = "use skiros\nskill S {\n in a: Location\n"
 ONCE = [
     ("detect", Shape('<?xml version="1.0"?>\n', "<!-- c -->\n", "", "", "<rdf:RDF/>")),
     ("address", Shape("http://", "a0 http://", "", "", "")),
@@ -22,6 +24,23 @@ ONCE = [
     pytest.param("suppressions", Shape("", "# allow x0: why\n", "", "", ""), marks=pytest.mark.slow),
     pytest.param("reparse", Shape("", "# c\n", "", "", ""), marks=pytest.mark.slow),
     pytest.param("parse", Shape("", "skill S0 {\n", "", "", ""), marks=pytest.mark.slow),
+    pytest.param(
+        "compile", Shape(SKILL, " in a0: Product\n", "", " pre a contain a0\n", "}\n"), marks=pytest.mark.slow
+    ),
+    pytest.param(
+        "compile", Shape(SKILL, " in a0: Product\n", "", " post a contain a0\n", "}\n"), marks=pytest.mark.slow
+    ),
+    pytest.param("compile", Shape(SKILL, " pre a.Weight < 10 kg\n", "", "", "}\n"), marks=pytest.mark.slow),
+    pytest.param(
+        "compile",
+        Shape("use skiros\n", "skill S0 {\n in a: Product\n}\n", "", "impl i0 of Foo0 {\n do wait 1 s\n}\n", ""),
+        marks=pytest.mark.slow,
+    ),
+    pytest.param(
+        "vocabulary",
+        Shape(HEAD + "ex:r a owl:ObjectProperty .\n", "ex:A0 a owl:Class .\nex:r rdfs:domain ex:A0 .\n", "", "", ""),
+        marks=pytest.mark.slow,
+    ),
     pytest.param("goal", Shape("", "a", "", "", " "), marks=pytest.mark.slow),
 ]
 
@@ -34,5 +53,5 @@ def test_what_once_took_long_grows_with_its_length(door: str, shape: Shape) -> N
 @pytest.mark.slow
 def test_the_square_of_the_length_is_noticed() -> None:
     pattern = re.compile("a*b")
-    growth = measure_growth(pattern.search, lambda count: "a" * count, 10_000)
+    growth = measure_growth(pattern.search, lambda count: "a" * count, 100_000)
     assert growth.exponent > MOST_EXPONENT

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from itertools import combinations
+from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -51,12 +50,21 @@ def _lint_domains(graph: Graph, vocabulary: Vocabulary, iri: str, places: TermPo
             both = " and ".join(f"`{vocabulary.short(each)}`" for each in kept)
             place, short = places.statement(iri, predicate, kept[-1]), vocabulary.short(iri)
             help_ = "write `[ a owl:Class ; owl:unionOf ( .. ) ]` for either, or name a class below both"
-            if any(vocabulary.disjoint(*pair) for pair in combinations(kept, 2)):
+            if _are_two_disjoint(vocabulary, kept):
                 message = f"`{short}` can never hold: its {word} are {both}, which are disjoint"
                 yield Diagnostic("impossible-relation", place, message, help_)
             else:
                 message = f"the {word} of `{short}` are {both}: in OWL both apply, here either"
                 yield Diagnostic("several-domains", place, message, help_, severity="warning")
+
+
+def _are_two_disjoint(vocabulary: Vocabulary, classes: Sequence[str]) -> bool:
+    """Whether two of the classes are disjoint; only those below a class that is disjoint with another are compared."""
+    above = {cls: vocabulary.ancestors.get(cls, frozenset({cls})) for cls in classes}
+    every = frozenset[str]().union(*above.values()) & vocabulary.classes.keys()
+    apart = {other for cls in every for other in vocabulary.classes[cls].disjoint}
+    one_side = [cls for cls in classes if not apart.isdisjoint(above[cls])]
+    return any(vocabulary.disjoint(one, other) for one in one_side for other in classes if other != one)
 
 
 def _ends(
