@@ -50,6 +50,8 @@ REFUSED = [
     ("DELETE WHERE { ?s ?p ?x }", "queries only: DELETE would change data", (1, 1)),
     ("PREFIX a: <http://a/>\ninsert data { a:b a:c 3 }", "queries only: INSERT", (2, 1)),
     ("SELECT ?x {\n SERVICE <http://a.b/> { ?x ?p ?y } }", "do not use the network", (2, 2)),
+    ("SELECT ?x " + "{ " * 8000, "more than 100 brackets are open here", (1, 211)),
+    ("ASK { FILTER(" + "!STR(" * 40, "more than 8 brackets after a `!` are open here", (1, 58)),
     ("ASK { service silent <http://a.b/> { ?x ?p ?y } }", "do not use the network", (1, 7)),
 ]
 

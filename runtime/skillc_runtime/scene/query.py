@@ -13,7 +13,7 @@ import pyoxigraph as ox
 from skillc_rdf.turtle.terms import OWL, RDF, RDFS, XSD
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, statements_of
-from skillc_runtime.scene.query_errors import federation_error, syntax_error_message
+from skillc_runtime.scene.query_errors import federation_error, nesting_error, syntax_error_message
 from skillc_runtime.store.literals import INTEGERS, NUMBERS
 
 QueryValue: TypeAlias = bool | int | float | str | None
@@ -37,11 +37,11 @@ class QueryAnswer:
 def run_query(documents: Iterable[Document], sparql: str, vocabulary: Vocabulary) -> QueryAnswer:
     """Return the result of a query over documents; the vocabulary's prefixes need no declaration.
 
-    QueryError for a syntax error, an update, a query to another server or a failed evaluation; SceneError for a
-    document that is not Turtle.
+    QueryError for a syntax error, an update, too many nested brackets, a query to another server or a failed
+    evaluation; SceneError for a document that is not Turtle.
     """
     vocabulary = msgspec.structs.replace(vocabulary, prefixes={**WELL_KNOWN, **vocabulary.prefixes})
-    refusal = federation_error(sparql)
+    refusal = federation_error(sparql) or nesting_error(sparql)
     if refusal is not None:
         raise QueryError(refusal)
     store = _store(documents)

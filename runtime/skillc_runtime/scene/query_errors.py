@@ -9,6 +9,11 @@ from itertools import pairwise
 
 FORMS = ("SELECT", "ASK", "CONSTRUCT", "DESCRIBE")
 UPDATES = ("INSERT", "DELETE", "WITH", "LOAD", "CLEAR", "CREATE", "DROP", "COPY", "MOVE", "ADD")
+OPENING, CLOSING = frozenset("({["), frozenset(")}]")
+MOST_NESTED = 100
+"""So many brackets may be inside each other: the parser needs stack for each, and a process without stack dies."""
+MOST_NEGATED = 8
+"""So many of them may follow a `!`: with each more the parser takes twice as long to see that a query is broken."""
 
 _TOKEN = re.compile(
     r"""(?P<skip>\s+|\#[^\n]*|@[A-Za-z-]+)
@@ -39,6 +44,23 @@ def federation_error(query: str) -> str | None:
     if first is None:
         return None
     return _message_at(query, first.start, "SERVICE asks another server, and queries do not use the network")
+
+
+def nesting_error(query: str) -> str | None:
+    """Return the message for a query with too many brackets inside each other; None for other queries."""
+    opened: list[bool] = []
+    negated = False
+    for token in (each for each in _tokens(query) if each.kind == "mark"):
+        if token.text in OPENING:
+            opened.append(negated)
+            if len(opened) > MOST_NESTED:
+                return _message_at(query, token.start, f"more than {MOST_NESTED} brackets are open here")
+            if sum(opened) > MOST_NEGATED:
+                return _message_at(query, token.start, f"more than {MOST_NEGATED} brackets after a `!` are open here")
+        elif token.text in CLOSING and opened:
+            opened.pop()
+        negated = token.text == "!"
+    return None
 
 
 def syntax_error_message(query: str, parser: str, prefixes: Iterable[str]) -> str:
