@@ -89,7 +89,7 @@ def test_where_blocks_stand_on_all_sides_the_part_is_left_with_a_reason(tmp_path
     assert ended.status == "failed" and ended.failure is not None
     tried = {each.alternative for each in ended.failure.causes}
     assert tried >= {"Pick[from_above]", "Pick[across]", "Pick[from_side]"}
-    assert "away from where it shall be" in ended.failure.message
+    assert "touches something at a height of" in ended.failure.message
     assert ended.backend.ground_truth.carried_by(HAND) is None
     left = ended.backend.ground_truth.body_pose(PART)
     ended.backend.advance(0.5)
