@@ -41,6 +41,22 @@ ONCE = [
         Shape(HEAD + "ex:r a owl:ObjectProperty .\n", "ex:A0 a owl:Class .\nex:r rdfs:domain ex:A0 .\n", "", "", ""),
         marks=pytest.mark.slow,
     ),
+    pytest.param(
+        "vocabulary",
+        Shape(
+            '{"@context": {"ex": "http://e/", "rdfs": "http://www.w3.org/2000/01/rdf-schema#"}, "@graph": [{}',
+            ',\n{"@id": "ex:A0", "@type": "http://www.w3.org/2002/07/owl#Class", "rdfs:subClassOf": {"@id": "ex:B0"}}',
+            "",
+            "",
+            "]}",
+        ),
+        marks=pytest.mark.slow,
+    ),
+    pytest.param(
+        "scene",
+        Shape(HEAD + "lab:g {\n", "lab:a0 skiros:contain lab:b0 .\n", "", "", "}\n"),
+        marks=pytest.mark.slow,
+    ),
     pytest.param("goal", Shape("", "a", "", "", " "), marks=pytest.mark.slow),
 ]
 

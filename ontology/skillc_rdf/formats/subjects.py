@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from urllib.parse import urljoin
 from xml.parsers import expat
 
@@ -11,9 +12,11 @@ import pyoxigraph as ox
 
 from skillc_dsl.source import Source, Span
 from skillc_rdf.formats import json_ld
-from skillc_rdf.formats.detect import Format, detect_format
+from skillc_rdf.formats.detect import detect_format
+from skillc_rdf.turtle.lines import Lines
 from skillc_rdf.turtle.terms import RDF
 
+_TERM = re.compile(r"<(?P<iri>[^<>\s]*)>|(?<![\w.-])(?P<name>[\w.-]*:[\w:.%-]*)")
 _XML_BASE = "http://www.w3.org/XML/1998/namespace base"
 
 
@@ -22,43 +25,35 @@ class SubjectFinder:
 
     def __init__(self, source: Source, prefixes: Mapping[str, str], base: str = "") -> None:
         self._source, self._prefixes, self._base = source, prefixes, base
-        self._form: Format = detect_format(source)
-        self._elements: dict[str, Span] | None = None
-        self._names: dict[str, tuple[int, int]] | None = None
 
     def find(self, iri: str) -> Span | None:
         """Return where a text is about an IRI first, None if it is not written there in a known form."""
-        match self._form:
+        return self._spans.get(iri) or self._spans.get(iri.removeprefix(self._base))
+
+    @cached_property
+    def _spans(self) -> dict[str, Span]:
+        """Where each IRI, or the relative one that stands for it, is written for the first time."""
+        found: dict[str, Span] = {}
+        for iri, span in self._written():
+            found.setdefault(iri, span)
+        return found
+
+    def _written(self) -> Iterator[tuple[str, Span]]:
+        text, lines = self._source.text, Lines(self._source.path, self._source.text)
+        match detect_format(self._source):
             case ox.RdfFormat.RDF_XML:
-                if self._elements is None:
-                    self._elements = dict(reversed(list(find_elements(self._source))))
-                return self._elements.get(iri) or self._elements.get(iri.removeprefix(self._base))
+                yield from find_elements(self._source)
             case ox.RdfFormat.JSON_LD:
-                return self._in_json(iri)
+                for name, place in json_ld.find_names(text).items():
+                    yield self._expanded(name), lines.place(*place)
             case _:
-                return self._in_text(iri)
+                for term in _TERM.finditer(text):
+                    iri = term["iri"] if term["name"] is None else self._expanded(term["name"].rstrip("."))
+                    yield iri, lines.place(*term.span())
 
-    def _in_json(self, iri: str) -> Span | None:
-        if self._names is None:
-            self._names = json_ld.find_names(self._source.text)
-        found = (self._names[each] for each in self._forms(iri) if each in self._names)
-        first = next(found, None)
-        return self._span(*first) if first else None
-
-    def _in_text(self, iri: str) -> Span | None:
-        forms = [f"<{re.escape(iri)}>", *(rf"(?<![\w.-]){re.escape(each)}(?![\w-])" for each in self._forms(iri)[1:])]
-        match = re.search("|".join(forms), self._source.text)
-        return self._span(*match.span()) if match else None
-
-    def _forms(self, iri: str) -> list[str]:
-        short = (f"{name}:{iri[len(base) :]}" for name, base in self._prefixes.items() if iri.startswith(base))
-        own = [iri.removeprefix(self._base)] if self._base and iri.startswith(self._base) else []
-        return [iri, *short, *own]
-
-    def _span(self, start: int, end: int) -> Span:
-        text = self._source.text
-        line, column = text.count("\n", 0, start) + 1, start - text.rfind("\n", 0, start)
-        return Span(self._source.path, line, column, line, column + end - start)
+    def _expanded(self, name: str) -> str:
+        prefix, colon, local = name.partition(":")
+        return self._prefixes[prefix] + local if colon and prefix in self._prefixes else name
 
 
 def find_elements(source: Source) -> Iterator[tuple[str, Span]]:

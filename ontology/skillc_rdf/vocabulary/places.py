@@ -16,6 +16,9 @@ from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.vocabulary.positions import find_subjects
 from skillc_rdf.vocabulary.types import Position, local_name
 
+_IRI = re.compile(r"[^\s<>\"'{}|^`\\]+")
+_WORD = re.compile(r"[\w%-]+(?:\.[\w%-]+)*")
+
 
 class TermPositions:
     """The positions of terms and statements, computed lazily."""
@@ -76,13 +79,19 @@ class TermPositions:
 
     def _found(self, iri: str) -> Span:
         """Return the first line that contains the IRI, or else its local name; by default the first line of all."""
-        for written in (re.escape(iri), rf"\b{re.escape(local_name(iri))}\b"):
-            for source in self._sources:
-                if match := re.search(written, source.text):
-                    line = source.text.count("\n", 0, match.start()) + 1
-                    return Span(source.path, line, 1, line, 2)
-        path = self._sources[0].path if self._sources else iri
-        return Span(path, 1, 1, 1, 2)
+        default = Span(self._sources[0].path if self._sources else iri, 1, 1, 1, 2)
+        return self._lines.get(iri) or self._lines.get(local_name(iri), default)
+
+    @cached_property
+    def _lines(self) -> dict[str, Span]:
+        """The first line of each IRI and each word of the sources."""
+        found: dict[str, Span] = {}
+        for source in self._sources:
+            for number, line in enumerate(source.text.split("\n"), start=1):
+                span = Span(source.path, number, 1, number, 2)
+                for written in (*_IRI.findall(line), *_WORD.findall(line)):
+                    found.setdefault(written, span)
+        return found
 
 
 def _iri(node: object) -> str:
