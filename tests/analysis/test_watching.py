@@ -25,9 +25,9 @@ TOO_MUCH = Measures("force", ">", Literal(25.0))
 
 @dataclass
 class Measured:
-    """What an arm measures that feels a force."""
+    """What an arm measures; None if it feels no force."""
 
-    wrench: np.ndarray
+    felt: np.ndarray | None
 
 
 @dataclass
@@ -41,11 +41,12 @@ class Arm:
 class Cell(Stage):
     """A stage with one arm."""
 
-    force_n: float = 0.0
+    force_n: float | None = 0.0
 
     def arm(self, individual: str) -> Arm:
         """Return the arm."""
-        return Arm(Measured(np.array([0.0, 0.0, -self.force_n, 99.0, 0.0, 0.0])))
+        force_n = self.force_n
+        return Arm(Measured(None if force_n is None else np.array([0.0, 0.0, -force_n, 99.0, 0.0, 0.0])))
 
 
 def library(event: Event) -> SkillLibrary:
@@ -95,3 +96,11 @@ def test_the_force_is_measured_in_every_tick(force_n: float, status: Status) -> 
     assert run.tick() is status
     if run.failure is not None:
         assert run.failure.message == "`verify never that` is violated: stage:device0 measures 26.0 N"
+
+
+def test_an_arm_that_feels_nothing_cannot_keep_below_a_force() -> None:
+    cell, run = started(TOO_MUCH)
+    cell.force_n = None
+    run.tick()
+    assert run.tick() is Status.FAILURE and run.failure is not None
+    assert run.failure.message == "`verify never that` is violated: stage:device0 has nothing that measures its force"
