@@ -9,6 +9,10 @@ import pytest
 from fuzz.kinds._doors import HEAD
 from fuzz.kinds._growth import MOST_EXPONENT, measure_growth
 from fuzz.kinds.growth import Shape, check_growth
+from skillc_compiler.analysis.axioms import build_axioms
+from skillc_dsl.encoding import MOST_CHARACTERS
+from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.load import load
 
 SKILL = "use skiros\nskill S {\n in a: Location\n"
 ONCE = [
@@ -64,6 +68,24 @@ ONCE = [
 @pytest.mark.parametrize(("door", "shape"), ONCE)
 def test_what_once_took_long_grows_with_its_length(door: str, shape: Shape) -> None:
     check_growth(door, shape)
+
+
+HIERARCHIES = [
+    "ex:r{one} a owl:ObjectProperty ; owl:inverseOf ex:r{next} .\n",
+    "ex:r{one} a owl:ObjectProperty ; owl:inverseOf ex:inverse .\n",
+    "ex:r{one} a owl:ObjectProperty ; rdfs:subPropertyOf ex:r{next} .\n",
+    "ex:r{one} a owl:SymmetricProperty ; rdfs:subPropertyOf ex:r{next} .\n",
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("axiom", HIERARCHIES)
+def test_chains_of_relations_are_read_in_linear_time(axiom: str) -> None:
+    def make(count: int) -> str:
+        return HEAD + "".join(axiom.format(one=number, next=number + 1) for number in range(count))
+
+    growth = measure_growth(lambda text: build_axioms(load([], [Source("a.ttl", text)]).value), make, MOST_CHARACTERS)
+    assert growth.exponent <= MOST_EXPONENT, growth
 
 
 @pytest.mark.slow

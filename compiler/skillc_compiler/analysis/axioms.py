@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import msgspec
 
-from skillc_rdf.vocabulary.closure import Directed
+from skillc_rdf.vocabulary.closure import Directed, OnDemand
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
@@ -42,27 +42,14 @@ def build_axioms(vocabulary: Vocabulary) -> CanonicalAxioms:
     straight, turned = flags["functional"], flags["inverse_functional"]
     single_object = {iri for iri in bases if Directed(iri) in straight or Directed(iri, True) in turned}
     single_subject = {iri for iri in bases if Directed(iri) in turned or Directed(iri, True) in straight}
-    implied = {iri: closure.canonical_implied[iri] for iri in bases}
-    sources = {iri: closure.canonical_sources[iri] for iri in bases}
     return CanonicalAxioms(
         name,
-        implied,
-        sources,
+        OnDemand(bases, closure.canonical_implied.__getitem__),
+        OnDemand(bases, closure.canonical_sources.__getitem__),
         frozenset(bases.keys() & closure.chained),
         frozenset(single_object),
         frozenset(single_subject),
         frozenset(iri for iri, _ in flags["asymmetric"]),
         frozenset(iri for iri, _ in flags["irreflexive"]),
-        {iri: _affected(iri, name, implied, sources) for iri in bases},
+        OnDemand(bases, lambda iri: closure.above(closure.below(closure.above([iri])))),
     )
-
-
-def _affected(
-    iri: str,
-    name: Mapping[str, Directed],
-    implied: Mapping[str, tuple[Directed, ...]],
-    sources: Mapping[str, tuple[Directed, ...]],
-) -> frozenset[str]:
-    below = {source for above, _ in implied[iri] for source, _ in sources[above]}
-    bases = {above for source in below for above, _ in implied[source]}
-    return frozenset(each for each, (base, _) in name.items() if base in bases)

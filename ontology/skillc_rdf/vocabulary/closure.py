@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import NamedTuple, Protocol, TypeVar
+
+from skillc_rdf.vocabulary.components import components
 
 T = TypeVar("T")
 Node = TypeVar("Node", bound=Hashable)
@@ -39,61 +40,78 @@ class RelationAxioms(Protocol):
     def transitive(self) -> bool: ...
 
 
-@dataclass(frozen=True)
+class OnDemand(Mapping[str, T]):
+    """A mapping whose values are computed when they are asked for, once each."""
+
+    def __init__(self, keys: Collection[str], compute: Callable[[str], T]) -> None:
+        self._keys, self._compute = keys, compute
+        self._known: dict[str, T] = {}
+
+    def __getitem__(self, key: str) -> T:
+        if key not in self._known:
+            if key not in self._keys:
+                raise KeyError(key)
+            self._known[key] = self._compute(key)
+        return self._known[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._keys)
+
+    def __len__(self) -> int:
+        return len(self._keys)
+
+
 class RelationClosure:
-    """What each relation implies and what implies it.
+    """What each relation implies and what implies it; references to unknown relations are ignored.
 
     `implied[r]` contains (x, flipped) if r(s, o) implies x(s, o), or x(o, s) if flipped; r is included; sorted.
-    `sources` is the converse. `transitive` are the transitive relations and those equivalent to one.
+    `sources` is the converse. Both grow with the square of the depth of a hierarchy: they are computed on demand, and
+    equivalent relations share theirs. `transitive` are the transitive relations and those equivalent to one.
     """
 
-    implied: Mapping[str, tuple[Directed, ...]]
-    sources: Mapping[str, tuple[Directed, ...]]
-    transitive: frozenset[str]
+    def __init__(self, relations: Mapping[str, RelationAxioms]) -> None:
+        self._after = _steps(relations)
+        self._before = _reversed(self._after)
+        self._canonical = _canonical(self._after)
+        self._found: dict[tuple[Directed, bool], tuple[Directed, ...]] = {}
+        self.implied = OnDemand(relations, lambda iri: self._reached(self.canonical(iri), True))
+        self.sources = OnDemand(relations, lambda iri: self._reached(self.canonical(iri), False))
+        self.canonical_implied = OnDemand(relations, lambda iri: self._in_canonical(self.implied[iri]))
+        """The canonical relations that each relation implies, sorted."""
+        self.canonical_sources = OnDemand(relations, lambda iri: self._in_canonical(self.sources[iri]))
+        """The canonical relations that imply each relation, its own included, sorted."""
+        stated = {self.canonical(iri).relation for iri, term in relations.items() if term.transitive}
+        self.transitive = frozenset(iri for iri in relations if self.canonical(iri).relation in stated)
 
     def canonical(self, relation: str) -> Directed:
         """Return the representative of all relations equivalent to this one, inverses included: the first by IRI."""
         return self._canonical.get(relation, Directed(relation))
 
-    @cached_property
-    def canonical_implied(self) -> Mapping[str, tuple[Directed, ...]]:
-        """The canonical relations that each relation implies, sorted."""
-        return {iri: self._in_canonical(found) for iri, found in self.implied.items()}
+    def is_implied(self, relation: str) -> bool:
+        """Whether facts of a relation follow from others: of another relation, or of its own read backwards."""
+        return bool(self._before[relation])
 
-    @cached_property
-    def canonical_sources(self) -> Mapping[str, tuple[Directed, ...]]:
-        """The canonical relations that imply each relation, its own included, sorted."""
-        return {iri: self._in_canonical(found) for iri, found in self.sources.items()}
+    def above(self, relations: Iterable[str]) -> frozenset[str]:
+        """Return the relations that at least one of the given ones implies, these included."""
+        return frozenset(reachable(relations, lambda iri: (each.relation for each in self._after[iri])))
+
+    def below(self, relations: Iterable[str]) -> frozenset[str]:
+        """Return the relations that imply at least one of the given ones, these included."""
+        return frozenset(reachable(relations, lambda iri: (each.relation for each in self._before[iri])))
 
     @cached_property
     def chained(self) -> frozenset[str]:
         """The relations whose facts may follow from chains of any length: transitive ones and what they imply."""
-        return frozenset(each.relation for iri in self.transitive for each in self.implied[iri])
+        return self.above(self.transitive)
 
-    @cached_property
-    def _canonical(self) -> Mapping[str, Directed]:
-        return {iri: min(set(found).intersection(self.sources[iri])) for iri, found in self.implied.items()}
+    def _reached(self, start: Directed, forwards: bool) -> tuple[Directed, ...]:
+        key, steps = (start, forwards), self._after if forwards else self._before
+        if key not in self._found:
+            self._found[key] = tuple(sorted(reachable([start], lambda each: _following(each, steps))))
+        return self._found[key]
 
     def _in_canonical(self, found: Iterable[Directed]) -> tuple[Directed, ...]:
         return tuple(sorted({self.canonical(each.relation).flip(each.flipped) for each in found}))
-
-
-def relation_closure(relations: Mapping[str, RelationAxioms]) -> RelationClosure:
-    """Return the closure of relations by IRI; references to relations that are not among them are ignored."""
-    steps = _steps(relations)
-
-    def following(each: Directed) -> Iterable[Directed]:
-        return (step.flip(each.flipped) for step in steps[each.relation])
-
-    implied = {iri: tuple(sorted(reachable([Directed(iri)], following))) for iri in relations}
-    sources: dict[str, list[Directed]] = {iri: [] for iri in relations}
-    for iri, found in implied.items():
-        for each in found:
-            sources[each.relation].append(Directed(iri, each.flipped))
-    names = {iri: {each.relation for each in found} for iri, found in implied.items()}
-    stated = [iri for iri, term in relations.items() if term.transitive]
-    transitive = frozenset(other for iri in stated for other in names[iri] if iri in names[other])
-    return RelationClosure(implied, {iri: tuple(found) for iri, found in sources.items()}, transitive)
 
 
 def reachable(start: Iterable[Node], following: Callable[[Node], Iterable[Node]]) -> set[Node]:
@@ -107,10 +125,29 @@ def reachable(start: Iterable[Node], following: Callable[[Node], Iterable[Node]]
     return reached
 
 
+def _following(each: Directed, steps: Mapping[str, Iterable[Directed]]) -> Iterator[Directed]:
+    return (step.flip(each.flipped) for step in steps[each.relation])
+
+
+def _canonical(steps: Mapping[str, Iterable[Directed]]) -> dict[str, Directed]:
+    nodes = [Directed(iri, flipped) for iri in steps for flipped in (False, True)]
+    groups = components({each: sorted(_following(each, steps)) for each in nodes})
+    first = ((min(group), group) for group in groups)
+    return {each.relation: least for least, group in first for each in group if not each.flipped}
+
+
+def _reversed(steps: Mapping[str, Iterable[Directed]]) -> dict[str, set[Directed]]:
+    before: dict[str, set[Directed]] = {iri: set() for iri in steps}
+    for iri, found in steps.items():
+        for each in found:
+            before[each.relation].add(Directed(iri, each.flipped))
+    return before
+
+
 def _steps(relations: Mapping[str, RelationAxioms]) -> dict[str, set[Directed]]:
     steps: dict[str, set[Directed]] = {iri: set() for iri in relations}
     for iri, term in relations.items():
-        steps[iri].update(Directed(parent) for parent in term.parents if parent in relations)
+        steps[iri].update(Directed(parent) for parent in term.parents if parent in relations and parent != iri)
         if term.inverse is not None and term.inverse in relations:
             steps[iri].add(Directed(term.inverse, True))
             steps[term.inverse].add(Directed(iri, True))

@@ -44,7 +44,8 @@ def find_unsatisfiable(graph: Graph, vocabulary: Vocabulary) -> Unsatisfiable:
     for alias, term in vocabulary.aliases.items():
         if term in names:
             names[term].append(alias)
-    return Unsatisfiable(vocabulary, {iri: _needs(graph, vocabulary, same) for iri, same in names.items()})
+    needs = ((iri, _needs(graph, vocabulary, same)) for iri, same in names.items())
+    return Unsatisfiable(vocabulary, {iri: found for iri, found in needs if found})
 
 
 def _needs(graph: Graph, vocabulary: Vocabulary, names: Sequence[str]) -> tuple[RequiredValue, ...]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_rdf.vocabulary.components import components
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import EQUAL_CLASS, EQUAL_PROPERTY, SKILLC
 from skillc_rdf.vocabulary.places import TermPositions
@@ -35,7 +36,9 @@ def find_equivalents(graph: Graph, kinds: Mapping[str, str], below: Edges, stand
         both[iri].update(other for other in below.get(iri, ()) if other in kinds)
     aliases: dict[str, str] = {}
     circles: list[tuple[str, ...]] = []
-    for group in _components(both):
+    for group in components({iri: sorted(both[iri]) for iri in sorted(both)}):
+        if len(group) < 2:
+            continue
         shipped = [iri for iri in group if iri in standing]
         if len(shipped) > 1 or len({kinds[iri] for iri in group}) > 1:
             continue
@@ -62,43 +65,3 @@ def report_cycles(
             help="remove one of the axioms, or declare them equivalent with `owl:equivalentClass`",
             severity="warning",
         )
-
-
-def _components(edges: Mapping[str, set[str]]) -> Iterator[Sequence[str]]:
-    """Yield the strongly connected components that have more than one member (Tarjan, without recursion)."""
-    number: dict[str, int] = {}
-    low: dict[str, int] = {}
-    path: list[str] = []
-    on_path: set[str] = set()
-    for root in sorted(edges):
-        todo = [(root, iter(sorted(edges[root])))] if root not in number else []
-        while todo:
-            node, others = todo[-1]
-            if node not in number:
-                number[node] = low[node] = len(number)
-                path.append(node)
-                on_path.add(node)
-            other = next(others, None)
-            if other is None:
-                todo.pop()
-                if todo:
-                    low[todo[-1][0]] = min(low[todo[-1][0]], low[node])
-                yield from _closed(node, number, low, path, on_path)
-            elif other not in number:
-                todo.append((other, iter(sorted(edges[other]))))
-            elif other in on_path:
-                low[node] = min(low[node], number[other])
-
-
-def _closed(
-    node: str, number: Mapping[str, int], low: Mapping[str, int], path: list[str], on_path: set[str]
-) -> Iterator[Sequence[str]]:
-    """Remove a component from the path when its root is left; yield it if it has more than one member."""
-    if low[node] != number[node]:
-        return
-    found: list[str] = []
-    while not found or found[-1] != node:
-        found.append(path.pop())
-        on_path.discard(found[-1])
-    if len(found) > 1:
-        yield found

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
 
-from skillc_rdf.vocabulary.closure import RelationClosure, reachable, relation_closure
+from skillc_rdf.vocabulary.closure import RelationClosure
+from skillc_rdf.vocabulary.components import components
 
 T = TypeVar("T")
 
@@ -181,18 +182,19 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     def ancestors(self) -> dict[str, frozenset[str]]:
         """Each class with all its superclasses, itself and `owl:Thing` included."""
         parents = {iri: (*term.parents, THING) for iri, term in self.classes.items()}
-        return {iri: _ancestors(iri, parents) for iri in (*self.classes, THING)}
+        parents.setdefault(THING, ())
+        return _ancestors(parents)
 
     @cached_property
     def super_relations(self) -> dict[str, frozenset[str]]:
         """Each relation with all its super-relations, itself included."""
         parents = {iri: term.parents for iri, term in self.relations.items()}
-        return {iri: _ancestors(iri, parents) for iri in self.relations}
+        return _ancestors(parents)
 
     @cached_property
     def closure(self) -> RelationClosure:
         """The closure of the relations by sub-relations, inverses and symmetry."""
-        return relation_closure(self.relations)
+        return RelationClosure(self.relations)
 
     def implied_links(self, relation: str, subject: T, object_: T) -> Iterator[tuple[RelationTerm, T, T]]:
         """Yield what a relation between two things implies, itself included: relations with their subject and object.
@@ -250,5 +252,11 @@ def namespace_of(iri: str) -> str:
     return iri.removesuffix(local_name(iri))
 
 
-def _ancestors(iri: str, parents: dict[str, tuple[str, ...]]) -> frozenset[str]:
-    return frozenset(reachable([iri], lambda each: parents.get(each, ())))
+def _ancestors(parents: Mapping[str, tuple[str, ...]]) -> dict[str, frozenset[str]]:
+    """Return the terms above each, itself included; a term has those of its parents, equivalent terms share theirs."""
+    unknown = {other: () for others in parents.values() for other in others if other not in parents}
+    above: dict[str, frozenset[str]] = {}
+    for group in components({**parents, **unknown}):
+        outside = {other for iri in group for other in parents.get(iri, ())}.difference(group)
+        above |= dict.fromkeys(group, frozenset(group).union(*(above[other] for other in outside)))
+    return {iri: above[iri] for iri in parents}

@@ -51,15 +51,19 @@ class Unsatisfiable:
             self._needy()
 
     def _relations(self) -> None:
-        for iri in sorted(self._vocabulary.relations.keys() - self.relations.keys()):
-            if reason := self._relation(iri):
-                self.relations[iri] = reason
+        why: dict[Directed, Reason | None] = {}
+        for iri in sorted(self._limited - self.relations.keys()):
+            same = self._vocabulary.closure.canonical(iri)
+            if same not in why:
+                why[same] = self._relation(iri)
+            if reason := why[same]:
+                self.relations[iri] = reason._replace(follows=self._follows(iri))
 
     def _needy(self) -> None:
         """Find classes that require something unsatisfiable, and subclasses of unsatisfiable ones."""
         for cls in sorted(self._vocabulary.classes.keys() - self.classes.keys()):
             above = self._vocabulary.ancestors[cls]
-            if any(other in self.classes for other in above):
+            if not self.classes.keys().isdisjoint(above):
                 self.classes[cls] = Reason("it has a superclass without possible members", follows=True)
             elif reason := next(self._unmet(cls, above), None):
                 inherited = any(
@@ -69,7 +73,7 @@ class Unsatisfiable:
 
     def _unmet(self, cls: str, above: frozenset[str]) -> Iterator[Reason]:
         """Yield why the members of a class cannot have the required values."""
-        needed = [need for other in sorted(above) for need in self._needs.get(other, ())]
+        needed = [need for other in sorted(above & self._needs.keys()) for need in self._needs[other]]
         short = self._vocabulary.short
         for need in needed:
             if need.property in self.relations:
@@ -126,30 +130,31 @@ class Unsatisfiable:
         ]
 
     def _relation(self, iri: str) -> Reason | None:
-        """Return why a relation can never hold, None if it can."""
+        """Return why a relation, and those equivalent in this direction, can never hold, None if they can."""
         reached = self._implied[iri]
-        clash = self._both_ways(iri, frozenset(reached))
+        clash = self._both_ways(frozenset(reached))
         if clash is not None:
             return clash
         for sides in self._ends(iri):
             if not self._possible(sides):
                 own = iri in self._vocabulary.relations and len(reached) == 1
                 names = ", ".join(sorted({" or ".join(map(self._vocabulary.short, each)) for each in sides}))
-                return Reason(f"nothing is all of {names}", self._follows(iri), kind="domain" if own else "parent")
+                return Reason(f"nothing is all of {names}", kind="domain" if own else "parent")
         return None
 
-    def _both_ways(self, iri: str, reached: frozenset[Directed]) -> Reason | None:
+    def _both_ways(self, reached: frozenset[Directed]) -> Reason | None:
         short = self._vocabulary.short
+        known = self._vocabulary.relations
         for other, flipped in sorted(reached):
-            term: RelationTerm = self._vocabulary.relations[other]
+            term: RelationTerm = known[other]
             if (other, not flipped) not in reached:
                 continue
             if term.asymmetric:
-                return Reason(f"by it `{short(other)}` would hold both ways, and it is asymmetric", self._follows(iri))
-            looping = [up for up, turn in self._implied[other] if self._vocabulary.relations[up].irreflexive]
-            if term.transitive and looping:
+                return Reason(f"by it `{short(other)}` would hold both ways, and it is asymmetric")
+            looping = [up for up, _ in self._implied[other] if known[up].irreflexive] if term.transitive else []
+            if looping:
                 text = f"by it something would be `{short(looping[0])}` to itself, and that is irreflexive"
-                return Reason(text, self._follows(iri))
+                return Reason(text)
         return None
 
     def _follows(self, iri: str) -> bool:
@@ -175,6 +180,8 @@ class Unsatisfiable:
 
     def _clash(self, classes: Sequence[str]) -> tuple[str, str] | None:
         """Return two disjoint classes above the given ones, None if there are none."""
+        if not self._apart:
+            return None
         above = frozenset[str]().union(*(self._above.get(cls, frozenset({cls})) for cls in classes))
         clashing = ((one, sorted(self._apart[one] & above)) for one in sorted(above & self._apart.keys()))
         return next(((one, others[0]) for one, others in clashing if others), None)
@@ -194,15 +201,27 @@ class Unsatisfiable:
             above = wider
 
     def _with_domains(self, classes: frozenset[str], above: Mapping[str, frozenset[str]]) -> frozenset[str]:
-        needed = {need.property for cls in classes for need in self._needs.get(cls, ())}
+        needed = {need.property for cls in classes & self._needs.keys() for need in self._needs[cls]}
         starts = (self._ends(iri)[0] for iri in needed if iri in self._vocabulary.relations)
         single = {choice[0] for sides in starts for choice in sides if len(choice) == 1}
-        return classes.union(single, *(above.get(cls, ()) for cls in single))
+        return classes.union(single, *(above.get(cls, ()) for cls in single)) if single else classes
 
     @cached_property
     def _apart(self) -> dict[str, frozenset[str]]:
         """The classes that are declared disjoint with others, with these."""
         return {iri: frozenset(term.disjoint) for iri, term in self._vocabulary.classes.items() if term.disjoint}
+
+    @cached_property
+    def _limited(self) -> frozenset[str]:
+        """The relations that imply one with a domain, range or characteristic: only these may be unsatisfiable."""
+        limited = (
+            iri
+            for iri, term in self._vocabulary.relations.items()
+            if term.asymmetric
+            or term.irreflexive
+            or any((each.domain, each.range) != (THING, THING) for each in term.signatures)
+        )
+        return self._vocabulary.closure.below(limited)
 
     @property
     def _implied(self) -> Mapping[str, tuple[Directed, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_rdf.vocabulary.closure import Directed
+from skillc_rdf.vocabulary.closure import Directed, OnDemand
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.world.state.computed import ComputedRelation
 
@@ -25,14 +25,9 @@ class WorldAxioms:
         self._superclasses: dict[frozenset[str], frozenset[str]] = {}
         closure = vocabulary.closure
         self.implied, self.sources, self.transitive = closure.implied, closure.sources, closure.transitive
-        self.carriers: dict[str, tuple[Directed, ...]] = {
-            iri: tuple(
-                source for source in self.sources[iri] if source[0] in self.transitive and iri not in self.transitive
-            )
-            for iri in vocabulary.relations
-        }
+        self.carriers = OnDemand(vocabulary.relations, self._carriers)
         self.plain = frozenset(
-            iri for iri, sources in self.sources.items() if sources == ((iri, False),) and iri not in self.transitive
+            iri for iri in vocabulary.relations if not closure.is_implied(iri) and iri not in self.transitive
         )
 
     def superclasses(self, types: frozenset[str]) -> frozenset[str]:
@@ -41,3 +36,8 @@ class WorldAxioms:
             known = self._vocabulary.ancestors
             self._superclasses[types] = frozenset({THING}).union(*(known.get(cls, {cls}) for cls in types))
         return self._superclasses[types]
+
+    def _carriers(self, iri: str) -> tuple[Directed, ...]:
+        if iri in self.transitive:
+            return ()
+        return tuple(source for source in self.sources[iri] if source.relation in self.transitive)
