@@ -58,7 +58,7 @@ ONCE = [
     ),
     pytest.param(
         "scene",
-        Shape(HEAD + "lab:g {\n", "lab:a0 skiros:contain lab:b0 .\n", "", "", "}\n"),
+        Shape(HEAD + "lab:g {\n", f"lab:a0 skiros:contain lab:b0 . # {'c' * 300}\n", "", "", "}\n"),
         marks=pytest.mark.slow,
     ),
     pytest.param("goal", Shape("", "a", "", "", " "), marks=pytest.mark.slow),

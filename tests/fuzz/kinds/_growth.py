@@ -29,15 +29,16 @@ class Growth(NamedTuple):
 
 def measure_growth(read: Callable[[str], object], make: Callable[[int], str], longest: int) -> Growth:
     """Return how the time of reading grows with the repetitions of which a text is made, up to `longest` characters."""
-    found = _growth(read, make, longest, 1)
-    return found if found.exponent <= MOST_EXPONENT else _growth(read, make, longest, REPEATS)
+    found = _growth(read, make, longest, range(1))
+    return found if found.exponent <= MOST_EXPONENT else _growth(read, make, longest, range(1, 1 + REPEATS))
 
 
-def _growth(read: Callable[[str], object], make: Callable[[int], str], longest: int, repeats: int) -> Growth:
+def _growth(read: Callable[[str], object], make: Callable[[int], str], longest: int, turns: range) -> Growth:
     times: list[float] = []
     count = FIRST
     for count in _doubled(make, longest):
-        times.append(min(_seconds(read, make(count)) for _ in range(repeats)))
+        # Each time another text: readers remember what they have read.
+        times.append(min(_seconds(read, make(count) + " " * turn) for turn in turns))
         if times[-1] > ENOUGH_S and len(times) > STEPS:
             break
     base = times[0]
