@@ -74,11 +74,11 @@ class RelationClosure:
         self._before = _reversed(self._after)
         self._canonical = _canonical(self._after)
         self._found: dict[tuple[Directed, bool], tuple[Directed, ...]] = {}
-        self.implied = OnDemand(relations, lambda iri: self._reached(self.canonical(iri), True))
-        self.sources = OnDemand(relations, lambda iri: self._reached(self.canonical(iri), False))
-        self.canonical_implied = OnDemand(relations, lambda iri: self._in_canonical(self.implied[iri]))
+        self.implied = OnDemand(relations, self._implied_by)
+        self.sources = OnDemand(relations, self._sources_of)
+        self.canonical_implied = OnDemand(relations, self._canonical_implied_by)
         """The canonical relations that each relation implies, sorted."""
-        self.canonical_sources = OnDemand(relations, lambda iri: self._in_canonical(self.sources[iri]))
+        self.canonical_sources = OnDemand(relations, self._canonical_sources_of)
         """The canonical relations that imply each relation, its own included, sorted."""
         stated = {self.canonical(iri).relation for iri, term in relations.items() if term.transitive}
         self.transitive = frozenset(iri for iri in relations if self.canonical(iri).relation in stated)
@@ -103,6 +103,19 @@ class RelationClosure:
     def chained(self) -> frozenset[str]:
         """The relations whose facts may follow from chains of any length: transitive ones and what they imply."""
         return self.above(self.transitive)
+
+    # Methods, not lambdas: a closure is sent to other processes.
+    def _implied_by(self, iri: str) -> tuple[Directed, ...]:
+        return self._reached(self.canonical(iri), True)
+
+    def _sources_of(self, iri: str) -> tuple[Directed, ...]:
+        return self._reached(self.canonical(iri), False)
+
+    def _canonical_implied_by(self, iri: str) -> tuple[Directed, ...]:
+        return self._in_canonical(self.implied[iri])
+
+    def _canonical_sources_of(self, iri: str) -> tuple[Directed, ...]:
+        return self._in_canonical(self.sources[iri])
 
     def _reached(self, start: Directed, forwards: bool) -> tuple[Directed, ...]:
         key, steps = (start, forwards), self._after if forwards else self._before
