@@ -15,7 +15,8 @@ from execution.loops import LatePlanner, StagedCell, Watched, submit
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.repeat import repeat_run
-from skillc_runtime.primitives.computation import Computation, Computing, compute_here
+from skillc_runtime.primitives.computation import Computation, Computing
+from skillc_runtime.primitives.compute_here import compute_here
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Note

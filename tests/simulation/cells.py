@@ -14,7 +14,7 @@ from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.primitives.computation import compute_here
+from skillc_runtime.primitives.compute_here import compute_here
 from skillc_runtime.primitives.grasp import Grasp
 from skillc_runtime.primitives.gripper import ParallelGripper, ThreeFingerGripper
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear

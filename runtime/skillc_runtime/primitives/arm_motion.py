@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.segments import MotionLimits
-from skillc_runtime.primitives.computation import Computing, compute_here
+from skillc_runtime.primitives.computation import Computing
+from skillc_runtime.primitives.compute_here import compute_here
 from skillc_runtime.primitives.known_limits import find_excess, find_place_outside
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status

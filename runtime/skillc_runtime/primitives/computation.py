@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
-
-if TYPE_CHECKING:
-    from skillc_runtime.primitives.primitive import Primitive
+from typing import Any, TypeAlias
 
 LIMIT_S = 60.0
 """How long a computation may take by default, in s of wall time."""
@@ -33,18 +30,3 @@ class Computation:
 
 Computing: TypeAlias = Generator[Computation | None, Any, None]
 """Yields computations, and is sent their results; after a None it goes on in the next tick."""
-
-
-def compute_here(primitive: Primitive) -> None:
-    """Let a primitive compute in this process, at once: for programs that tick it without a tree.
-
-    SkillFailure as of its `computing`.
-    """
-    computing, result = primitive.computing, None
-    primitive.computing = None
-    while computing is not None:
-        try:
-            wanted = computing.send(result)
-        except StopIteration:
-            return
-        result = None if wanted is None else wanted.function(*wanted.arguments)
