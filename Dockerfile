@@ -11,6 +11,7 @@ COPY dsl dsl
 COPY ontology ontology
 COPY compiler compiler
 COPY runtime runtime
+COPY app app
 COPY skills_src skills_src
 COPY studio studio
 RUN pip install --no-cache-dir --constraint constraints.txt '.[planner,temporal,motion,fast,meshes,video,data,editor,server]'

@@ -97,7 +97,7 @@ bench: .venv/.dev ## run the benchmarks; each prints ratios
 editors:         ## build the extension for VS Code, editors/vscode/dist/skillc.vsix (needs Node 20)
 	cd editors/vscode && npm ci --ignore-scripts && npm test && npm run package
 
-studio: .venv/.node ## build the page of the studio, runtime/skillc/studio_files, and test it
+studio: .venv/.node ## build the page of the studio, app/skillc/studio_files, and test it
 	$(BIN)/python studio/build.py --required
 	PATH="$$PATH:$(CURDIR)/$(BIN)" npm --prefix studio run check
 	PATH="$$PATH:$(CURDIR)/$(BIN)" npm --prefix studio test

@@ -1,4 +1,4 @@
-"""Builds the page of the studio into runtime/skillc/studio_files, with the Node of the machine or that of .venv."""
+"""Builds the page of the studio into app/skillc/studio_files, with the Node of the machine or that of .venv."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 STUDIO = Path(__file__).parent
-BUILT = STUDIO.parent / "runtime" / "skillc" / "studio_files"
+BUILT = STUDIO.parent / "app" / "skillc" / "studio_files"
 STAMP = BUILT / "stamp.txt"
 SOURCES = ("src", "public", "index.html", "package.json", "package-lock.json", "vite.config.ts", "tsconfig.json")
 NEEDED = (20, 19)

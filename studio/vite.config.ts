@@ -7,7 +7,7 @@ const server = process.env["SKILLC_SERVER"] ?? "http://127.0.0.1:8421";
 export default defineConfig({
   base: "/",
   build: {
-    outDir: "../runtime/skillc/studio_files",
+    outDir: "../app/skillc/studio_files",
     emptyOutDir: true,
     target: "es2022",
     cssTarget: ["chrome123", "firefox120", "safari17.5"],

@@ -25,7 +25,7 @@ MADE_TITLES = (("The command line", "commands.md"), ("The vocabulary", "vocabula
 REFERENCE = "Reference"
 """The section after which the reference of the Python API comes."""
 MODULE_TITLES = tuple((name.removesuffix(".md"), name) for name in MODULE_PAGES)
-SOURCES = ("dsl", "ontology", "compiler", "runtime")
+SOURCES = ("dsl", "ontology", "compiler", "runtime", "app")
 """The folders of the packages that the reference of the Python API is made from."""
 SEARCH = "search-in-folder.js"
 FOREIGN_SEARCH = "https://unpkg.com/iframe-worker/shim"

@@ -43,7 +43,7 @@ def test_every_public_name_has_a_docstring(module: str) -> None:
 
 
 def test_names_are_those_that_checkers_see() -> None:
-    tree = ast.parse((ROOT / "runtime/skillc/__init__.py").read_text("utf-8"))
+    tree = ast.parse((ROOT / "app/skillc/__init__.py").read_text("utf-8"))
     imported = {
         alias.asname: node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names
     }

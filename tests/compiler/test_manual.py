@@ -30,7 +30,7 @@ from skillc_runtime.scene.load import read_scene
 
 ROOT = Path(__file__).parent.parent.parent
 GIVERS = {"Diagnostic", "report", "AxiomViolation", "SceneViolation", "_problem_name"}
-PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/scene", "runtime/skillc")
+PLACES = ("dsl", "compiler", "runtime/skillc_runtime/world", "runtime/skillc_runtime/scene", "app/skillc")
 NAME = re.compile(r"[a-z]+(-[a-z]+)*")
 LAB = "http://example.org/lab#"
 SCENE = {

@@ -14,7 +14,7 @@ import pytest
 from skillc_runtime.platforms import sandbox, sandbox_program
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = ("dsl", "ontology", "compiler", "runtime", "skills_src")
+FOLDERS = ("dsl", "ontology", "compiler", "runtime", "app", "skills_src")
 PLATFORMS = ROOT / "runtime/skillc_runtime/platforms"
 MODULES = {"fcntl", "termios", "tty", "pty", "resource", "select", "msvcrt", "winreg", "_winapi", "pwd", "grp", "posix"}
 QUESTIONS = {"sys.platform", "os.name", "os.uname"}

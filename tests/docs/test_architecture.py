@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/architecture.md").read_text("utf-8")
 CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
-FOLDERS = ("dsl", "ontology", "compiler", "runtime")
+FOLDERS = ("dsl", "ontology", "compiler", "runtime", "app")
 SOURCES = {path.name: path for folder in FOLDERS for path in (ROOT / folder).iterdir()}
 STOPS = re.findall(r"`(skillc\w*(?:\.\w+)+):([\w.]+)`", PAGE)
 

@@ -8,7 +8,7 @@ from docs.pages import ROOT
 
 ENTRY = re.compile(r"^- \*\*(.+?)\*\*: (.+?)(?=^- |\Z)", re.MULTILINE | re.DOTALL)
 ENTRIES = [(entry[1], " ".join(entry[2].split())) for entry in ENTRY.finditer((ROOT / "docs/glossary.md").read_text())]
-PACKAGES = ("dsl", "ontology", "compiler", "runtime")
+PACKAGES = ("dsl", "ontology", "compiler", "runtime", "app")
 
 
 def test_terms_are_sorted_and_unique() -> None:

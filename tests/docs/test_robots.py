@@ -18,7 +18,7 @@ from skillc_runtime.world.state.terms import SKILLC
 
 PAGE = ROOT / "docs/robots.md"
 ROW = re.compile(r"^\| [^|]+ \| `skillc:(\w+)` \| `(\w+/(\w+)\.xml)` \| ([^|]+) \|$", re.MULTILINE)
-CODE = ("runtime", "compiler", "dsl", "ontology")
+CODE = ("app", "runtime", "compiler", "dsl", "ontology")
 
 
 def test_the_table_says_what_the_sheets_say() -> None:

@@ -11,7 +11,7 @@ from safety.endless_waits import find_endless_waits, find_unneeded_marks
 ROOT = Path(__file__).parents[2]
 FILES = sorted(
     file
-    for folder in ("dsl", "ontology", "compiler", "runtime", "skills_src")
+    for folder in ("dsl", "ontology", "compiler", "runtime", "app", "skills_src")
     for file in (ROOT / folder).rglob("*.py")
 )
 
