@@ -55,6 +55,29 @@ impl own of PutDown {
     }
 }
 
+## Put `object` down where nobody has measured how high the place is.
+skill SetDown {
+    in    arm:     ArmDevice
+    in    object:  Product
+    in    to:      Location
+    infer gripper: GripperEffector
+    pre   mounted: arm hasA gripper
+    pre   held:    gripper contain object
+    post  put:     to contain object
+    post  free:    not gripper contain object
+}
+
+impl feeling of SetDown {
+    refine arm: CompliantArm
+    let    there = place_pose(arm, gripper, object, to)
+    do seq {
+        MoveTo(arm, target: above_place(to, there))
+        MoveLinear(arm, target: raised(there, 1 cm))
+        LowerUntilSupported(arm, object, to, travel: 10 cm)
+        Release(arm, gripper, object, to)
+    }
+}
+
 """
 PUT_DOWN = "PutDown(arm: lab:Panda-1, object: lab:Part-A, to: lab:Bin-A{})"
 IN_THE_AIR = PUT_DOWN.format(", drop: 25 cm")
@@ -145,6 +168,22 @@ def test_what_an_own_skill_puts_down_is_where_it_is_believed_to_be(
 ) -> None:
     cell = picked(cell_of(written(tmp_path, []), compiled, [], backend), compiled)
     ended = carry_out(cell, compiled, PUT_DOWN.format(""))
+    assert ended.status == "succeeded", ended.failure
+    cell.advance(0.5)
+    really = cell.ground_truth.body_pose(PART).position
+    assert np.linalg.norm(pose(cell.world.snapshot(), PART).position - really) < 0.005
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("arm", ["panda", "iiwa"])
+def test_an_own_skill_lowers_what_it_holds_until_something_carries_it(
+    arm: str, compiled: SkillLibrary, tmp_path: Path
+) -> None:
+    cell = picked(cell_of(written(tmp_path, CELLS[arm]), compiled, [], SimulatedCell), compiled)
+    known = cell.world.snapshot().value(BIN, POSITION[2])
+    assert isinstance(known, float)
+    cell.world.commit([SetProperty(BIN, POSITION[2], known + 0.05)])
+    ended = carry_out(cell, compiled, "SetDown(arm: lab:Panda-1, object: lab:Part-A, to: lab:Bin-A)")
     assert ended.status == "succeeded", ended.failure
     cell.advance(0.5)
     really = cell.ground_truth.body_pose(PART).position

@@ -19,22 +19,30 @@ from skillc_runtime.world.state.transactions import StoreError
 from store.worlds import facts_of, model_of, random_write
 from world.lab import VOCABULARY, assign
 
+TOGETHER = 10
+"""After so many writes each process waits for the others, so that none writes all before they begin."""
+
 
 def write(tell: Connection, place: str, seed: int, count: int, name: str, begin: Barrier | None = None) -> None:
-    """Make so many random writes, whatever others do meanwhile; tell the origin of each. All begin together."""
+    """Make so many random writes, whatever others do; tell the origin of each. Each `TOGETHER` begin at once."""
     store = open_store(place)
     kept = store.read()
     model = WorldModel(build_world(kept.triples, VOCABULARY, place), store, kept.sequence)
-    chance, made = Random(seed), 0
-    if begin:
-        begin.wait(timeout=60.0)
-    while made < count:
+    chance = Random(seed)
+    for number in range(count):
+        if begin and number % TOGETHER == 0:
+            begin.wait(timeout=60.0)
+        _write_one(model, chance, f"{name} {number}")
+        tell.send(f"{name} {number}")
+
+
+def _write_one(model: WorldModel, chance: Random, origin: str) -> None:
+    while True:
         try:
-            model.commit(random_write(chance), f"{name} {made}")
+            model.commit(random_write(chance), origin)
         except WorldError:
             continue
-        tell.send(f"{name} {made}")
-        made += 1
+        return
 
 
 def own_and_write(tell: Connection, place: Path) -> None:
