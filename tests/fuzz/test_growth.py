@@ -34,6 +34,18 @@ ONCE = [
     pytest.param(
         "compile", Shape(SKILL, " in a0: Product\n", "", " post a contain a0\n", "}\n"), marks=pytest.mark.slow
     ),
+    pytest.param(
+        "compile", Shape(f"{SKILL} in p: Product\n", " post a contain p\n", "", "", "}\n"), marks=pytest.mark.slow
+    ),
+    pytest.param("compile", Shape(SKILL, " in a0: Location\n pre a0 == a\n", "", "", "}\n"), marks=pytest.mark.slow),
+    pytest.param(
+        "compile", Shape(f"{SKILL}}}\n", "impl i0 of S {\n do wait 1 s\n}\n", "", "", ""), marks=pytest.mark.slow
+    ),
+    pytest.param(
+        "compile",
+        Shape(f"{SKILL}}}\nimpl i of S {{\n do sel {{\n", "wait 1 s\n", "", "", " }\n}\n"),
+        marks=pytest.mark.slow,
+    ),
     pytest.param("compile", Shape(SKILL, " pre a.Weight < 10 kg\n", "", "", "}\n"), marks=pytest.mark.slow),
     pytest.param(
         "compile",

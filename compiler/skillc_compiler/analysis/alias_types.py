@@ -65,10 +65,7 @@ class AliasTypes:
         )
 
     def _classes(self, state: State, thing: IndividualTerm) -> list[str]:
-        known = [
-            fact.cls for fact, true in state.facts.items() if true and isinstance(fact, IsA) and fact.subject == thing
-        ]
-        return [self.class_of(thing), *known]
+        return [self.class_of(thing), *state.classes.get(thing, ())]
 
 
 def same_individual(one: IndividualTerm, other: IndividualTerm) -> Same:

@@ -32,15 +32,17 @@ def explore_call(run: Exploration, call: Call, states: StatePaths, context: Eval
     """Return how a call can end from each of these states."""
     ends = EndStates()
     run.check_reads((argument.value for argument in call.arguments), (), states)
+    is_again = id(call) in run.called
+    run.called.add(id(call))
     pre, hold = call_requirements(run.program, call, "pre"), call_requirements(run.program, call, "hold")
     for state, path in states.items():
         run.check_holds(state, path)
         if call.skill is None:
             _end_unknown_call(call, state, path, ends)
             continue
-        state = _rename_fresh_variables(run, call, state)
+        state = _rename_fresh_variables(run, call, state) if is_again else state
         binding = bind_call(run.types, state, call, pre)
-        for name in binding.open_:
+        for name in binding.open_ if is_again else ():
             state = state.without_name(name)
         _check_conditions(run, call, binding, (*pre, *hold), state, path, context)
         _end_call(run, call, binding, (pre, hold), state, path, context, ends)

@@ -110,7 +110,8 @@ class Exploration:
 
     `leaks` finds the undeclared changes of an implementation; `outputs` are the names that calls assign. While `quiet`
     is not 0, ends are computed and nothing is recorded. `steps` counts how often a node was followed from a state.
-    `known` stores the ends of explored nodes by node, states and context, and whether they were recorded.
+    `known` stores the ends of explored nodes by node, states and context, and whether they were recorded. `called` are
+    the calls that were followed, so that states may know what they found.
     """
 
     program: Program
@@ -130,6 +131,7 @@ class Exploration:
     quiet: int = 0
     steps: int = 0
     known: dict[object, tuple[bool, EndStates]] = field(default_factory=dict)
+    called: set[int] = field(default_factory=set)
 
     def writes(self, node: TypedNode) -> frozenset[Write]:
         """Return what a node may write; names whose meaning changes within the body stand for any individual."""

@@ -38,6 +38,8 @@ from skillc_rdf.vocabulary.types import THING
 
 MAX_STEPS = 5_000
 """How often nodes of one body are followed from a state; after that, only their possible writes are considered."""
+FACTS_A_STEP = 200
+"""A state with so many facts more counts as one step more."""
 
 
 def explore(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
@@ -64,7 +66,7 @@ def explore(run: Exploration, node: TypedNode, states: StatePaths, context: Eval
 
 
 def _explore_kind(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
-    run.steps += len(states)
+    run.steps += sum(1 + len(state.facts) // FACTS_A_STEP for state in states)
     if run.steps > MAX_STEPS:
         return _skip(run, node, states, context)
     run.check_reads(node.values, node.conditions, states)

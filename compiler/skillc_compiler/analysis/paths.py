@@ -30,9 +30,12 @@ class PathStep(msgspec.Struct, frozen=True):
     length: int
 
     def __iter__(self) -> Iterator[PathStep]:
-        if self.before is not None:
-            yield from self.before
-        yield self
+        """Yield the steps from the first to this one."""
+        steps, step = [self], self.before
+        while step is not None:
+            steps.append(step)
+            step = step.before
+        return reversed(steps)
 
 
 Path: TypeAlias = PathStep | None

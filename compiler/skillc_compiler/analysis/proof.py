@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import islice
 from typing import TypeAlias, TypeVar
 
 import msgspec
@@ -241,8 +242,8 @@ def unreachable_nodes(run: Exploration, node: TypedNode, start: State) -> Iterat
     if isinstance(node.written, s.If | s.While) and evaluate(run.types, start, node.conditions[0].meaning) is not None:
         return
     for children in (node.children, node.orelse):
-        never = [child for child in children if id(child) not in run.reached]
-        yield from (UnreachableNode(child) for child in never[:1])
+        never = (child for child in children if id(child) not in run.reached)
+        yield from (UnreachableNode(child) for child in islice(never, 1))
         for child in children:
-            if child not in never:
+            if id(child) in run.reached:
                 yield from unreachable_nodes(run, child, start)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias
 
-from skillc_model.conditions import Condition, Individual, Variable
+from skillc_model.conditions import Condition, Individual, IsA, Term, Variable
 from skillc_model.traversal import free_variables
 
 IndividualTerm: TypeAlias = Variable | Individual
@@ -36,6 +37,15 @@ class State:
     def _key(self) -> tuple[object, ...]:
         tables = (self.facts, self.possible, self.aliases, self.once_results)
         return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor)
+
+    @cached_property
+    def classes(self) -> Mapping[Term, Sequence[str]]:
+        """The classes that individuals are known to be of."""
+        found: dict[Term, list[str]] = defaultdict(list)
+        for fact, true in self.facts.items():
+            if true and isinstance(fact, IsA):
+                found[fact.subject].append(fact.cls)
+        return dict(found)
 
     def __hash__(self) -> int:
         return hash(self._key)

@@ -35,20 +35,26 @@ def _check_posts(
 ) -> Iterator[Diagnostic]:
     whole = (*given, *own)
     names = equal_names(whole)
-    posts = [(rename_fact(f, names), r) for r in whole if r.kind == "post" for f in facts_in(r.condition)]
+    posts = [
+        (rename_fact(fact, names), post, is_own)
+        for requirements, is_own in ((given, False), (own, True))
+        for post in requirements
+        if post.kind == "post"
+        for fact in facts_in(post.condition)
+    ]
     pre = (rename_fact(fact, names) for r in whole if r.kind == "pre" for fact in facts_in(r.condition))
     gone, before, staying = TopicIndex[Holds](), TopicIndex[TypedFact](), TopicIndex[TypedFact]()
-    for fact, _ in posts:
+    for fact, _, _ in posts:
         if not fact.holds and isinstance(fact.meaning, Holds):
             gone.add(fact.meaning, topics_of_fact(conflicts, fact))
     for fact in pre:
         if fact.holds and not _is_undone(conflicts, fact, gone):
             staying.add(fact, topics_of_fact(conflicts, fact))
-    for fact, post in posts:
+    for fact, post, is_own in posts:
         if fact.holds and isinstance(fact.meaning, Holds):
             topics = tuple(topics_of_fact(conflicts, fact))
             others = chain(before.related(topics), staying.related(topics))
-            yield from _check_axioms(conflicts, fact, fact.meaning, post, others) if post in own else ()
+            yield from _check_axioms(conflicts, fact, fact.meaning, post, others) if is_own else ()
             before.add(fact, topics)
 
 

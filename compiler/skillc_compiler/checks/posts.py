@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain, islice
+from itertools import islice
 
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
@@ -20,6 +20,7 @@ from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")
 NEEDS = Need.NAMES
 READS = Reads.DECLARATION
+_OPPOSITE = "another post says the opposite"
 MOST_CONFLICTS = 20
 """With so many earlier posts the contradictions of one are reported."""
 
@@ -37,10 +38,11 @@ def _check_posts(
     conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement]
 ) -> Iterator[Diagnostic]:
     names = equal_names((*given, *own))
-    known = TopicIndex[tuple[Effect, Requirement]]()
+    known = _KnownEffects(conflicts)
     for post in given:
         for effect in effects_of(post.condition) if post.kind == "post" else ():
-            _add(conflicts, known, _with_equal_names(effect, names), post)
+            if not isinstance(effect, NoEffect):
+                known.add(substitute(effect, names), post)
     for post in (requirement for requirement in own if requirement.kind == "post"):
         for effect in effects_of(post.condition):
             if isinstance(effect, NoEffect):
@@ -50,42 +52,47 @@ def _check_posts(
             if not post.sensed:
                 yield from _check_computed(conflicts.vocabulary, effect, post)
             seen = substitute(effect, names)
-            others = known.related(topics_of_effect(conflicts, seen))
-            found = (_check_conflict(conflicts, seen, post, other, earlier) for other, earlier in others)
-            yield from islice(chain.from_iterable(found), MOST_CONFLICTS)
-            _add(conflicts, known, seen, post)
+            yield from islice(known.contradictions(seen, post), MOST_CONFLICTS)
+            known.add(seen, post)
     yield from _check_measured(conflicts, own, given, names)
 
 
-def _add(
-    conflicts: Conflicts,
-    known: TopicIndex[tuple[Effect, Requirement]],
-    effect: Effect | NoEffect,
-    post: Requirement,
-) -> None:
-    if not isinstance(effect, NoEffect):
-        known.add((effect, post), topics_of_effect(conflicts, effect))
+class _KnownEffects:
+    """The effects of earlier posts, each once, with the posts that have it."""
 
+    def __init__(self, conflicts: Conflicts) -> None:
+        self._conflicts = conflicts
+        self._index = TopicIndex[Effect]()
+        self._posts: dict[Effect, list[Requirement]] = {}
 
-def _with_equal_names(effect: Effect | NoEffect, names: Mapping[str, Expression]) -> Effect | NoEffect:
-    """Return the effect with equal names replaced by their representative."""
-    return effect if isinstance(effect, NoEffect) else substitute(effect, names)
+    def add(self, effect: Effect, post: Requirement) -> None:
+        """Add an effect of a post."""
+        if effect not in self._posts:
+            self._index.add(effect, topics_of_effect(self._conflicts, effect))
+        self._posts.setdefault(effect, []).append(post)
+
+    def contradictions(self, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:
+        """Yield a problem for each earlier post that an effect of this one contradicts."""
+        for other in self._index.related(topics_of_effect(self._conflicts, effect)):
+            conflict = _find_conflict(self._conflicts, effect, other)
+            if conflict is not None:
+                yield from (_report_either(*conflict, post, earlier) for earlier in self._posts[other])
 
 
 def _check_measured(
     conflicts: Conflicts, own: Sequence[Requirement], given: Sequence[Requirement], names: Mapping[str, Expression]
 ) -> Iterator[Diagnostic]:
     """Report a measured value that contradicts the one of another post."""
-    posts = [post for post in (*given, *own) if post.kind == "post"]
-    facts = [(rename_fact(fact, names), post) for post in posts for fact in facts_in(post.condition)]
-    valued = [(fact, post) for fact, post in facts if isinstance(fact.meaning, Compare | HasProperty)]
+    posts = [(post, index >= len(given)) for index, post in enumerate((*given, *own)) if post.kind == "post"]
+    facts = [(rename_fact(fact, names), post, is_own) for post, is_own in posts for fact in facts_in(post.condition)]
+    valued = [each for each in facts if isinstance(each[0].meaning, Compare | HasProperty)]
     known = TopicIndex[tuple[TypedFact, Requirement]]()
-    for fact, post in valued:
+    for fact, post, is_own in valued:
         topics = tuple(topics_of_fact(conflicts, fact))
-        for other, earlier in known.related(topics) if post in own else ():
+        for other, earlier in known.related(topics) if is_own else ():
             both_assigned = _is_assigned(fact) and _is_assigned(other)
             if not both_assigned and (post.sensed or earlier.sensed) and conflicts.exclude(fact, other):
-                yield _report_either("contradicting-posts", post, earlier, "another post says the opposite")
+                yield _report_either("contradicting-posts", _OPPOSITE, post, earlier)
         known.add((fact, post), topics)
 
 
@@ -123,26 +130,24 @@ def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -
         )
 
 
-def _check_conflict(
-    conflicts: Conflicts, effect: Effect, post: Requirement, other: Effect, earlier: Requirement
-) -> Iterator[Diagnostic]:
+def _find_conflict(conflicts: Conflicts, effect: Effect, other: Effect) -> tuple[str, str] | None:
+    """Return the name of the problem with two effects, and what is wrong; None if they go together."""
     match effect, other:
         case Assert(), Assert():
             relation = conflicts.two_values(_holds(effect), _holds(other))
             if relation is not None:
                 message = f"`{local_name(relation)}` can have one value only, and another post gives it a second"
-                yield _report_either("two-values", post, earlier, message)
+                return "two-values", message
         case Assign(value=Literal() as one), Assign(value=Literal() as two):
             if (effect.subject, effect.property) == (other.subject, other.property) and one != two:
-                yield _report_either(
-                    "two-values", post, earlier, f"`{local_name(effect.property)}` is given two values"
-                )
+                return "two-values", f"`{local_name(effect.property)}` is given two values"
         case (Assert() as true, Retract() as false) | (Retract() as false, Assert() as true):
             if any(covers(_holds(false), link) for link in conflicts.implied(_holds(true))):
-                yield _report_either("contradicting-posts", post, earlier, "another post says the opposite")
+                return "contradicting-posts", _OPPOSITE
+    return None
 
 
-def _report_either(name: str, post: Requirement, earlier: Requirement, message: str) -> Diagnostic:
+def _report_either(name: str, message: str, post: Requirement, earlier: Requirement) -> Diagnostic:
     labels = (Label(earlier.condition.span, "the other one", is_cause=True),)
     return Diagnostic(name, post.condition.span, message, "keep one of the two", labels=labels)
 

@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_compiler.program.typed import Implementation, Program, Requirement, Skill, TypedCondition
 from skillc_compiler.program.walk import all_nodes, conditions_in
-from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or, Same, Variable
+from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or, Same, Term, Variable
 from skillc_model.rewriting import substitute
 
 
@@ -58,15 +58,25 @@ def equal_names(requirements: Iterable[Requirement]) -> dict[str, Expression]:
 
 def equal_names_in(facts: Iterable[TypedFact]) -> dict[str, Expression]:
     """Return, for each name that facts equate with another, the representative of its class of names."""
-    names: dict[str, Expression] = {}
+    names: dict[str, Variable | Individual] = {}
     for fact in facts:
         if fact.holds and isinstance(fact.meaning, Same):
-            one, other = (substitute(each, names) for each in (fact.meaning.left, fact.meaning.right))
+            one, other = _representative(names, fact.meaning.left), _representative(names, fact.meaning.right)
             one, other = (other, one) if isinstance(other, Variable) else (one, other)
             if isinstance(one, Variable) and isinstance(other, Variable | Individual) and one != other:
-                names = {name: substitute(each, {one.name: other}) for name, each in names.items()}
                 names[one.name] = other
-    return names
+    found = {name: _representative(names, other) for name, other in names.items()}
+    return {name: other for name, other in found.items() if isinstance(other, Variable | Individual)}
+
+
+def _representative(names: dict[str, Variable | Individual], thing: Term) -> Term:
+    """Follow a name to the last one that it is equated with, and shorten the way there."""
+    while isinstance(thing, Variable) and thing.name in names:
+        above = names[thing.name]
+        if isinstance(above, Variable):
+            names[thing.name] = names.get(above.name, above)
+        thing = above
+    return thing
 
 
 def rename_fact(fact: TypedFact, names: Mapping[str, Expression]) -> TypedFact:

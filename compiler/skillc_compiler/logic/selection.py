@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter, defaultdict
 from collections.abc import Sequence
+from heapq import heapify, heappop, heappush
+from typing import TypeAlias
 
 from skillc_compiler.logic.bounds import Bound, are_disjoint
 from skillc_compiler.logic.conflicts import Conflicts
@@ -14,6 +17,7 @@ from skillc_model.rewriting import constant_number
 from skillc_rdf.vocabulary.types import Vocabulary
 
 _ANY = Literal(0.0)
+_Types: TypeAlias = tuple[Type, ...]
 
 
 def types_overlap(vocabulary: Vocabulary, one: Type, other: Type) -> bool:
@@ -81,21 +85,37 @@ def rank_implementations(vocabulary: Vocabulary, declared: Sequence[Implementati
     """Return the implementations of one skill in rank order.
 
     Repeatedly, from those not yet ranked: those than which no other is more specific; of these the highest `prefer`,
-    then the earliest declared.
+    then the earliest declared. Those that unknown types make more specific than each other come last.
     """
-    if len(declared) < 2:
-        return tuple(declared)
-    left = list(declared)
-    order = []
-    while left:
-        front = [one for one in left if not any(is_more_specific(vocabulary, other, one) for other in left)]
-        best = max(front, key=lambda one: one.prefer)
-        order.append(best)
-        left.remove(best)
-    return tuple(order)
+    ranks = sorted((-each.prefer, number) for number, each in enumerate(declared))
+    alike: dict[_Types, list[tuple[float, int]]] = defaultdict(list)
+    for rank in reversed(ranks):
+        alike[_types(declared[rank[1]])].append(rank)
+    wider = {one: [other for other in alike if _are_narrower(vocabulary, one, other)] for one in alike}
+    narrower = Counter(other for others in wider.values() for other in others)
+    front = [left.pop() for types, left in alike.items() if not narrower[types]]
+    heapify(front)
+    order: dict[tuple[float, int], None] = {}
+    while front:
+        best = heappop(front)
+        order[best] = None
+        types = _types(declared[best[1]])
+        narrower.subtract(() if alike[types] else wider[types])
+        freed = [types] if alike[types] else [other for other in wider[types] if not narrower[other]]
+        for each in freed:
+            heappush(front, alike[each].pop())
+    return tuple(declared[number] for _, number in (order | dict.fromkeys(ranks)))
 
 
 def is_more_specific(vocabulary: Vocabulary, one: Implementation, other: Implementation) -> bool:
     """Whether each parameter type of `one` is at least as narrow as that of `other`, and at least one is narrower."""
-    pairs = [(p.type, q.type) for p, q in zip(one.parameters, other.parameters, strict=True) if p.type != q.type]
+    return _are_narrower(vocabulary, _types(one), _types(other))
+
+
+def _types(implementation: Implementation) -> _Types:
+    return tuple(each.type for each in implementation.parameters)
+
+
+def _are_narrower(vocabulary: Vocabulary, one: _Types, other: _Types) -> bool:
+    pairs = [(p, q) for p, q in zip(one, other, strict=True) if p != q]
     return all(fits(vocabulary, p, q) for p, q in pairs) and not all(fits(vocabulary, q, p) for p, q in pairs)

@@ -84,9 +84,9 @@ def make_unique(name: str, taken: Collection[str]) -> str:
 
 
 def make_variable(name: str, taken: Collection[str]) -> str:
-    """Return a PDDL variable for a name of the library, different from all names in `taken`."""
+    """Return a PDDL variable for a name of the library, different from all variables in `taken`."""
     plain = to_kebab(name)
-    return "?" + make_unique(f"the-{plain}" if plain in KEYWORDS else plain, {each.removeprefix("?") for each in taken})
+    return make_unique(f"?the-{plain}" if plain in KEYWORDS else f"?{plain}", taken)
 
 
 def _of_iri(iri: str, vocabulary: Vocabulary) -> tuple[str, ...]:

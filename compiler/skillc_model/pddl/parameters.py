@@ -37,12 +37,13 @@ def default_values(parameters: Sequence[Parameter]) -> DefaultValues:
 def bind_parameters(parameters: Sequence[Parameter], hierarchy: Hierarchy) -> dict[str, BoundVariable]:
     """Return the variables a planner binds, by parameter; Untranslatable if one is not an individual."""
     places: dict[str, BoundVariable] = {}
+    taken: set[str] = set()
     for parameter in parameters:
         if parameter.direction in ("opt", "out"):
             continue
         if not isinstance(parameter.type, ClassType):
             raise Untranslatable(f"its parameter `{parameter.name}` is no thing, so a planner cannot choose it")
-        taken = {place.variable.name for place in places.values()}
         name = make_variable(parameter.name, taken)
+        taken.add(name)
         places[parameter.name] = BoundVariable(Typed(name, hierarchy.type_name(parameter.type.iri)), parameter.type.iri)
     return places

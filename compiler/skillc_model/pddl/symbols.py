@@ -36,8 +36,10 @@ class Symbols:
     @cached_property
     def _members(self) -> dict[str, str]:
         chosen: dict[str, str] = {}
+        taken = set(self.names)
         for cls in sorted(self.vocabulary.classes):
-            chosen[cls] = make_unique(f"is-{self._by_term[cls]}", {*self.names, *chosen.values()})
+            chosen[cls] = make_unique(f"is-{self._by_term[cls]}", taken)
+            taken.add(chosen[cls])
         return chosen
 
     def affected(self, iri: str) -> bool:
