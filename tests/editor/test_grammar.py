@@ -7,6 +7,9 @@ import re
 import runpy
 from pathlib import Path
 
+import pytest
+
+from fuzz.kinds._growth import MOST_EXPONENT, measure_growth
 from skillc_dsl.token_table import KEYWORDS
 
 EDITORS = Path(__file__).parents[2] / "editors"
@@ -24,6 +27,15 @@ def test_every_keyword_has_a_colour() -> None:
     listed = [word for words in KEYWORDS.values() for word in words]
     assert listed
     assert set(listed) <= coloured
+
+
+@pytest.mark.parametrize("piece", ["a", "1", "a1", " ", "#", '"'])
+def test_long_lines_are_coloured_in_linear_time(piece: str) -> None:
+    grammar = json.loads((EDITORS / "vscode" / "syntaxes" / "skill.tmLanguage.json").read_text("utf-8"))
+    patterns = [re.compile(rule["match"]) for rule in grammar["patterns"]]
+    assert patterns
+    growth = measure_growth(lambda text: [each.search(text) for each in patterns], lambda count: piece * count, 30_000)
+    assert growth.exponent <= MOST_EXPONENT, growth
 
 
 def test_the_lock_file_names_no_registry() -> None:
