@@ -27,6 +27,7 @@ ONCE = [
     pytest.param("query", Shape("", '\\"', "", "", ""), marks=pytest.mark.slow),
     pytest.param("suppressions", Shape("", "# allow x0: why\n", "", "", ""), marks=pytest.mark.slow),
     pytest.param("reparse", Shape("", "# c\n", "", "", ""), marks=pytest.mark.slow),
+    pytest.param("editor", Shape("use skiros\n", "skill S0 {\n", "", "", ""), marks=pytest.mark.slow),
     pytest.param("parse", Shape("", "skill S0 {\n", "", "", ""), marks=pytest.mark.slow),
     pytest.param(
         "compile", Shape(SKILL, " in a0: Product\n", "", " pre a contain a0\n", "}\n"), marks=pytest.mark.slow

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from enum import IntEnum
 from functools import cached_property
 
-from skillc_compiler.program.spans import DisjointSpans, SpanIndex, is_within_lines
+from skillc_compiler.program.spans import DisjointSpans, SpanIndex
 from skillc_compiler.program.typed import Program
 from skillc_compiler.program.unknown import LIBRARY
 from skillc_compiler.program.written import calls_of, names_declared_in, skill_of
@@ -120,8 +120,8 @@ class Marks:
     @cached_property
     def _broken(self) -> frozenset[Span]:
         """The declarations with a syntax error."""
-        spans = (d.span for d in self._declarations) if self._syntax else ()
-        return frozenset(span for span in spans if any(is_within_lines(place, span) for place in self._syntax))
+        errors = SpanIndex(self._syntax)
+        return frozenset(d.span for d in self._declarations if errors.any_on_lines_of(d.span))
 
     @cached_property
     def _incomplete(self) -> frozenset[Span]:

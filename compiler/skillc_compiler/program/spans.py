@@ -19,6 +19,13 @@ class DisjointSpans:
     def __init__(self, spans: Iterable[Span]) -> None:
         self._spans = _by_path(spans)
         self._starts = {path: [_start(each) for each in spans] for path, spans in self._spans.items()}
+        self._end_lines = {path: [each.end_line for each in spans] for path, spans in self._spans.items()}
+
+    def first_on_line_of(self, place: Span) -> Span | None:
+        """Return the first span that has the line on which the place begins, or None."""
+        index = bisect_left(self._end_lines.get(place.path, ()), place.line)
+        candidates = self._spans.get(place.path, [])[index : index + 1]
+        return next((each for each in candidates if each.line <= place.line), None)
 
     def enclosing(self, place: Span) -> Span | None:
         """Return the span that encloses the place, or None."""
@@ -49,11 +56,6 @@ class SpanIndex:
         lines = self._lines.get(whole.path, [])
         index = bisect_left(lines, whole.line)
         return index < len(lines) and lines[index] <= whole.end_line
-
-
-def is_within_lines(place: Span, whole: Span) -> bool:
-    """Whether a place begins on a line of `whole`."""
-    return place.path == whole.path and whole.line <= place.line <= whole.end_line
 
 
 def _by_path(spans: Iterable[Span]) -> dict[str, list[Span]]:

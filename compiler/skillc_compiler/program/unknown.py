@@ -6,14 +6,16 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import inf
 from typing import Literal, TypeAlias
 
 import msgspec
 from msgspec import structs
 
-from skillc_compiler.program.spans import is_within_lines
+from skillc_compiler.program.spans import DisjointSpans
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
+from skillc_dsl.source import Span
 from skillc_dsl.spelling import alike_names, close_names, did_you_mean
 
 UnknownKind: TypeAlias = Literal[
@@ -107,8 +109,8 @@ class LostNames:
         if (unknown.passed and unknown.owner in self.twice) or (unknown.repeats and not unknown.close):
             return True
         text = unknown.written.text.rpartition(":")[2]
-        lost = self.names.get(unknown.owner, frozenset()) | self.names.get(LIBRARY, frozenset())
-        if text in lost or unknown.written.text in lost:
+        lost = (self.names.get(owner, frozenset()) for owner in (unknown.owner, LIBRARY))
+        if any(text in names or unknown.written.text in names for names in lost):
             return True
         if self.may_be_renamed(unknown) or unknown.is_misspelt:
             return False
@@ -142,15 +144,18 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
     broken: set[str] = set()
     wrong, dropped = 0, list[str]()
     for file in files:
+        spans = DisjointSpans(each.span for each in file.declarations)
+        owners: dict[Span | None, s.Declaration] = {each.span: each for each in file.declarations}
+        header = _header_lines(file)
         for error in file.errors:
-            owner = next((d for d in file.declarations if is_within_lines(error.span, d.span)), None)
+            owner = owners.get(spans.first_on_line_of(error.span))
             match owner:
                 case s.SkillDeclaration(name=name) | s.ImplementationDeclaration(skill=name):
                     names[name.text] |= error.names
                 case s.TaskDeclaration(name=name):
                     names[f"task {name.text}"] |= error.names
                     broken.add(name.text)
-                case None if _is_in_header(error, file):
+                case None if error.span.line in header:
                     headers.add(file.path)
                 case _:
                     pass
@@ -168,8 +173,8 @@ def find_lost(files: Sequence[s.File]) -> LostNames:
     )
 
 
-def _is_in_header(error: s.ErrorNode, file: s.File) -> bool:
-    """Whether an error is above all declarations, and not in one that was dropped."""
-    line = error.span.line
-    dropped = any(each.keyword and each.span.line == line for each in file.errors)
-    return not dropped and all(line < declaration.span.line for declaration in file.declarations)
+def _header_lines(file: s.File) -> set[int]:
+    """Return the lines with errors above all declarations, except those of declarations that were dropped."""
+    first = min((each.span.line for each in file.declarations), default=inf)
+    dropped = {each.span.line for each in file.errors if each.keyword}
+    return {each.span.line for each in file.errors if each.span.line < first} - dropped

@@ -7,7 +7,7 @@ from typing import NamedTuple, TypeAlias
 
 from msgspec import structs
 
-from skillc_compiler.program.spans import is_within_lines
+from skillc_compiler.program.spans import SpanIndex
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations
 from skillc_compiler.resolve.names import KINDS
@@ -52,8 +52,9 @@ def remove_duplicates(files: Sequence[ParsedFile], declared: Mapping[str, FileDe
 
 def _incomplete(file: s.File) -> Iterator[Span]:
     """Yield the names of the declarations with a syntax error."""
-    for declaration in file.declarations if file.errors else ():
-        if any(is_within_lines(error.span, declaration.span) for error in file.errors):
+    errors = SpanIndex(error.span for error in file.errors)
+    for declaration in file.declarations:
+        if errors.any_on_lines_of(declaration.span):
             yield declaration.name.span
 
 
