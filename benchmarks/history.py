@@ -14,8 +14,8 @@ from statistics import median
 
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.cells.settings import CellSettings
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.recording.envelope import Envelope

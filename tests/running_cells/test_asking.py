@@ -12,7 +12,7 @@ from running_cells.asking import write_asking_yard
 from running_cells.test_operations import run_all
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.backends import make_backend
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library

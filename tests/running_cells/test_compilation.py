@@ -15,7 +15,7 @@ import sys
 from numba.core.dispatcher import Dispatcher
 
 from skillc.cells.host import open_cell
-from skillc.cells.operation import OperationRequest
+from skillc.contract.operation import OperationRequest
 from skillc.cells.settings import CellSettings
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.motion.numerics.compiled import compile_imported

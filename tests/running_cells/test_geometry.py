@@ -12,7 +12,7 @@ from running_cells.test_condition import run_until
 from running_cells.test_reality import BOARD, SORTING, TABLE, make_settings, reality
 from skillc.cells.geometry import CellModel, SurfaceCoverage
 from skillc.cells.host import open_cell
-from skillc.cells.operation import OperationRequest
+from skillc.contract.operation import OperationRequest
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.devices.disturbances import Move
 

@@ -19,8 +19,8 @@ from skillc.cells.journal.fingerprint import FINGERPRINT, make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.journal.schema import SCHEMA
-from skillc.cells.operation import OperationRequest
 from skillc.cells.world import restore_world
+from skillc.contract.operation import OperationRequest
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Note

@@ -12,8 +12,8 @@ from running_cells.test_reality import ONE_PART, SORTING, make_settings
 from running_cells.yard import write_yard
 from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import OperationRequest
 from skillc.cells.settings import CellSettings
+from skillc.contract.operation import OperationRequest
 from skillc.services.operation_tree import TreeNode, build_tree
 from skillc.services.reporting import SilentReporter
 from skillc_model.codec import loads

@@ -13,7 +13,7 @@ from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.messages import Edit
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.backends import make_backend
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.execution.cell_loop import TooManyRequests

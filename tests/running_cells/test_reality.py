@@ -16,8 +16,8 @@ from running_cells.test_operations import run_all
 from skillc.cells import reality as keeping
 from skillc.cells.database import DatabaseError
 from skillc.cells.host import CellHost, open_cell
-from skillc.cells.operation import OperationRequest
 from skillc.cells.settings import CellSettings
+from skillc.contract.operation import OperationRequest
 from skillc.services.backends import BackendName
 from skillc.services.library_files import SHIPPED
 from skillc.services.reporting import SilentReporter

@@ -14,9 +14,9 @@ from running_cells.test_reality import BOARD, ONE_PART, SORTING, TABLE, find_tas
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.messages import Edit
-from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.cells.recording_files import recording_file
 from skillc.cells.settings import CellSettings
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.backends import BackendName
 from skillc.services.errors import ServiceError
 from skillc.services.replaying.check import ReplayCheck, check_run

@@ -11,7 +11,7 @@ from execution.test_planning_job import hanging_planners, runs, wait_until
 from running_cells.test_operations import run_all
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.planning.progress import PlanningProgress

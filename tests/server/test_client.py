@@ -15,10 +15,10 @@ import pytest
 import skillc
 from server.cutting import cutting, cutting_first_change
 from server.running import RunningServer, serving, start_server, wait_until
-from skillc.cells.operation import CellStatus
 from skillc.client.address import ServerAddress, find_address
 from skillc.client.connection import Connection
 from skillc.client.feed import follow_operation
+from skillc.contract.operation import CellStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded
 

@@ -22,7 +22,7 @@ from server.test_client_commands import here, type_in  # noqa: F401  a fixture
 from skillc.cells.database import Schema, open_for_writing
 from skillc.cells.host import CellSettings
 from skillc.cells.messages import Message, Refused, Submit
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.server.context import ServerContext
 from skillc.server.hub import EventHub
 from skillc.server.orders.order import Missed, Order, OrderRequest

@@ -17,9 +17,9 @@ import skillc
 from server.running import RunningServer, serving, wait_until
 from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import OperationRequest
 from skillc.cells.settings import CellSettings
 from skillc.cli.main import skillc as program
+from skillc.contract.operation import OperationRequest
 from skillc.services.library_files import SHIPPED
 from skillc.services.reporting import SilentReporter
 from skillc_ontology import catalogue

@@ -12,7 +12,7 @@ from running_cells.test_reality import TABLE, make_settings
 from server.running import RunningServer, wait_until
 from server.test_recordings import CARRY
 from skillc.cells.host import open_cell
-from skillc.cells.operation import OperationRequest
+from skillc.contract.operation import OperationRequest
 from skillc.services.reporting import SilentReporter
 from skillc.workers import run_reading
 from skillc.workers.jobs import JobRefused

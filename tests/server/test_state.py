@@ -17,9 +17,9 @@ from running_cells.checking import check_cell
 from running_cells.yard import CRATES, write_yard
 from server.running import NOTHING, RunningServer
 from skillc.cells.host import open_cell
-from skillc.cells.operation import OperationRequest
 from skillc.cells.settings import CellSettings
 from skillc.cli.main import skillc
+from skillc.contract.operation import OperationRequest
 from skillc.services.reporting import SilentReporter
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from running_cells.test_reality import TABLE, make_settings, reality
 from skillc.cells.host import CellHost, open_cell
-from skillc.cells.operation import OperationRequest
 from skillc.cells.snapshot import decode_snapshot
+from skillc.contract.operation import OperationRequest
 from skillc.services.backends import BackendName
 from skillc.services.reporting import SilentReporter
 from skillc.workers.jobs import RehearsalRequest, Rehearse

@@ -10,7 +10,7 @@ from threading import Thread
 
 from skillc.cells.assigning import assign_request
 from skillc.cells.messages import Submit
-from skillc.cells.operation import OperationRequest
+from skillc.contract.operation import OperationRequest
 from skillc.services.errors import RequestError, ServiceError
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment

@@ -8,7 +8,7 @@ from msgspec import structs
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader, RecordedOperation
-from skillc.cells.operation import OperationRequest
+from skillc.contract.operation import OperationRequest
 from skillc.services.errors import RequestError
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment

@@ -7,7 +7,7 @@ import time
 from skillc.cells.continuing import decisions_about
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader, RecordedOperation
-from skillc.cells.operation import OperationStatus
+from skillc.contract.operation import OperationStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure

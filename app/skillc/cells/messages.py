@@ -10,8 +10,8 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc.cells.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.cells.samples import PoseNumbers
+from skillc.contract.operation import CellStatus, OperationRequest, OperationStatus
 from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.recording.commands import Command

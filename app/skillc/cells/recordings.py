@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc.cells.operation import OperationRequest
 from skillc.cells.recording_files import recording_file
 from skillc.cells.submitted import SubmittedOperation
+from skillc.contract.operation import OperationRequest
 from skillc.services.reporting import Reporter
 from skillc.services.run_recordings import KnownStart, describe_contents
 from skillc_model.skills import SkillLibrary

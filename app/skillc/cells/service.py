@@ -35,7 +35,7 @@ from skillc.cells.messages import (
     TakeSample,
     TakeSnapshot,
 )
-from skillc.cells.operation import CellStatus
+from skillc.contract.operation import CellStatus
 from skillc.services.diagnosis import diagnose
 from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.publisher import Publisher
 

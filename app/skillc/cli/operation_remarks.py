@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from skillc.cells.operation import CellStatus, OperationStatus
+    from skillc.contract.operation import CellStatus, OperationStatus
 
 
 def remark_status(status: OperationStatus) -> None:

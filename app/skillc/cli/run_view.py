@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from skillc.cells.operation import OperationStatus
+from skillc.contract.operation import OperationStatus
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_run import TaskRun

@@ -16,9 +16,9 @@ from skillc.cli.server_connection import CELL, URL, connect_server
 from skillc.services.errors import ServiceError
 
 if TYPE_CHECKING:
-    from skillc.cells.operation import OperationStatus
     from skillc.client.cell import ServerCell
     from skillc.client.server import Server
+    from skillc.contract.operation import OperationStatus
     from skillc.workers.libraries import LibraryDescription, ParameterDescription
     from skillc_runtime.recording.states import Decision
 

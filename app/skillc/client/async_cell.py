@@ -14,7 +14,6 @@ from skillc.api.boundary import (
     require_text,
 )
 from skillc.api.trials import Trials
-from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.samples import Sample
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
@@ -29,6 +28,7 @@ from skillc.client.requests import (
     describe_rehearsal,
     describe_trials,
 )
+from skillc.contract.operation import CellStatus, OperationStatus
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopReason, WorldEdit, WorldQuery
 from skillc.server.orders.order import Missed, Order

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any, Literal
 from uuid import uuid4
 
-from skillc.cells.operation import OperationRequest, OperationStatus
 from skillc.client.connection import Connection, join
 from skillc.client.errors import UnavailableError
 from skillc.client.experiments import make_report
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.server.api_types import StopReason
 from skillc.server.reports import OperationReport
 from skillc.services.errors import RequestError

@@ -6,11 +6,11 @@ import asyncio
 from collections.abc import AsyncGenerator
 from types import TracebackType
 
-from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.client.async_cell import AsyncCell
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.client.feed import Status, follow_states
+from skillc.contract.operation import CellStatus, OperationStatus
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
 from skillc.server.api_types import LibraryStatus, LoginCode, MadeToken, NewToken, VersionInfo

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any, Literal
 
 from skillc.api.trials import Trials
-from skillc.cells.operation import CellStatus
 from skillc.cells.samples import Sample
 from skillc.client.async_cell import OPERATIONS, TRIALS, WRITES, AsyncCell
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.client.requests import PLANNING_S
+from skillc.contract.operation import CellStatus
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus
 from skillc.server.orders.order import Missed, Order

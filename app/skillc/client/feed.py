@@ -11,11 +11,11 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidMessage
 
 from skillc.cells.messages import Happened, StatusChanged
-from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.samples import Sample
 from skillc.client.connection import Connection, decode, decode_binary, describe_loss
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.client.retries import Retries
+from skillc.contract.operation import CellStatus, OperationStatus
 from skillc.services.errors import ServiceError
 from skillc_runtime.recording.envelope import Envelope
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from skillc.cells.operation import OperationStatus
 from skillc.client.async_operation import AsyncOperation, Depth
 from skillc.client.loop_thread import LoopThread
+from skillc.contract.operation import OperationStatus
 from skillc.server.reports import OperationReport
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command

@@ -14,7 +14,7 @@ from skillc.api.boundary import (
     require_count,
     require_text,
 )
-from skillc.cells.operation import OperationRequest
+from skillc.contract.operation import OperationRequest
 from skillc.server.api_types import PlanRequest
 from skillc.server.orders.order import Missed, OrderRequest
 from skillc.services.errors import RequestError

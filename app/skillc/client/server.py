@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from types import TracebackType
 
-from skillc.cells.operation import CellStatus
 from skillc.client.async_server import AsyncServer
 from skillc.client.cell import ServerCell
 from skillc.client.feed import Status
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
+from skillc.contract.operation import CellStatus
 from skillc.server.access.roles import Role
 from skillc.server.access.tokens import TokenInfo
 from skillc.server.api_types import LibraryStatus, VersionInfo

@@ -10,7 +10,7 @@ from functools import partial
 from http import HTTPStatus
 
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.operation import OperationStatus
+from skillc.contract.operation import OperationStatus
 from skillc.server.access.codes import LoginCodes
 from skillc.server.access.leases import Leases
 from skillc.server.audit import AuditLog

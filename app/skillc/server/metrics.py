@@ -11,8 +11,8 @@ from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, Histogram,
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, HistogramMetricFamily, Metric
 from prometheus_client.registry import Collector
 
-from skillc.cells.operation import CellState
 from skillc.cells.tick_intervals import BOUNDS_S
+from skillc.contract.operation import CellState
 from skillc.server.supervisor import CellSupervisor
 
 MEDIA_TYPE = CONTENT_TYPE_LATEST.partition(";")[0]

@@ -13,7 +13,7 @@ from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.messages import StatusChanged
-from skillc.cells.operation import CellStatus
+from skillc.contract.operation import CellStatus
 from skillc.server.app import Application
 from skillc.server.cells import ServedCells
 from skillc.server.connections import BoundedConnection

@@ -23,9 +23,9 @@ from skillc.cells.messages import (
     StartFailed,
     StatusChanged,
 )
-from skillc.cells.operation import CellStatus, OperationStatus
 from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
 from skillc.cells.settings import CellSettings
+from skillc.contract.operation import CellStatus, OperationStatus
 from skillc.workers.library_check import CheckedLibrary
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.states import State

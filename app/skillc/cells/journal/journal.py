@@ -14,7 +14,7 @@ import msgspec
 from skillc.cells.database import describe_error, open_for_writing
 from skillc.cells.journal.fingerprint import FINGERPRINT, Fingerprint, encode_fingerprint
 from skillc.cells.journal.schema import SCHEMA
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import encode_changes

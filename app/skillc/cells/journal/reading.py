@@ -12,7 +12,7 @@ import msgspec
 
 from skillc.cells.database import DatabaseError, describe_error, open_for_reading
 from skillc.cells.journal.schema import SCHEMA
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import decode_changes
 from skillc_runtime.world.state.changes import Change

@@ -9,7 +9,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from skillc.cells.operation import OperationRequest
+from skillc.contract.operation import OperationRequest
 
 Instant: TypeAlias = Annotated[datetime, msgspec.Meta(tz=True)]
 """A date and time with its offset from UTC, as of RFC 3339."""

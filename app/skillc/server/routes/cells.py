@@ -5,7 +5,7 @@ from __future__ import annotations
 from http import HTTPStatus
 
 from skillc.cells.messages import Acknowledge, Message, SetPace
-from skillc.cells.operation import CellStatus
+from skillc.contract.operation import CellStatus
 from skillc.server.api_types import PaceSetting, StopReason
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell

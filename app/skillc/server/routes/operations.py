@@ -13,7 +13,7 @@ from msgspec import structs
 
 from skillc.cells.journal.reading import LATEST_NS
 from skillc.cells.messages import Give, Refused, Submit
-from skillc.cells.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.server.api_types import StopReason
 from skillc.server.context import open_journal
 from skillc.server.endpoint import ApiCall, ApiEndpoint
