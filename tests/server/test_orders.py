@@ -23,9 +23,9 @@ from skillc.cells.database import Schema, open_for_writing
 from skillc.cells.host import CellSettings
 from skillc.cells.messages import Message, Refused, Submit
 from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.contract.order import Missed, Order, OrderRequest
 from skillc.server.context import ServerContext
 from skillc.server.hub import EventHub
-from skillc.server.orders.order import Missed, Order, OrderRequest
 from skillc.server.orders.submitting import submit_due
 from skillc.server.state import DATABASE, SCHEMA, open_state
 from skillc.server.supervisor import CellSupervisor

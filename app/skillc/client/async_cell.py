@@ -29,9 +29,9 @@ from skillc.client.requests import (
     describe_trials,
 )
 from skillc.contract.operation import CellStatus, OperationStatus
+from skillc.contract.order import Missed, Order
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopReason, WorldEdit, WorldQuery
-from skillc.server.orders.order import Missed, Order
 from skillc.server.rehearsals import Rehearsal
 from skillc.server.trials.store import TrialSeries
 from skillc.services.placed_thing import PlacedThing

@@ -14,9 +14,9 @@ from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.client.requests import PLANNING_S
 from skillc.contract.operation import CellStatus
+from skillc.contract.order import Missed, Order
 from skillc.server.access.leases import Lease
 from skillc.server.api_types import DeviceStatus
-from skillc.server.orders.order import Missed, Order
 from skillc.server.rehearsals import Rehearsal
 from skillc.server.trials.store import TrialSeries
 from skillc.services.placed_thing import PlacedThing

@@ -15,8 +15,8 @@ from skillc.api.boundary import (
     require_text,
 )
 from skillc.contract.operation import OperationRequest
+from skillc.contract.order import Missed, OrderRequest
 from skillc.server.api_types import PlanRequest
-from skillc.server.orders.order import Missed, OrderRequest
 from skillc.services.errors import RequestError
 from skillc.workers.jobs import RehearsalRequest, TrialsRequest
 from skillc_runtime.evaluation.trials.trial import Disturbance

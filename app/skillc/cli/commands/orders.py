@@ -18,7 +18,7 @@ from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
     from skillc.cli.layout import Row
-    from skillc.server.orders.order import Order
+    from skillc.contract.order import Order
 
 EXAMPLES = """
 skillc orders

@@ -23,7 +23,7 @@ from skillc.cli.server_connection import connect_server, server_options
 if TYPE_CHECKING:
     from skillc.client.cell import ServerCell
     from skillc.client.operation import ServerOperation
-    from skillc.server.orders.order import Missed
+    from skillc.contract.order import Missed
 
 EXAMPLES = """
 skillc start clean_table --cell iiwa_table

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 
 import msgspec
 
-from skillc.server.orders.order import Order, OrderRequest, find_time
+from skillc.contract.order import Order, OrderRequest
+from skillc.server.orders.due import find_time
 
 TABLE = """
 CREATE TABLE orders (

@@ -12,10 +12,11 @@ from msgspec import structs
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.messages import Refused, Submit
+from skillc.contract.order import Order
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes
 from skillc.server.log import log
-from skillc.server.orders.order import Due, Order, find_due
+from skillc.server.orders.due import Due, find_due
 from skillc.server.supervisor import CellSupervisor
 
 if TYPE_CHECKING:

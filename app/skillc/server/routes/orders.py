@@ -8,10 +8,11 @@ from http import HTTPStatus
 from msgspec import structs
 
 from skillc.cells.database import transaction
+from skillc.contract.order import Order, OrderRequest
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
-from skillc.server.orders.order import LATE_S, Order, OrderRequest
+from skillc.server.orders.due import LATE_S
 from skillc.server.orders.store import TooManyOrders
 from skillc.server.outcome import UNAVAILABLE, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
