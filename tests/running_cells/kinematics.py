@@ -15,10 +15,11 @@ import mujoco
 import numpy as np
 
 from running_cells.test_reality import BOARD, SORTING, make_settings, reality
-from skillc.cells.geometry import CellModel
 from skillc.cells.geometry_reader import read_geometry
 from skillc.cells.host import open_cell
-from skillc.cells.samples import ArmSample, PoseNumbers, Sample, list_numbers
+from skillc.cells.samples import list_numbers
+from skillc.contract.geometry import CellModel
+from skillc.contract.sample import ArmSample, PoseNumbers, Sample
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.motion.pose import Pose
 

@@ -14,8 +14,9 @@ import pytest
 from running_cells.test_operations import run_all
 from running_cells.test_reality import ONE_PART, SORTING, make_settings, reality
 from skillc.cells.host import CellHost, open_cell
-from skillc.cells.messages import Acknowledge, Edit, Refused, Submit, TakeSnapshot
-from skillc.contract.operation import CellState, OperationStatus
+from skillc.contract.cell import CellState
+from skillc.contract.messages import Acknowledge, Edit, Refused, Submit, TakeSnapshot
+from skillc.contract.operation import OperationStatus
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import RequestError
 from skillc.services.replaying.check import check_run

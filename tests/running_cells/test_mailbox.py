@@ -7,7 +7,7 @@ import time
 
 from skillc.cells.frames import FrameReader, send_frame
 from skillc.cells.mailbox import ALIVE_S, MAX_WAITING, Inbox, Outbox
-from skillc.cells.messages import Acknowledge, Alive, CellAnswer, CellRequest, Report
+from skillc.contract.messages import Acknowledge, Alive, CellAnswer, CellRequest, Report
 
 
 def test_who_answers_all_the_time_is_heard_to_be_alive() -> None:

@@ -12,7 +12,7 @@ import pytest
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.messages import Edit
+from skillc.contract.messages import Edit
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.backends import make_backend
 from skillc.services.reporting import SilentReporter

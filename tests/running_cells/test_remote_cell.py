@@ -11,9 +11,9 @@ import msgspec
 
 from running_cells.yard import write_yard
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.messages import End, Give, Happened, Report, SetPace, StartFailed, StatusChanged, Submit
 from skillc.cells.remote_cell import RemoteCell, start_cell
 from skillc.cells.settings import CellSettings
+from skillc.contract.messages import End, Give, Happened, Report, SetPace, StartFailed, StatusChanged, Submit
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.recording.commands import Pause, Resume, Stop
 

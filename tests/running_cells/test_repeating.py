@@ -13,9 +13,9 @@ from running_cells.test_operations import run_all
 from running_cells.test_reality import BOARD, ONE_PART, SORTING, TABLE, find_task, make_settings
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
-from skillc.cells.messages import Edit
 from skillc.cells.recording_files import recording_file
 from skillc.cells.settings import CellSettings
+from skillc.contract.messages import Edit
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.backends import BackendName
 from skillc.services.errors import ServiceError

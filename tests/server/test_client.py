@@ -18,7 +18,7 @@ from server.running import RunningServer, serving, start_server, wait_until
 from skillc.client.address import ServerAddress, find_address
 from skillc.client.connection import Connection
 from skillc.client.feed import follow_operation
-from skillc.contract.operation import CellStatus
+from skillc.contract.cell import CellStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded
 

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import skillc
 from server.running import RunningServer
+from skillc.contract.device import Figure
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.reporting import SilentReporter
 from skillc.services.stores import load_world
-from skillc.workers.devices import Figure, list_devices
+from skillc.workers.devices import list_devices
 from skillc.workers.libraries import describe_library
 
 

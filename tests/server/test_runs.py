@@ -12,11 +12,12 @@ from running_cells.test_reality import TABLE, make_settings
 from server.running import RunningServer, wait_until
 from server.test_recordings import CARRY
 from skillc.cells.host import open_cell
+from skillc.contract.jobs import JobRefused
 from skillc.contract.operation import OperationRequest
+from skillc.contract.run_jobs import CompareRuns, ReadSignals, RunFiles
+from skillc.contract.signals import SignalRows
 from skillc.services.reporting import SilentReporter
 from skillc.workers import run_reading
-from skillc.workers.jobs import JobRefused
-from skillc.workers.run_jobs import CompareRuns, ReadSignals, RunFiles, SignalRows
 from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_job
 
 

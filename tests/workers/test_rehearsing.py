@@ -9,10 +9,11 @@ import pytest
 from running_cells.test_reality import TABLE, make_settings, reality
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.snapshot import decode_snapshot
+from skillc.contract.jobs import Rehearse
 from skillc.contract.operation import OperationRequest
+from skillc.contract.rehearsal import RehearsalRequest
 from skillc.services.backends import BackendName
 from skillc.services.reporting import SilentReporter
-from skillc.workers.jobs import RehearsalRequest, Rehearse
 from skillc.workers.rehearsing import rehearse
 from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
 from skillc_runtime.film import film

@@ -9,7 +9,7 @@ from queue import SimpleQueue
 from threading import Thread
 
 from skillc.cells.assigning import assign_request
-from skillc.cells.messages import Submit
+from skillc.contract.messages import Submit
 from skillc.contract.operation import OperationRequest
 from skillc.services.errors import RequestError, ServiceError
 from skillc_model.skills import SkillLibrary

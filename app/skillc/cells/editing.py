@@ -8,9 +8,9 @@ from typing import assert_never
 
 import numpy as np
 
-from skillc.cells.messages import Edit, Place
-from skillc.cells.samples import PoseNumbers
 from skillc.cells.submitted import SubmittedOperation
+from skillc.contract.messages import Edit, Place
+from skillc.contract.sample import PoseNumbers
 from skillc.services.errors import RequestError
 from skillc.services.world_edits import read_edits
 from skillc_runtime.execution.cell_loop import CellLoop

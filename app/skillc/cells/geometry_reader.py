@@ -9,7 +9,8 @@ import msgspec
 import mujoco
 import numpy as np
 
-from skillc.cells.geometry import (
+from skillc.cells.samples import list_numbers
+from skillc.contract.geometry import (
     CellModel,
     JointKind,
     ModelArm,
@@ -22,7 +23,7 @@ from skillc.cells.geometry import (
     SurfaceCoverage,
     Vector,
 )
-from skillc.cells.samples import PoseNumbers, list_numbers
+from skillc.contract.sample import PoseNumbers
 from skillc_runtime.devices.live import ReadBytes
 from skillc_runtime.devices.simulation import DrawnIndividual, IndividualKind, Simulation
 from skillc_runtime.motion.coverage import CoverageMap

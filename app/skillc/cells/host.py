@@ -20,7 +20,6 @@ from skillc.cells.journal.fingerprint import make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.library import decode_library, load_library
-from skillc.cells.messages import Edit, Place
 from skillc.cells.reality import report_devices
 from skillc.cells.recordings import CellRecordings
 from skillc.cells.settings import WORLD, CellSettings
@@ -28,7 +27,9 @@ from skillc.cells.simulation import CellSimulation
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
-from skillc.contract.operation import CellStatus, OperationRequest, OperationStatus
+from skillc.contract.cell import CellStatus
+from skillc.contract.messages import Edit, Place
+from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import RequestError
 from skillc.services.library_files import find_scene

@@ -9,8 +9,17 @@ from collections.abc import Callable
 from threading import Condition, Thread
 
 from skillc.cells.frames import FrameReader, InvalidFrame, send_frame
-from skillc.cells.messages import Alive, CellAnswer, CellRequest, Happened, Refused, Report, StatusChanged, StopRequest
 from skillc.cells.tick_intervals import TickIntervals
+from skillc.contract.messages import (
+    Alive,
+    CellAnswer,
+    CellRequest,
+    Happened,
+    Refused,
+    Report,
+    StatusChanged,
+    StopRequest,
+)
 
 MAX_WAITING = 1000
 """How many requests may wait; those beyond are refused at once."""

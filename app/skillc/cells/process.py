@@ -16,9 +16,9 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
-from skillc.cells.messages import Preparing, StartFailed
 from skillc.cells.service import CellService
 from skillc.cells.settings import CellSettings
+from skillc.contract.messages import Preparing, StartFailed
 from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import exempt_from_gc

@@ -16,8 +16,8 @@ from typing import TextIO
 import msgspec
 
 from skillc.cells.frames import LENGTH, encode_frame
-from skillc.cells.messages import CellAnswer, CellRequest, Message, Report, StopRequest
 from skillc.cells.settings import CellSettings
+from skillc.contract.messages import CellAnswer, CellRequest, Message, Report, StopRequest
 
 
 class CellGone(Exception):

@@ -7,55 +7,18 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
-import msgspec
 import numpy as np
 
+from skillc.contract.sample import ArmSample, ForceSample, PoseNumbers, Sample
 from skillc_runtime.devices.live import LiveArm, LiveSensors
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation, rotation_from_quaternion
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.simulation import Simulation
 
-PoseNumbers = tuple[float, float, float, float, float, float, float]
-"""A pose in the world: position in m, then the unit quaternion (w, x, y, z)."""
 
 FEWEST_N = 0.05
 """Weaker contact forces are left out."""
-
-
-class ArmSample(msgspec.Struct, frozen=True):
-    """An arm: joint angles in rad and speeds in rad/s, as measured last, and the poses of base and tool in the world.
-
-    `wrench` is what a force-torque sensor measures on the tool, N and N m, in the arm's base frame; None without one.
-    """
-
-    joints: tuple[float, ...]
-    speeds: tuple[float, ...]
-    base: PoseNumbers
-    tool: PoseNumbers
-    wrench: tuple[float, float, float, float, float, float] | None = None
-
-
-class ForceSample(msgspec.Struct, frozen=True):
-    """The true force in N with which what a tool touches presses on its working face, at a point in m, in the world."""
-
-    force: tuple[float, float, float]
-    point: tuple[float, float, float]
-
-
-class Sample(msgspec.Struct, frozen=True):
-    """A simulated cell at `time_s` of its clock: its arms, and where things really are in the world, both by IRI.
-
-    `joints` are the angles in rad and ways in m of what moves otherwise, as fingers and drawers, by the names of the
-    cell's model; `forces` the contact forces on tools, by IRI of the tool, where there are any.
-    """
-
-    cell: str
-    time_s: float
-    arms: dict[str, ArmSample]
-    things: dict[str, PoseNumbers]
-    joints: dict[str, float] = {}
-    forces: dict[str, ForceSample] = {}
 
 
 class Sampler:

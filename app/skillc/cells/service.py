@@ -13,7 +13,8 @@ import msgspec
 from skillc.cells.assigner import Assigned, Assigner
 from skillc.cells.host import CellHost
 from skillc.cells.mailbox import Inbox, Outbox
-from skillc.cells.messages import (
+from skillc.contract.cell import CellStatus
+from skillc.contract.messages import (
     Acknowledge,
     CellAnswer,
     CellRequest,
@@ -35,7 +36,6 @@ from skillc.cells.messages import (
     TakeSample,
     TakeSnapshot,
 )
-from skillc.contract.operation import CellStatus
 from skillc.services.diagnosis import diagnose
 from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests

@@ -14,7 +14,7 @@ import msgspec
 from skillc.cli.server_connection import asked_cell
 
 if TYPE_CHECKING:
-    from skillc.workers.jobs import WorldFact, WorldFormat, WorldWrite
+    from skillc.contract.world import WorldFact, WorldFormat, WorldWrite
     from skillc_runtime.evaluation.trials.series import Series
     from skillc_runtime.evaluation.trials.trial import Disturbance
 

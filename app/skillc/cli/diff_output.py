@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 
 from skillc.cli.layout import Row, TableCell, TerminalPage
-from skillc.services.run_diff.difference import Difference, Leaf, RunDiff
+from skillc.contract.run_diff import Difference, Leaf, RunDiff
 
 SHOWN = 6
 """How many differences of a part are shown."""

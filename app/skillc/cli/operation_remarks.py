@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from skillc.contract.operation import CellStatus, OperationStatus
+    from skillc.contract.cell import CellStatus
+    from skillc.contract.operation import OperationStatus
 
 
 def remark_status(status: OperationStatus) -> None:

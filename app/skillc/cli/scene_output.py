@@ -8,7 +8,7 @@ from dataclasses import asdict
 from typing import Any
 
 from skillc.cli.layout import TerminalPage
-from skillc.services.placed_thing import PlacedThing
+from skillc.contract.world import PlacedThing
 from skillc.services.scenes import IndividualFacts, OpenScene, SceneDiff
 from skillc_runtime.scene.query import QueryAnswer, QueryValue
 from skillc_runtime.world.state.elements import Element

@@ -18,8 +18,8 @@ from skillc.services.errors import ServiceError
 if TYPE_CHECKING:
     from skillc.client.cell import ServerCell
     from skillc.client.server import Server
+    from skillc.contract.library import LibraryDescription, ParameterDescription
     from skillc.contract.operation import OperationStatus
-    from skillc.workers.libraries import LibraryDescription, ParameterDescription
     from skillc_runtime.recording.states import Decision
 
 Item = TypeVar("Item")

@@ -11,7 +11,8 @@ import msgspec
 from skillc.cli.console import page_of, print_lines, rich_console
 from skillc.cli.layout import Row, Style, TableCell, TerminalPage
 from skillc.cli.operation_remarks import describe_state
-from skillc.contract.operation import CellStatus, OperationStatus
+from skillc.contract.cell import CellStatus
+from skillc.contract.operation import OperationStatus
 from skillc_runtime.execution.pace import FAST, format_pace
 from skillc_runtime.recording.states import State
 

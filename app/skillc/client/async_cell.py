@@ -14,7 +14,6 @@ from skillc.api.boundary import (
     require_text,
 )
 from skillc.api.trials import Trials
-from skillc.cells.samples import Sample
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.client.experiments import rehearse, run_trials
@@ -28,22 +27,27 @@ from skillc.client.requests import (
     describe_rehearsal,
     describe_trials,
 )
-from skillc.contract.operation import CellStatus, OperationStatus
+from skillc.contract.cell import CellStatus, PaceSetting
+from skillc.contract.device import DeviceStatus
+from skillc.contract.lease import Lease, LeaseRequest
+from skillc.contract.library import LibraryDescription
+from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Missed, Order
-from skillc.server.access.leases import Lease
-from skillc.server.api_types import DeviceStatus, LeaseRequest, PaceSetting, StopReason, WorldEdit, WorldQuery
-from skillc.server.rehearsals import Rehearsal
-from skillc.server.trials.store import TrialSeries
-from skillc.services.placed_thing import PlacedThing
-from skillc.workers.jobs import (
-    PlanPreview,
+from skillc.contract.plan import PlanPreview
+from skillc.contract.rehearsal import Rehearsal
+from skillc.contract.sample import Sample
+from skillc.contract.stopping import StopReason
+from skillc.contract.trials import TrialSeries
+from skillc.contract.world import (
+    PlacedThing,
     QueryRows,
+    WorldEdit,
     WorldFact,
     WorldFormat,
+    WorldQuery,
     WorldText,
     WorldWrite,
 )
-from skillc.workers.libraries import LibraryDescription
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.evaluation.trials.trial import Disturbance as TrialDisturbance
 from skillc_runtime.execution.pace import FAST

@@ -15,8 +15,8 @@ from skillc.client.experiments import make_report
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.server.api_types import StopReason
-from skillc.server.reports import OperationReport
+from skillc.contract.report import OperationReport
+from skillc.contract.stopping import StopReason
 from skillc.services.errors import RequestError
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_state import ENDS

@@ -10,10 +10,11 @@ from skillc.client.async_cell import AsyncCell
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.client.feed import Status, follow_states
-from skillc.contract.operation import CellStatus, OperationStatus
-from skillc.server.access.roles import Role
-from skillc.server.access.tokens import TokenInfo
-from skillc.server.api_types import LibraryStatus, LoginCode, MadeToken, NewToken, VersionInfo
+from skillc.contract.access import LoginCode, MadeToken, NewToken, Role, TokenInfo
+from skillc.contract.cell import CellStatus
+from skillc.contract.library import LibraryStatus
+from skillc.contract.operation import OperationStatus
+from skillc.contract.version import VersionInfo
 from skillc.services.errors import RequestError
 
 

@@ -9,11 +9,9 @@ from pathlib import Path
 
 from skillc.client.connection import Connection, join
 from skillc.client.errors import RefusedError
-from skillc.server.api_types import ReportRequest
-from skillc.server.rehearsals import Rehearsal
-from skillc.server.reports import OperationReport
-from skillc.server.trials.store import TrialSeries
-from skillc.workers.jobs import RehearsalRequest, TrialsRequest
+from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
+from skillc.contract.report import OperationReport, ReportRequest
+from skillc.contract.trials import TrialSeries, TrialsRequest
 from skillc_runtime.evaluation.trials.series import Series
 
 LOOK_S = 0.3

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc.client.connection import Connection
-from skillc.workers.jobs import WorldFact, WorldFacts
+from skillc.contract.world import WorldFact, WorldFacts
 
 PAGE = 1000
 

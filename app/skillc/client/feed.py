@@ -10,12 +10,13 @@ import msgspec
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidMessage
 
-from skillc.cells.messages import Happened, StatusChanged
-from skillc.cells.samples import Sample
 from skillc.client.connection import Connection, decode, decode_binary, describe_loss
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.client.retries import Retries
-from skillc.contract.operation import CellStatus, OperationStatus
+from skillc.contract.cell import CellStatus
+from skillc.contract.messages import Happened, StatusChanged
+from skillc.contract.operation import OperationStatus
+from skillc.contract.sample import Sample
 from skillc.services.errors import ServiceError
 from skillc_runtime.recording.envelope import Envelope
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from skillc.client.async_operation import AsyncOperation, Depth
 from skillc.client.loop_thread import LoopThread
 from skillc.contract.operation import OperationStatus
-from skillc.server.reports import OperationReport
+from skillc.contract.report import OperationReport
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope

@@ -16,9 +16,10 @@ from skillc.api.boundary import (
 )
 from skillc.contract.operation import OperationRequest
 from skillc.contract.order import Missed, OrderRequest
-from skillc.server.api_types import PlanRequest
+from skillc.contract.plan import PlanRequest
+from skillc.contract.rehearsal import RehearsalRequest
+from skillc.contract.trials import TrialsRequest
 from skillc.services.errors import RequestError
-from skillc.workers.jobs import RehearsalRequest, TrialsRequest
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S
 

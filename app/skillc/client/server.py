@@ -10,10 +10,10 @@ from skillc.client.cell import ServerCell
 from skillc.client.feed import Status
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
-from skillc.contract.operation import CellStatus
-from skillc.server.access.roles import Role
-from skillc.server.access.tokens import TokenInfo
-from skillc.server.api_types import LibraryStatus, VersionInfo
+from skillc.contract.access import Role, TokenInfo
+from skillc.contract.cell import CellStatus
+from skillc.contract.library import LibraryStatus
+from skillc.contract.version import VersionInfo
 
 
 class Server:

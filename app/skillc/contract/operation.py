@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated
 
 import msgspec
 
@@ -78,28 +78,3 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     def is_sound(self) -> bool:
         """Whether it succeeded, and the simulator contradicts nothing that the world model claimed at its end."""
         return self.state == "succeeded" and not self.false_claims
-
-
-CellState: TypeAlias = Literal["off", "operational", "protective-stop", "fault", "emergency-stop"]
-"""`off`: its process does not run. `operational`: it takes operations. In the other states it takes none until the
-cause is removed and that is acknowledged: `protective-stop` after a device has stopped by itself, because of a limit,
-an implausible measurement, or because it does not answer; `fault` if the cell cannot go on, for example because the
-disk is full; `emergency-stop` after a device has reported one."""
-
-
-class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
-    """A cell as it is now; `reason` is why it is in its state.
-
-    `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
-    disk. `pace` is None for as fast as it computes.
-    """
-
-    name: str
-    scene: str
-    library: str
-    library_hash: str
-    library_problem: str = ""
-    backend: str
-    state: CellState = "operational"
-    reason: str = ""
-    pace: float | None = None

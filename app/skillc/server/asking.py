@@ -7,13 +7,13 @@ from collections.abc import Coroutine
 from http import HTTPStatus
 from typing import TypeVar
 
-from skillc.cells.messages import TakeSnapshot
+from skillc.contract.jobs import Job
+from skillc.contract.messages import TakeSnapshot
+from skillc.contract.run_jobs import RunJob
 from skillc.server.endpoint import ApiCall
 from skillc.server.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
-from skillc.workers.jobs import Job
 from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
-from skillc.workers.run_jobs import RunJob
 
 T = TypeVar("T")
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from http import HTTPStatus
 from typing import TYPE_CHECKING
 
-import msgspec
 from starlette.requests import HTTPConnection
 
+from skillc.contract.audit import AuditEntry
 from skillc.server.access.tokens import Client
 from skillc.server.log import log
 
@@ -33,21 +33,6 @@ EXPORTED = 1000
 """How many entries are read at once."""
 MAX_TEXT = 500
 """The number of characters that are kept of a text."""
-
-
-class AuditEntry(msgspec.Struct, frozen=True):
-    """A request that changed something, or that was refused; `wall_ns` is in ns since 1970-01-01 UTC.
-
-    `status` is that of the answer; 0 while it is carried out, and if it was when the server ended or its disk was full.
-    """
-
-    number: int
-    wall_ns: int
-    who: str
-    origin: str
-    action: str
-    status: int
-    detail: str
 
 
 class AuditLog:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import msgspec
 
-from skillc.server.access.roles import Role
+from skillc.contract.access import Role
 from skillc.server.access.tokens import Client
 
 if TYPE_CHECKING:

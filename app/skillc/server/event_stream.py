@@ -7,13 +7,13 @@ from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from http import HTTPStatus
-from typing import Annotated
 
 import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from skillc.cells.database import DatabaseError
-from skillc.cells.messages import Happened, StatusChanged
+from skillc.contract.history import Hello
+from skillc.contract.messages import Happened, StatusChanged
 from skillc.server.access.tokens import Client
 from skillc.server.audit import AuditedRequest
 from skillc.server.authentication import make_credential, refuse_unknown
@@ -33,17 +33,6 @@ SILENCE_S = 30.0
 """After how long without news it is looked whether a token is still valid, in s."""
 BATCH = 200
 """How many events are in one message at most."""
-
-
-class Hello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The first message of a client, as JSON: its token, and the operation whose events it wants, after a number.
-
-    Without an operation it gets how cells and operations are. A page has the cookie of a session instead of a token.
-    """
-
-    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None
-    operation: Annotated[str, msgspec.Meta(max_length=200)] | None = None
-    after: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
 
 
 async def stream_events(server: ServerContext, socket: WebSocket) -> None:

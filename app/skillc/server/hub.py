@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TypeAlias
 
-from skillc.cells.messages import Happened, StatusChanged
+from skillc.contract.messages import Happened, StatusChanged
 
 MAX_WAITING = 256
 """How many news may wait for one listener. They say how far an operation is: events are read from the journal."""

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-import msgspec
-
+from skillc.contract.source import SourceText
 from skillc.server.library_stamp import list_files
 from skillc.server.served_library import ServedLibrary
 from skillc.services.errors import DiagnosticsError, ServiceError
@@ -18,22 +17,6 @@ from skillc.services.project.project import Project, find_project
 from skillc_dsl.encoding import MOST_BYTES, decode, normalise_newlines, read_file
 
 TEXTS = (".skill", ".ttl")
-
-
-class SourceInfo(msgspec.Struct, frozen=True):
-    """A text of a library, by the path that places in events and diagnostics have; `editable` if it is its own."""
-
-    path: str
-    editable: bool
-
-
-class SourceText(msgspec.Struct, frozen=True):
-    """A text; `hash` is that of the file, by which a change says what it is based on."""
-
-    path: str
-    editable: bool
-    hash: str
-    text: str
 
 
 class SourceChanged(ServiceError):

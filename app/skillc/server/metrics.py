@@ -12,7 +12,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Histo
 from prometheus_client.registry import Collector
 
 from skillc.cells.tick_intervals import BOUNDS_S
-from skillc.contract.operation import CellState
+from skillc.contract.cell import CellState
 from skillc.server.supervisor import CellSupervisor
 
 MEDIA_TYPE = CONTENT_TYPE_LATEST.partition(";")[0]

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from skillc.server.api_types import ProblemDetails
+from skillc.contract.problem import ProblemDetails
 from skillc.server.endpoint import JSON, ApiEndpoint
 from skillc.server.problems import MEDIA_TYPE
 

@@ -11,7 +11,7 @@ from typing import assert_never
 
 from msgspec import structs
 
-from skillc.cells.messages import Message, Refused
+from skillc.contract.messages import Message, Refused
 from skillc.contract.operation import OperationRequest
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.tokens import Client

@@ -11,7 +11,8 @@ from skillc.cells.database import DatabaseError, describe_error, open_for_writin
 from skillc.cells.journal.pruning import prune_journal
 from skillc.cells.recording_files import RECORDINGS, recording_file
 from skillc.cells.settings import JOURNAL
-from skillc.server.audit import AuditEntry, AuditLog
+from skillc.contract.audit import AuditEntry
+from skillc.server.audit import AuditLog
 from skillc.server.idempotency import RequestKeys
 from skillc.server.state import CELLS, DATABASE, SCHEMA
 from skillc.services.errors import RequestError, ServiceError

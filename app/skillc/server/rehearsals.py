@@ -5,35 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
 
-import msgspec
 from msgspec import structs
 
+from skillc.contract.jobs import Rehearse
+from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
 from skillc.server.simulation_jobs import SimulationJobs
 from skillc.services.recordings import RECORDING
-from skillc.workers.jobs import RehearsalRequest, Rehearse
-from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.envelope import make_run_id
 
 FILM = "film.mp4"
-
-
-class Rehearsal(msgspec.Struct, frozen=True, kw_only=True):
-    """A rehearsal of a request in a twin of a cell, as the cell was when it was requested.
-
-    `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film`
-    and `recording` are whether there is one.
-    """
-
-    id: str
-    cell: str
-    request: RehearsalRequest
-    state: Literal["going on", "ended"] = "going on"
-    reason: str = ""
-    result: TaskResult | None = None
-    film: bool = False
-    recording: bool = False
 
 
 @dataclass(frozen=True, slots=True)

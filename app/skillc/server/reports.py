@@ -4,35 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
-import msgspec
-
+from skillc.contract.jobs import MakeReport
+from skillc.contract.report import REPORT_TYPES, OperationReport
 from skillc.server.simulation_jobs import SimulationJobs
-from skillc.workers.jobs import MakeReport
-from skillc_runtime.evaluation.report.result import TaskResult
-
-TYPES = {
-    ".html": "text/html; charset=utf-8",
-    ".json": "application/json",
-    ".mp4": "video/mp4",
-    ".png": "image/png",
-    ".svg": "image/svg+xml",
-}
-"""The media types of the files of a report."""
-
-
-class OperationReport(msgspec.Struct, frozen=True, kw_only=True):
-    """The report of an operation. `result` is null until it is made, and then if it cannot be: `reason` says why.
-
-    `files` are the names of what can be read of it: the report, a film, figures and pictures.
-    """
-
-    operation: str
-    state: Literal["going on", "ended"] = "going on"
-    reason: str = ""
-    result: TaskResult | None = None
-    files: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +31,12 @@ class Reports:
             state="ended" if outcome.ended else "going on",
             reason=outcome.reason,
             result=outcome.result,
-            files=tuple(each for each in outcome.files if Path(each).suffix in TYPES),
+            files=tuple(each for each in outcome.files if Path(each).suffix in REPORT_TYPES),
         )
 
     def find_file(self, operation: str, file: str) -> Path | None:
         """Return a file of a report; None if it has none of this name."""
-        return self.jobs.find_file(_name(operation), file) if Path(file).suffix in TYPES else None
+        return self.jobs.find_file(_name(operation), file) if Path(file).suffix in REPORT_TYPES else None
 
     def remove(self, operation: str) -> None:
         """End and forget a report."""

@@ -9,10 +9,9 @@ from typing import Any
 import msgspec
 from starlette.requests import ClientDisconnect, Request
 
+from skillc.contract.values import MAX_BODY_BYTES, CheckedBody
 from skillc.server.problems import ApiRefusal
-from skillc.server.values import CheckedBody
 
-MAX_BODY_BYTES = 2**20
 BODY_S = 10.0
 """How long a body may take to arrive, in s."""
 MAX_KEY = 200

@@ -7,33 +7,20 @@ import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
-from typing import Annotated
 
 import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from skillc.cells.messages import Refused, TakeSample
+from skillc.contract.messages import Refused, TakeSample
+from skillc.contract.sample import MAX_HZ, SampleHello
 from skillc.server.authentication import make_credential
 from skillc.server.context import ServerContext
 from skillc.server.event_stream import CLOSE_CODES, HELLO_S, REFUSED, ClientSocket
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 
-MAX_HZ = 50.0
-"""How many samples a second there are at most."""
 OFF_S = 1.0
 """How long to wait before a cell that is off is asked again."""
-
-
-class SampleHello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The first message of a client, as JSON: its token, the cell, and how many samples a second it wants.
-
-    A page has the cookie of a session instead of a token.
-    """
-
-    cell: Annotated[str, msgspec.Meta(max_length=200)]
-    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None
-    rate_hz: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_HZ)] = 10.0
 
 
 @dataclass(slots=True)

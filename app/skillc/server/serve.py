@@ -12,8 +12,9 @@ import uvicorn
 from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
-from skillc.cells.messages import StatusChanged
-from skillc.contract.operation import CellStatus
+from skillc.contract.cell import CellStatus
+from skillc.contract.messages import StatusChanged
+from skillc.contract.values import MAX_BODY_BYTES
 from skillc.server.app import Application
 from skillc.server.cells import ServedCells
 from skillc.server.connections import BoundedConnection
@@ -24,7 +25,6 @@ from skillc.server.hub import EventHub, News
 from skillc.server.listening import Listening
 from skillc.server.log import log
 from skillc.server.orders.submitting import keep_submitting
-from skillc.server.requests import MAX_BODY_BYTES
 from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.errors import ServiceError

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
 
-from skillc.cells.messages import TakeLibrary
+from skillc.contract.messages import TakeLibrary
 from skillc.server.library_stamp import Stamp, describe_changed, read_code, read_stamp
 from skillc.server.log import log
 from skillc.server.supervisor import CellSupervisor

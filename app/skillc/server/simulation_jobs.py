@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from skillc.workers.jobs import Job
+from skillc.contract.jobs import Job
 from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs, Workers
 from skillc_runtime.evaluation.report.result import TaskResult
 

@@ -12,7 +12,10 @@ from typing import assert_never
 
 from msgspec import structs
 
-from skillc.cells.messages import (
+from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
+from skillc.cells.settings import CellSettings
+from skillc.contract.cell import CellStatus
+from skillc.contract.messages import (
     Alive,
     CellAnswer,
     Happened,
@@ -23,9 +26,7 @@ from skillc.cells.messages import (
     StartFailed,
     StatusChanged,
 )
-from skillc.cells.remote_cell import CellGone, RemoteCell, start_cell
-from skillc.cells.settings import CellSettings
-from skillc.contract.operation import CellStatus, OperationStatus
+from skillc.contract.operation import OperationStatus
 from skillc.workers.library_check import CheckedLibrary
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.states import State

@@ -2,27 +2,11 @@
 
 from __future__ import annotations
 
-import msgspec
-
+from skillc.contract.diagnosis import Diagnosis
 from skillc.services.errors import ServiceError
-from skillc_dsl.diagnostics import Diagnostic
 
 MAX_DIAGNOSTICS, MAX_TEXT = 20, 20_000
 """How many diagnostics are passed on, and the length of the longest text."""
-
-
-class Diagnosis(msgspec.Struct, frozen=True):
-    """The errors of a request, and the texts that they point into, by path; long texts are left out."""
-
-    diagnostics: tuple[Diagnostic, ...] = ()
-    texts: dict[str, str] = {}
-
-    def describe(self) -> str:
-        """Return the diagnostics as text, one a line."""
-        return "\n".join(map(str, self.diagnostics))
-
-
-NO_DIAGNOSIS = Diagnosis()
 
 
 def diagnose(error: ServiceError) -> Diagnosis:

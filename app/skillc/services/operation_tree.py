@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-import msgspec
 from msgspec import structs
 
+from skillc.contract.run_tree import OperationTree, TreeNode
 from skillc_model import tree
 from skillc_model.conditions import Individual
 from skillc_model.skills import Compound, SkillLibrary
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.plans.plan_record import restore_arrangement, restore_steps
 from skillc_runtime.execution.tree.outline import OutlinedNode, outline_body
@@ -26,31 +25,6 @@ from skillc_runtime.recording.events import (
     Replanned,
     TaskStarted,
 )
-
-
-class TreeNode(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """A node of a tree; the events about it have its `id`. `parent` is 0 for the root of an attempt.
-
-    `attempt` counts plans from 1. A call has a `skill`, with the `arguments` that a planner or the text has given it by
-    name, and once it has started the `implementation` that it chose.
-    """
-
-    id: int
-    parent: int
-    attempt: int
-    kind: str
-    label: str
-    source: Position
-    skill: str = ""
-    implementation: str = ""
-    arguments: dict[str, str] = {}
-
-
-class OperationTree(msgspec.Struct, frozen=True):
-    """The nodes of a run after its event `sequence`, each after its parent; later events start and end them."""
-
-    sequence: int
-    nodes: tuple[TreeNode, ...]
 
 
 def build_tree(envelopes: Iterable[Envelope], library: SkillLibrary) -> OperationTree:

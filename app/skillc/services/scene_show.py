@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from skillc.contract.world import PlacedThing
 from skillc.services.files import writing_to
-from skillc.services.placed_thing import PlacedThing
 from skillc.services.scenes import OpenScene
 from skillc.services.top_view import Outline, draw_top_view
 from skillc_runtime.backends.mujoco.cell import SimulatedCell

@@ -12,16 +12,10 @@ import msgspec
 from skillc.cells.assigning import assign_request
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.samples import PoseNumbers, list_numbers
+from skillc.cells.samples import list_numbers
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot
-from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.diagnosis import diagnose
-from skillc.services.errors import DiagnosticsError, ServiceError
-from skillc.services.placed_thing import PlacedThing
-from skillc.services.scene_show import list_placed
-from skillc.services.scenes import describe_state, find_individuals, query_document, view_world
-from skillc.workers.devices import Device, list_devices
-from skillc.workers.jobs import (
+from skillc.contract.device import Device
+from skillc.contract.jobs import (
     CheckOperation,
     CheckTrials,
     DescribeLibrary,
@@ -33,21 +27,25 @@ from skillc.workers.jobs import (
     ListThings,
     ListWrites,
     MakeReport,
-    PlanPreview,
     PreviewPlan,
-    QueryRows,
     QueryWorld,
     RecordTrial,
     Rehearse,
     RunTrial,
     SimulationJob,
-    WorldFact,
-    WorldFacts,
-    WorldText,
-    WorldWrite,
     WriteWorld,
 )
-from skillc.workers.libraries import LibraryDescription, describe_library
+from skillc.contract.library import LibraryDescription
+from skillc.contract.plan import PlanPreview
+from skillc.contract.sample import PoseNumbers
+from skillc.contract.world import PlacedThing, QueryRows, WorldFact, WorldFacts, WorldText, WorldWrite
+from skillc.services.breakpoints import parse_breakpoints
+from skillc.services.diagnosis import diagnose
+from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc.services.scene_show import list_placed
+from skillc.services.scenes import describe_state, find_individuals, query_document, view_world
+from skillc.workers.devices import list_devices
+from skillc.workers.libraries import describe_library
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
 from skillc.workers.reporting import make_report

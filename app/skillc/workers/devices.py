@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Literal, TypeAlias
 
-import msgspec
-
+from skillc.contract.device import Device, DeviceKind, Figure
 from skillc_runtime.world.state.elements import Element
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
@@ -23,7 +21,6 @@ from skillc_runtime.world.state.terms import (
 )
 from skillc_runtime.world.state.world_state import WorldState
 
-DeviceKind: TypeAlias = Literal["base", "robot", "arm", "gripper", "camera", "sensor"]
 KINDS: Mapping[DeviceKind, str] = MappingProxyType(
     {
         "base": MOBILE_ROBOT,
@@ -35,29 +32,6 @@ KINDS: Mapping[DeviceKind, str] = MappingProxyType(
     }
 )
 """The class of each kind; a device is of the first kind that fits."""
-
-
-class Figure(msgspec.Struct, frozen=True):
-    """What a data sheet states: `property` is its short name; `unit` is that of the SI, empty without one."""
-
-    property: str
-    value: str | bool | int | float
-    unit: str
-
-
-class Device(msgspec.Struct, frozen=True):
-    """A device: its IRI, its short name (`label`), its classes, and the device that it is part of.
-
-    `figures` are those of its data sheet, `controller` is that of an arm.
-    """
-
-    iri: str
-    label: str
-    kind: DeviceKind
-    types: tuple[str, ...]
-    part_of: str | None
-    controller: str | None
-    figures: tuple[Figure, ...]
 
 
 def list_devices(state: WorldState) -> tuple[Device, ...]:

@@ -6,10 +6,11 @@ import msgspec
 
 from skillc.cells.assigning import assign_request
 from skillc.cells.snapshot import CellSnapshot
+from skillc.contract.jobs import PreviewPlan
+from skillc.contract.plan import PlanPreview
 from skillc.services.plan_text import describe_answer, format_plan
 from skillc.services.planning import plan_goal, prepare_planners
 from skillc.services.task_loading import LoadedTask
-from skillc.workers.jobs import PlanPreview, PreviewPlan
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.world.state.model import WorldModel
 

@@ -10,10 +10,10 @@ from typing import TypeAlias, TypeVar
 
 import msgspec
 
-from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
-from skillc.workers.jobs import Job, JobRefused
+from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis
+from skillc.contract.jobs import Job, JobRefused
+from skillc.contract.run_jobs import RunJob
 from skillc.workers.programs import Program, do_job
-from skillc.workers.run_jobs import RunJob
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
 

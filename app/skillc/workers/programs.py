@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-from skillc.workers.jobs import Job, JobRefused
-from skillc.workers.run_jobs import RunJob
+from skillc.contract.jobs import Job, JobRefused
+from skillc.contract.run_jobs import RunJob
 
 Program: TypeAlias = Callable[[Any], bytes | JobRefused]
 """Answers a job for an encoded snapshot, as JSON; for None it answers that it is ready."""

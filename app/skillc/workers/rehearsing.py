@@ -9,10 +9,10 @@ from pathlib import Path
 
 from skillc.cells.assigning import assign_request
 from skillc.cells.snapshot import CellSnapshot
+from skillc.contract.jobs import Rehearse
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import LoadedTask
-from skillc.workers.jobs import Rehearse
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun

@@ -11,26 +11,18 @@ import numpy as np
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
+from skillc.contract.explanation import ChainedFailure, ExplainedCall, RunExplanation
+from skillc.contract.jobs import JobRefused
+from skillc.contract.run_diff import RunDiff
+from skillc.contract.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, RunJob, ShowTree
+from skillc.contract.run_tree import OperationTree
+from skillc.contract.signals import SignalRows
 from skillc.services.errors import ServiceError
-from skillc.services.operation_tree import OperationTree, build_tree
+from skillc.services.operation_tree import build_tree
 from skillc.services.recordings import answer_question, make_result, read_signals
 from skillc.services.run_diff.compare import compare_runs
-from skillc.services.run_diff.difference import RunDiff
 from skillc.services.run_diff.recorded import RecordedRunData, make_run_data, read_mcap_columns
 from skillc.services.story_text import explain_call, format_answer, overview_lines
-from skillc.workers.jobs import JobRefused
-from skillc.workers.run_jobs import (
-    ChainedFailure,
-    CompareRuns,
-    ExplainedCall,
-    ExplainRun,
-    ReadSignals,
-    RunExplanation,
-    RunFiles,
-    RunJob,
-    ShowTree,
-    SignalRows,
-)
 from skillc_model.codec import LibraryError, loads
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.platforms.memory import limit_memory

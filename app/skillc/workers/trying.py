@@ -10,6 +10,7 @@ from pathlib import Path
 import msgspec
 
 from skillc.cells.snapshot import CellSnapshot
+from skillc.contract.jobs import CheckTrials, RecordTrial, RunTrial
 from skillc.services.assignments import assign_task
 from skillc.services.errors import ServiceError
 from skillc.services.libraries import find_task
@@ -18,7 +19,6 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.stores import load_world
 from skillc.services.trial_runs import make_experiment
-from skillc.workers.jobs import CheckTrials, RecordTrial, RunTrial
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.disturbance import PushableCell

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import assert_never
 
 from skillc.cells.snapshot import CellSnapshot
+from skillc.contract.jobs import WriteWorld
+from skillc.contract.world import WorldText
 from skillc.services.scene_export import export_scene
 from skillc.services.scene_show import draw_from_above
 from skillc.services.scenes import picture_scene, view_world
-from skillc.workers.jobs import WorldText, WriteWorld
 from skillc_compiler.emit.picture.svg import draw_document
 
 

@@ -15,10 +15,10 @@ import pyoxigraph as ox
 from fuzz.kinds._pieces import EVENT, GOALS, JSON, MESSAGES, MODEL, PLAIN, SKILLS, SPARQL, TOML, TURTLE, XML
 from fuzz.kinds.texts import shelf, vocabulary
 from skillc.cli.layout import TerminalPage
+from skillc.contract.values import MAX_BODY_BYTES, check_name, check_why
 from skillc.lsp.messages import MalformedMessage, MessageReader, MessageWriter
 from skillc.server.problems import ApiRefusal
-from skillc.server.requests import MAX_BODY_BYTES, decode_body
-from skillc.server.values import check_name, check_why
+from skillc.server.requests import decode_body
 from skillc.services import libraries
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.errors import ServiceError

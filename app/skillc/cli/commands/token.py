@@ -14,7 +14,7 @@ from skillc.cli.server_completions import complete_token
 from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
-    from skillc.server.access.roles import Role
+    from skillc.contract.access import Role
 
 
 @click.group(cls=Group)

@@ -6,15 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-import msgspec
-
-
-class Lease(msgspec.Struct, frozen=True):
-    """The lease of a cell: who has it, and for how long yet, in s of wall time; nobody if `owner` is None."""
-
-    cell: str
-    owner: str | None
-    remaining_s: float
+from skillc.contract.lease import Lease
 
 
 class LeaseHeld(Exception):

@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias, get_args
-
-Role: TypeAlias = Literal["view", "operate", "edit", "admin"]
-"""`view`: see everything, and stop. `operate`: start operations and give commands. `edit`: change the world, libraries
-and scenes. `admin`: tokens, backups, cells."""
-
-ROLES: tuple[Role, ...] = get_args(Role)
+from skillc.contract.access import ROLES, Role
 
 
 def includes(role: Role, needed: Role) -> bool:

@@ -11,7 +11,7 @@ from secrets import token_urlsafe
 
 import msgspec
 
-from skillc.server.access.roles import Role
+from skillc.contract.access import Role, TokenInfo
 
 PREFIX = "skillc_"
 """What a token begins with, so that programs that search for leaked secrets find it."""
@@ -37,15 +37,6 @@ class Client(msgspec.Struct, frozen=True):
     name: str
     role: Role
     token: bytes
-    agent: bool = False
-
-
-class TokenInfo(msgspec.Struct, frozen=True):
-    """A token as it is listed, without its secret; `created_ns` is in ns since 1970-01-01 UTC."""
-
-    name: str
-    role: Role
-    created_ns: int
     agent: bool = False
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from msgspec import structs
 
 from skillc.cells.database import DatabaseError
-from skillc.cells.messages import Refused, Submit
+from skillc.contract.messages import Refused, Submit
 from skillc.contract.order import Order
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-from skillc.cells.messages import Acknowledge, Message, SetPace
-from skillc.contract.operation import CellStatus
-from skillc.server.api_types import PaceSetting, StopReason
+from skillc.contract.cell import CellStatus, PaceSetting
+from skillc.contract.messages import Acknowledge, Message, SetPace
+from skillc.contract.stopping import StopReason
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-from skillc.cells.messages import Disturb
-from skillc.contract.operation import CellStatus
+from skillc.contract.cell import CellStatus
+from skillc.contract.messages import Disturb
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell
 from skillc_runtime.devices.disturbances import Disturbance

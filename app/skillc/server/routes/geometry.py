@@ -6,13 +6,13 @@ from http import HTTPStatus
 
 import msgspec
 
-from skillc.cells.geometry import CellModel, SurfaceCoverage
-from skillc.cells.messages import TakeCoverage, TakeGeometry
-from skillc.cells.samples import PoseNumbers
+from skillc.contract.geometry import CellModel, SurfaceCoverage
+from skillc.contract.jobs import ListPoses
+from skillc.contract.messages import TakeCoverage, TakeGeometry
+from skillc.contract.sample import PoseNumbers
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, raise_refused
-from skillc.workers.jobs import ListPoses
 
 POSES_S = 10.0
 """How long the computation of all poses may take."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-from skillc.server.access.leases import Lease, LeaseHeld
+from skillc.contract.lease import Lease, LeaseRequest
+from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes
-from skillc.server.api_types import LeaseRequest
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.problems import LEASE_HELD, ApiRefusal
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from http import HTTPStatus
 from importlib.metadata import version
 
-from skillc.server.api_types import DeviceStatus, LibraryStatus, VersionInfo
+from skillc.contract.device import Device, DeviceStatus
+from skillc.contract.jobs import DescribeLibrary, ListDevices
+from skillc.contract.library import LibraryDescription, LibraryStatus
+from skillc.contract.version import VersionInfo
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.openapi import VERSION
 from skillc.server.outcome import UNAVAILABLE
 from skillc.server.routes.world import QUERY_S
-from skillc.workers.devices import Device
-from skillc.workers.jobs import DescribeLibrary, ListDevices
-from skillc.workers.libraries import LibraryDescription
 
 
 async def show_version(call: ApiCall) -> VersionInfo:

@@ -6,15 +6,14 @@ import asyncio
 from collections.abc import Mapping
 from contextlib import closing
 from http import HTTPStatus
-from typing import Annotated
 
-import msgspec
 from msgspec import structs
 
 from skillc.cells.journal.reading import LATEST_NS
-from skillc.cells.messages import Give, Refused, Submit
+from skillc.contract.history import EventPage, HistoryPage
+from skillc.contract.messages import Give, Refused, Submit
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.server.api_types import StopReason
+from skillc.contract.stopping import StopReason
 from skillc.server.context import open_journal
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
@@ -25,7 +24,6 @@ from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.envelope import Envelope, make_run_id
 
-Limit = Annotated[int, msgspec.Meta(ge=1, le=1000)]
 Command = (
     commands.Approve
     | commands.Pause
@@ -40,26 +38,6 @@ Command = (
     | commands.SetBreakpoints
 )
 """The commands that need the role `operate`; who gives one is its client, whatever it says."""
-
-
-class HistoryPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which part of a history: what was submitted before a wall time, in ns since 1970, and how much at most.
-
-    With `search` only those in which these words occur: in the id, in what was requested and by whom, or in how it
-    ended. `ongoing` for all operations that have not ended instead, in the order of their submission.
-    """
-
-    before_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] | None = None
-    limit: Limit = 100
-    search: Annotated[str, msgspec.Meta(max_length=200)] = ""
-    ongoing: bool = False
-
-
-class EventPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which events: those after a number, and how many at most."""
-
-    after: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
-    limit: Limit = 1000
 
 
 async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:

@@ -8,6 +8,7 @@ from http import HTTPStatus
 from msgspec import structs
 
 from skillc.cells.database import transaction
+from skillc.contract.jobs import CheckOperation
 from skillc.contract.order import Order, OrderRequest
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
@@ -17,7 +18,6 @@ from skillc.server.orders.store import TooManyOrders
 from skillc.server.outcome import UNAVAILABLE, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.routes.world import QUERY_S
-from skillc.workers.jobs import CheckOperation
 from skillc_runtime.recording.envelope import make_run_id
 
 LAST = datetime(2200, 1, 1, tzinfo=UTC)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-from skillc.server.api_types import PlanRequest
+from skillc.contract.jobs import Measure, PreviewPlan
+from skillc.contract.plan import PlanPreview, PlanRequest
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import ApiRefusal
-from skillc.workers.jobs import Measure, PlanPreview, PreviewPlan
 
 GRACE_S = 10.0
 """How long the planners may take to end after their deadline, with all that is not search."""

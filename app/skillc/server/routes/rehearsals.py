@@ -6,16 +6,16 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
-from skillc.cells.messages import TakeSnapshot
+from skillc.contract.jobs import CheckOperation
+from skillc.contract.messages import TakeSnapshot
+from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.problems import ApiRefusal
-from skillc.server.rehearsals import Rehearsal
 from skillc.server.routes.world import QUERY_S
 from skillc.server.simulation_jobs import MAX_WAITING
-from skillc.workers.jobs import CheckOperation, RehearsalRequest
 
 MCAP, VIDEO = "application/octet-stream", "video/mp4"
 

@@ -7,14 +7,13 @@ from pathlib import Path
 
 from starlette.responses import Response
 
-from skillc.cells.messages import TakeSnapshot
 from skillc.cells.recording_files import recording_file
-from skillc.server.api_types import ReportRequest
+from skillc.contract.messages import TakeSnapshot
+from skillc.contract.report import REPORT_TYPES, OperationReport, ReportRequest
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.problems import ApiRefusal
-from skillc.server.reports import TYPES, OperationReport
 from skillc.server.simulation_jobs import MAX_WAITING
 from skillc_runtime.execution.task_state import ENDS
 
@@ -49,7 +48,7 @@ async def read_report_file(call: ApiCall) -> Response:
     found = call.server.reports.find_file(operation, file)
     if found is None:
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"the report of `{operation}` has no file `{file}`")
-    response = send_file(found, TYPES[found.suffix])
+    response = send_file(found, REPORT_TYPES[found.suffix])
     response.headers["Content-Security-Policy"] = SANDBOX
     return response
 
@@ -72,7 +71,7 @@ ENDPOINTS = (
     ),
     ApiEndpoint(
         "GET", f"{PATH}/{{file}}", "view", "Read a file of a report: the report itself, the film, a picture",
-        read_report_file, refusals=NOT_FOUND, media_types=tuple(TYPES.values()),
+        read_report_file, refusals=NOT_FOUND, media_types=tuple(REPORT_TYPES.values()),
     ),
     ApiEndpoint(
         "DELETE", PATH, "operate", "End and forget a report", remove_report, status=HTTPStatus.NO_CONTENT,

@@ -4,54 +4,20 @@ from __future__ import annotations
 
 from http import HTTPStatus
 from pathlib import Path
-from typing import Annotated
-
-import msgspec
 
 from skillc.cells.recording_files import recording_file
+from skillc.contract.explanation import Question, RunExplanation
+from skillc.contract.run_diff import OtherRun, RunDiff
+from skillc.contract.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, ShowTree
+from skillc.contract.run_tree import OperationTree
+from skillc.contract.signals import SignalPage, SignalRows
 from skillc.server.asking import ask_about_run
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.routes.recordings import wait_until_complete
-from skillc.services.operation_tree import OperationTree
-from skillc.services.run_diff.difference import RunDiff
-from skillc.workers.run_jobs import (
-    CompareRuns,
-    ExplainRun,
-    ReadSignals,
-    RunExplanation,
-    RunFiles,
-    ShowTree,
-    SignalRows,
-)
 from skillc_runtime.execution.task_state import ENDS
 
 READ_S = 20.0
 """How long reading a run may take, in s."""
-Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e9)]
-
-
-class Question(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What to explain besides: a step, a skill, an implementation or a parameter, as of `skillc why`."""
-
-    question: Annotated[str, msgspec.Meta(max_length=200)] = ""
-
-
-class SignalPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which signals: those whose columns contain one of the words in `match`, separated by commas; all without.
-
-    Those after `after_s` until `until_s` of the cell's time, `every_s` apart at least.
-    """
-
-    match: Annotated[str, msgspec.Meta(max_length=500)] = ""
-    after_s: Annotated[float, msgspec.Meta(ge=-1.0, le=1e9)] = -1.0
-    until_s: Seconds = 1e9
-    every_s: Seconds = 0.0
-
-
-class OtherRun(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The operation to compare with."""
-
-    other: Annotated[str, msgspec.Meta(max_length=200)]
 
 
 async def show_tree(call: ApiCall) -> OperationTree:

@@ -6,7 +6,7 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
-from skillc.server.api_types import LoginCode, SessionInfo
+from skillc.contract.access import LoginCode, SessionInfo
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 
 

@@ -4,36 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from http import HTTPStatus
-from typing import Annotated
 
-import msgspec
-
+from skillc.contract.source import SourceChange, SourceInfo, SourcePath, SourceText
 from skillc.server.endpoint import ApiCall, ApiEndpoint
-from skillc.server.library_sources import (
-    NotEditable,
-    SourceChanged,
-    SourceInfo,
-    SourceText,
-    list_sources,
-    read_source,
-    write_source,
-)
+from skillc.server.library_sources import NotEditable, SourceChanged, list_sources, read_source, write_source
 from skillc.server.problems import ApiRefusal
-from skillc.server.requests import MAX_BODY_BYTES
 from skillc.services.errors import ServiceError
-
-
-class SourcePath(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which text, by its path in the library."""
-
-    path: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
-
-
-class SourceChange(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A new text, in the place of the one whose file has the hash `base_hash`."""
-
-    text: Annotated[str, msgspec.Meta(max_length=MAX_BODY_BYTES)]
-    base_hash: Annotated[str, msgspec.Meta(pattern="^[0-9a-f]{64}$")]
 
 
 async def list_library_sources(call: ApiCall) -> tuple[SourceInfo, ...]:

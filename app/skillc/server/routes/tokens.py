@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-from skillc.server.access.tokens import TokenExists, TokenInfo
-from skillc.server.api_types import MadeToken, NewToken
+from skillc.contract.access import MadeToken, NewToken, TokenInfo
+from skillc.server.access.tokens import TokenExists
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.problems import ApiRefusal
 

@@ -6,17 +6,16 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
-from skillc.cells.messages import TakeSnapshot
+from skillc.contract.jobs import CheckTrials
+from skillc.contract.messages import TakeSnapshot
+from skillc.contract.trials import TrialReplay, TrialSeries, TrialsRequest
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.simulation_jobs import MAX_WAITING
-from skillc.server.trials.replays import TrialReplay
 from skillc.server.trials.running import MAX_UNFINISHED
-from skillc.server.trials.store import TrialSeries
-from skillc.workers.jobs import CheckTrials, TrialsRequest
 from skillc_runtime.evaluation.trials.series import Series
 
 MCAP = "application/octet-stream"

@@ -3,63 +3,29 @@
 from __future__ import annotations
 
 from http import HTTPStatus
-from typing import Annotated
 
-import msgspec
-
-from skillc.cells.messages import Edit, Place
-from skillc.server.api_types import WorldEdit, WorldPlacement, WorldQuery
+from skillc.contract.jobs import ListFacts, ListThings, ListWrites, QueryWorld, WriteWorld
+from skillc.contract.messages import Edit, Place
+from skillc.contract.world import (
+    MAX_NUMBER,
+    DocumentForm,
+    FactPage,
+    PlacedThing,
+    QueryRows,
+    WorldEdit,
+    WorldFacts,
+    WorldPlacement,
+    WorldQuery,
+    WorldText,
+    WorldWrite,
+    WritePage,
+)
 from skillc.server.asking import ask_about
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.outcome import UNAVAILABLE, command_cell
-from skillc.services.placed_thing import PlacedThing
-from skillc.workers.jobs import (
-    ListFacts,
-    ListThings,
-    ListWrites,
-    QueryRows,
-    QueryWorld,
-    WorldFacts,
-    WorldFormat,
-    WorldText,
-    WorldWrite,
-    WriteWorld,
-)
 
 QUERY_S = 10.0
 """How long the answer to a query may take."""
-MAX_NUMBER = 2**63 - 1
-Name = Annotated[str, msgspec.Meta(max_length=500)]
-
-
-class FactPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which facts: about an individual, or those of a class; names are IRIs or `prefix:name`.
-
-    With `search` only those about individuals whose names, labels, classes or texts contain these words.
-    """
-
-    subject: Name | None = None
-    type: Name | None = None
-    search: Name | None = None
-    offset: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
-    limit: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 200
-
-
-class DocumentForm(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """RDF in a format, `graph`, a picture of individuals and relations, or `top-view`; both pictures are SVG.
-
-    With `everything` RDF has the facts of data sheets, too.
-    """
-
-    format: WorldFormat = "turtle"
-    everything: bool = False
-
-
-class WritePage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which writes: those before a number, the last one first, and how many at most."""
-
-    before: Annotated[int, msgspec.Meta(ge=0, le=MAX_NUMBER)] | None = None
-    limit: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 100
 
 
 async def list_facts(call: ApiCall) -> WorldFacts:

@@ -4,26 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
-import msgspec
-
+from skillc.contract.jobs import RecordTrial
+from skillc.contract.trials import TrialReplay, TrialSeries
 from skillc.server.simulation_jobs import SimulationJobs
-from skillc.server.trials.store import TrialSeries
 from skillc.services.recordings import RECORDING
-from skillc.workers.jobs import RecordTrial
-from skillc_runtime.evaluation.report.result import TaskResult
-
-
-class TrialReplay(msgspec.Struct, frozen=True, kw_only=True):
-    """A trial of a series that is run again. `recording` is whether it has one; `reason` is why it has no `result`."""
-
-    series: str
-    seed: int
-    state: Literal["going on", "ended"] = "going on"
-    reason: str = ""
-    result: TaskResult | None = None
-    recording: bool = False
 
 
 @dataclass(frozen=True, slots=True)

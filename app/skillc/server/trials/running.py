@@ -7,9 +7,10 @@ import sqlite3
 from contextlib import closing, suppress
 from dataclasses import dataclass, field
 
+from skillc.contract.jobs import RunTrial
+from skillc.contract.trials import TrialSeries, TrialsRequest
 from skillc.server.log import log
-from skillc.server.trials.store import TrialSeries, TrialStore
-from skillc.workers.jobs import RunTrial, TrialsRequest
+from skillc.server.trials.store import TrialStore
 from skillc.workers.pool import JobCrashed, JobFailed, JobTimedOut, TooManyJobs, Workers
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.recording.envelope import make_run_id

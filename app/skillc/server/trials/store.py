@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterable, Iterator
-from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc.contract.trials import SeriesState, TrialSeries, TrialsRequest
 from skillc.services.assignments import write_call
-from skillc.workers.jobs import TrialsRequest
 from skillc_runtime.evaluation.trials.series import Series, judge_series
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
@@ -39,23 +38,6 @@ COLUMNS = """
 SELECT id, cell, request, state, reason, (SELECT count(*) FROM trials WHERE series = id),
     (SELECT coalesce(sum(passed), 0) FROM trials WHERE series = id) FROM trial_series
 """
-
-SeriesState: TypeAlias = Literal["waiting", "going on", "ended", "interrupted"]
-
-
-class TrialSeries(msgspec.Struct, frozen=True, kw_only=True):
-    """Trials of a task from the scene of a cell: how many are `done`, and how many of these met all criteria.
-
-    `interrupted`: the server has ended before. `reason` is why no more were done.
-    """
-
-    id: str
-    cell: str
-    request: TrialsRequest
-    state: SeriesState
-    reason: str = ""
-    done: int = 0
-    passed: int = 0
 
 
 class TrialStore:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import zip_longest
 
-from skillc.services.run_diff.difference import Difference, Leaf, compare_mappings, find_difference
+from skillc.contract.run_diff import Difference, Leaf
+from skillc.services.run_diff.difference import compare_mappings, find_difference
 from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.world.state.labelled import LabelledValue
 from skillc_runtime.world.state.labelled_text import format_value

@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 
+from skillc.contract.run_diff import Difference, Leaf, Part, RunDiff
 from skillc.services.run_diff.calls import (
     compare_choices,
     compare_durations,
@@ -16,7 +17,7 @@ from skillc.services.run_diff.calls import (
     compare_plans,
     pair_calls,
 )
-from skillc.services.run_diff.difference import Difference, Leaf, Part, RunDiff, compare_mappings, find_difference
+from skillc.services.run_diff.difference import compare_mappings, find_difference
 from skillc.services.run_diff.recorded import RecordedRunData
 from skillc.services.run_diff.signals import compare_signals
 from skillc_model.format_condition import format_condition

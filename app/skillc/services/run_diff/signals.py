@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from skillc.services.run_diff.difference import Difference, find_difference
+from skillc.contract.run_diff import Difference
+from skillc.services.run_diff.difference import find_difference
 from skillc_runtime.motion.pose import Array
 
 DIGITS = 1e-8

@@ -7,6 +7,7 @@ from typing import Annotated, TypeAlias
 
 import msgspec
 
+MAX_BODY_BYTES = 2**20
 _NAME, _WORDS = r"^[A-Za-z0-9][A-Za-z0-9_.-]*$", r"\S"
 Why: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=500, extra_json_schema={"pattern": _WORDS})]
 """Why a person changes the world; `check_why` says if there are no words in it."""

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc.cells.samples import PoseNumbers
+from skillc.contract.sample import PoseNumbers
 from skillc_runtime.devices.simulation import IndividualKind
 
 Vector: TypeAlias = tuple[float, float, float]

@@ -10,9 +10,10 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc.cells.samples import PoseNumbers
-from skillc.contract.operation import CellStatus, OperationRequest, OperationStatus
-from skillc.services.diagnosis import NO_DIAGNOSIS, Diagnosis
+from skillc.contract.cell import CellStatus
+from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis
+from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.contract.sample import PoseNumbers
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.recording.commands import Command
 

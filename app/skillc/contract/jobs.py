@@ -1,0 +1,149 @@
+"""What a worker can be asked about a snapshot of a cell, and what it answers."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis
+from skillc.contract.rehearsal import RehearsalRequest
+from skillc.contract.trials import TrialsRequest
+from skillc.contract.world import WorldFormat
+
+
+class QueryWorld(msgspec.Struct, frozen=True, tag="query"):
+    """Answer a SPARQL query over the facts, the data sheets and the vocabulary."""
+
+    sparql: str
+
+
+class ListFacts(msgspec.Struct, frozen=True, tag="facts"):
+    """List the stated facts about the individuals of a class, or about one, but not those of data sheets.
+
+    Names are IRIs or `prefix:name`; None stands for all. With `words`, those whose names, labels, classes or texts
+    contain them.
+    """
+
+    subject: str | None
+    cls: str | None
+    words: str | None
+    offset: int
+    limit: int
+
+
+class WriteWorld(msgspec.Struct, frozen=True, tag="write-world"):
+    """Write the world of the cell of a name in a format; RDF with the facts of data sheets if `everything`."""
+
+    cell: str
+    format: WorldFormat
+    everything: bool
+
+
+class ListThings(msgspec.Struct, frozen=True, tag="things"):
+    """List the things that have a pose of their own or a size."""
+
+
+class ListWrites(msgspec.Struct, frozen=True, tag="writes"):
+    """List the last writes before a number, the last one first, from the journal of the cell."""
+
+    journal: str
+    before: int
+    limit: int
+
+
+class DescribeLibrary(msgspec.Struct, frozen=True, tag="library"):
+    """Describe the library of the cell."""
+
+
+class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
+    """List the devices of the cell."""
+
+
+class ListPoses(msgspec.Struct, frozen=True, tag="poses"):
+    """List where the individuals of the cell are in the world, but not those of data sheets."""
+
+
+class CheckOperation(msgspec.Struct, frozen=True, tag="check"):
+    """Check that an operation could be submitted now; its values are those of an OperationRequest."""
+
+    task: str | None
+    goal: str | None
+    call: str | None
+    arguments: dict[str, str]
+    breakpoints: tuple[str, ...]
+
+
+class PreviewPlan(msgspec.Struct, frozen=True, tag="plan"):
+    """Plan for a task with arguments, or for a goal; the search ends after `deadline_s` s."""
+
+    task: str | None
+    goal: str | None
+    arguments: dict[str, str]
+    measure: Measure
+    deadline_s: float
+
+
+class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
+    """Do in a simulated twin of the cell what an operation would; what it wants of it is written to a folder."""
+
+    request: RehearsalRequest
+    folder: str
+
+
+class MakeReport(msgspec.Struct, frozen=True, tag="report"):
+    """Write the report of the operation that is recorded in a file to a folder, with a film or without."""
+
+    recording: str
+    folder: str
+    film: bool = True
+
+
+class CheckTrials(msgspec.Struct, frozen=True, tag="check trials"):
+    """Check that trials can be run from the file of a scene."""
+
+    request: TrialsRequest
+    scene: str
+
+
+class RunTrial(msgspec.Struct, frozen=True, tag="trial"):
+    """Run the trial of a seed from the file of a scene; None for the seed only loads and plans."""
+
+    request: TrialsRequest
+    scene: str
+    seed: int | None
+
+
+class RecordTrial(msgspec.Struct, frozen=True, tag="record trial"):
+    """Run the trial of a seed from the file of a scene again, and record it in a folder."""
+
+    request: TrialsRequest
+    scene: str
+    seed: int
+    folder: str
+
+
+Question: TypeAlias = (
+    QueryWorld
+    | ListFacts
+    | WriteWorld
+    | ListThings
+    | ListWrites
+    | DescribeLibrary
+    | ListDevices
+    | ListPoses
+    | CheckOperation
+    | PreviewPlan
+)
+SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial | RecordTrial
+Job: TypeAlias = Question | SimulationJob
+
+
+class JobRefused(msgspec.Struct, frozen=True):
+    """Why a job cannot be done; `why` is empty if a `diagnosis` says more."""
+
+    why: str = ""
+    diagnosis: Diagnosis = NO_DIAGNOSIS
+
+
+Measure: TypeAlias = Literal["work", "proven work", "makespan"]

@@ -1,0 +1,72 @@
+"""Plans for a cell: what would be done, or why nothing can be."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import msgspec
+
+MAX_PLANNING_S = 60.0
+
+
+class PlanRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A task of the cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
+
+    `prove` searches until the least work is proved; the search ends after `deadline_s` s.
+    """
+
+    task: str | None = None
+    goal: str | None = None
+    arguments: dict[str, str] = {}
+    minimise: Literal["work", "makespan"] = "work"
+    prove: bool = False
+    deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PLANNING_S)] = 30.0
+
+
+class PreviewedStep(msgspec.Struct, frozen=True):
+    """A step of a plan: its skill, its arguments in short names, where the skill is defined, and when it runs, in s.
+
+    The times are those of a schedule; without one they are None.
+    """
+
+    skill: str
+    arguments: dict[str, str]
+    source: str
+    start_s: float | None = None
+    duration_s: float | None = None
+
+
+class OmittedPart(msgspec.Struct, frozen=True):
+    """Things without which a plan was made, and why; `harmless` if that is proved to make no difference."""
+
+    kind: str
+    what: tuple[str, ...]
+    why: str
+    harmless: bool
+
+
+class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
+    """The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
+
+    `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
+    of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends.
+    """
+
+    status: Literal["solved", "unsolvable", "gave-up"]
+    sequence: int
+    text: str
+    plan: tuple[PreviewedStep, ...] = ()
+    plan_optimal: bool = False
+    optimal: str = ""
+    at_least_s: float | None = None
+    quality: str = ""
+    assumptions: tuple[str, ...] = ()
+    left_out: tuple[OmittedPart, ...] = ()
+    duration_s: float | None = None
+    makespan_s: float | None = None
+    planner: str = ""
+    times: str | None = None
+    note: str | None = None
+    failure: str = ""
+    causes: tuple[str, ...] = ()
+    searched: bool | None = None

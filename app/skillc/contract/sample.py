@@ -1,0 +1,60 @@
+"""What moves in a cell at one instant, for displays: samples may be dropped, events never are."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+PoseNumbers = tuple[float, float, float, float, float, float, float]
+"""A pose in the world: position in m, then the unit quaternion (w, x, y, z)."""
+
+
+class ArmSample(msgspec.Struct, frozen=True):
+    """An arm: joint angles in rad and speeds in rad/s, as measured last, and the poses of base and tool in the world.
+
+    `wrench` is what a force-torque sensor measures on the tool, N and N m, in the arm's base frame; None without one.
+    """
+
+    joints: tuple[float, ...]
+    speeds: tuple[float, ...]
+    base: PoseNumbers
+    tool: PoseNumbers
+    wrench: tuple[float, float, float, float, float, float] | None = None
+
+
+class ForceSample(msgspec.Struct, frozen=True):
+    """The true force in N with which what a tool touches presses on its working face, at a point in m, in the world."""
+
+    force: tuple[float, float, float]
+    point: tuple[float, float, float]
+
+
+class Sample(msgspec.Struct, frozen=True):
+    """A simulated cell at `time_s` of its clock: its arms, and where things really are in the world, both by IRI.
+
+    `joints` are the angles in rad and ways in m of what moves otherwise, as fingers and drawers, by the names of the
+    cell's model; `forces` the contact forces on tools, by IRI of the tool, where there are any.
+    """
+
+    cell: str
+    time_s: float
+    arms: dict[str, ArmSample]
+    things: dict[str, PoseNumbers]
+    joints: dict[str, float] = {}
+    forces: dict[str, ForceSample] = {}
+
+
+MAX_HZ = 50.0
+"""How many samples a second there are at most."""
+
+
+class SampleHello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The first message of a client, as JSON: its token, the cell, and how many samples a second it wants.
+
+    A page has the cookie of a session instead of a token.
+    """
+
+    cell: Annotated[str, msgspec.Meta(max_length=200)]
+    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None
+    rate_hz: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_HZ)] = 10.0
