@@ -44,9 +44,9 @@ if TYPE_CHECKING:
     from skillc.client.errors import UnavailableError as UnavailableError
     from skillc.client.operation import ServerOperation as ServerOperation
     from skillc.client.server import Server as Server
-    from skillc.services.errors import DiagnosticsError as DiagnosticsError
-    from skillc.services.errors import RequestError as RequestError
-    from skillc.services.errors import SkillcError as SkillcError
+    from skillc.errors import DiagnosticsError as DiagnosticsError
+    from skillc.errors import RequestError as RequestError
+    from skillc.errors import SkillcError as SkillcError
     from skillc_dsl.diagnostics import Diagnostic as Diagnostic
 
 _MODULES = {
@@ -55,7 +55,7 @@ _MODULES = {
     "AsyncOperation": "skillc.client.async_operation",
     "AsyncServer": "skillc.client.async_server",
     "Diagnostic": "skillc_dsl.diagnostics",
-    "DiagnosticsError": "skillc.services.errors",
+    "DiagnosticsError": "skillc.errors",
     "EventStream": "skillc.api.event_stream",
     "Figure": "skillc.api.picture",
     "Film": "skillc.api.picture",
@@ -66,13 +66,13 @@ _MODULES = {
     "PlannedStep": "skillc.api.planning",
     "PlanningError": "skillc.api.planning",
     "RefusedError": "skillc.client.errors",
-    "RequestError": "skillc.services.errors",
+    "RequestError": "skillc.errors",
     "Run": "skillc.api.run",
     "Scene": "skillc.api.scene",
     "Server": "skillc.client.server",
     "ServerCell": "skillc.client.cell",
     "ServerOperation": "skillc.client.operation",
-    "SkillcError": "skillc.services.errors",
+    "SkillcError": "skillc.errors",
     "QueryResult": "skillc.api.table",
     "Trials": "skillc.api.trials",
     "UnavailableError": "skillc.client.errors",

@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
+from skillc.errors import RequestError
 from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.errors import RequestError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import Compound, SkillLibrary

@@ -12,7 +12,7 @@ import pytest
 from planners.test_schedule_simulation import BOTH, GOOD, WORLD, carry, in_order, step
 from planning.samples import LAB, library, post, skill
 from plans import depot
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.planning import with_minimal_makespan
 from skillc.services.task_loading import LoadedTask
 from skillc_model.conditions import Condition, Holds, Individual

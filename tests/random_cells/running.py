@@ -12,8 +12,8 @@ from random_cells.drawing import TABLE_M
 from random_cells.happening import Hand
 from random_cells.spoiling import AWAY_M, SERIES, Case
 from random_cells.writing import TASK, format_scene, write_cell
+from skillc.errors import DiagnosticsError
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.errors import DiagnosticsError
 from skillc.services.reporting import SilentReporter
 from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell

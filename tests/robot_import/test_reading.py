@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from robot_import.arms import GEN3, railed, six
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.comparison import POSTURES
 from skillc.services.robot_import.mjcf_writer import write_mjcf
 from skillc.services.robot_import.proof import prove_same

@@ -17,8 +17,8 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.contract.cell import CellState
 from skillc.contract.messages import Acknowledge, Edit, Refused, Submit, TakeSnapshot
 from skillc.contract.operation import OperationStatus
+from skillc.errors import RequestError
 from skillc.server.supervisor import CellSupervisor
-from skillc.services.errors import RequestError
 from skillc.services.replaying.check import check_run
 from skillc.services.reporting import SilentReporter
 from skillc_ontology import catalogue

@@ -17,7 +17,7 @@ from running_cells.yard import CRATES, find_settings, write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.world.state.terms import CONTAIN

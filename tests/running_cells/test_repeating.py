@@ -17,8 +17,8 @@ from skillc.cells.recording_files import recording_file
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import Edit
 from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.errors import ServiceError
 from skillc.services.backends import BackendName
-from skillc.services.errors import ServiceError
 from skillc.services.replaying.check import ReplayCheck, check_run
 from skillc.services.replaying.report import report_recorded
 from skillc.services.reporting import SilentReporter

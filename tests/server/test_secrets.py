@@ -11,8 +11,8 @@ import pytest
 
 from server.running import RunningServer
 from server.test_recordings import CARRY
+from skillc.errors import ServiceError
 from skillc.server.state import open_state
-from skillc.services.errors import ServiceError
 
 
 def test_a_file_that_holds_no_token_is_not_overwritten(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from click.testing import CliRunner, Result
 
 from running_cells.yard import write_yard
 from skillc.cli.main import skillc
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.library_files import SHIPPED
 from skillc.services.studio_choice import choose_studio
 

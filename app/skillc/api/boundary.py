@@ -9,7 +9,7 @@ from math import inf
 from pathlib import Path
 from typing import TypeAlias, TypeVar, get_args
 
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue

@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.recordings import read_signals
 from skillc.services.signal_files import read_signal_dictionary
 from skillc_runtime.recording.signals.files import DICTIONARY

@@ -11,8 +11,8 @@ from typing import Any
 from skillc.api.boundary import AnyPath, api_call, optional_path, require_path, require_text
 from skillc.api.frames import make_table
 from skillc.api.picture import Picture
+from skillc.errors import DiagnosticsError
 from skillc.services.checking import CheckRequest, check_paths, check_sources
-from skillc.services.errors import DiagnosticsError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.pictures import draw_declaration

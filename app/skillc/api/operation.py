@@ -12,7 +12,7 @@ from skillc.api.boundary import api_call, read_pace, refusing_values, require_ch
 from skillc.api.event_stream import EventStream
 from skillc.api.operation_state import LOOK_S, OperationState
 from skillc.api.run import Run
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.api.boundary import AnyPath, require_path
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.files import writing_to
 
 

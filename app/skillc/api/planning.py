@@ -19,7 +19,7 @@ from skillc.api.boundary import (
 )
 from skillc.api.frames import make_frame, make_table
 from skillc.api.picture import Picture
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.plan_text import describe_answer, format_plan
 from skillc.services.planning import Answer, plan_goal, prepare_planners
 from skillc.services.schedule_picture import draw_schedule

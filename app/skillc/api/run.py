@@ -13,7 +13,7 @@ import msgspec
 from skillc.api.boundary import AnyPath, NoticeList, api_call, require_choice, require_path, require_text
 from skillc.api.frames import make_frame, make_table, read_signal_frame
 from skillc.api.picture import Figure, Film
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.recordings import answer_question, find_mcap, find_recording, is_mcap, read_envelopes, read_result
 from skillc.services.replaying.playback import play_paced
 from skillc.services.story_text import format_answer, format_overview

@@ -27,8 +27,8 @@ from skillc.api.operation import Operation
 from skillc.api.operation_state import Monitor, OperationState
 from skillc.api.planning import Minimise, make_request
 from skillc.api.run import Run
+from skillc.errors import RequestError, ServiceError
 from skillc.services.backends import BackendName
-from skillc.services.errors import RequestError, ServiceError
 from skillc.services.files import check_writable
 from skillc.services.planning import prepare_planners, with_minimal_makespan
 from skillc.services.recordings import find_mcap

@@ -22,9 +22,9 @@ from skillc.api.picture import Picture
 from skillc.api.planning import Minimise, Plan, make_plan
 from skillc.api.run import Run
 from skillc.api.table import QueryResult
+from skillc.errors import RequestError
 from skillc.services import scenes
 from skillc.services.assignments import assign_call, assign_goal
-from skillc.services.errors import RequestError
 from skillc.services.files import writing_to
 from skillc.services.scene_export import world_graph
 from skillc.services.scenes import FactText, OpenScene

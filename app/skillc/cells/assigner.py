@@ -11,7 +11,7 @@ from threading import Thread
 from skillc.cells.assigning import assign_request
 from skillc.contract.messages import Submit
 from skillc.contract.operation import OperationRequest
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.world.state.world_state import WorldState

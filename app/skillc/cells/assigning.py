@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from skillc.errors import RequestError
 from skillc.services.assignments import assign_call, assign_goal, assign_task
-from skillc.services.errors import RequestError
 from skillc.services.libraries import find_task
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment

@@ -10,7 +10,7 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.contract.cell import CellState
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_runtime.devices.backend import DeviceStop, StopPersists
 from skillc_runtime.execution.cell_loop import CellLoop, NotDurable
 

@@ -9,7 +9,7 @@ from msgspec import structs
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader, RecordedOperation
 from skillc.contract.operation import OperationRequest
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.continuation import Continuation, continue_run, find_decisions

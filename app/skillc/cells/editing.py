@@ -11,7 +11,7 @@ import numpy as np
 from skillc.cells.submitted import SubmittedOperation
 from skillc.contract.messages import Edit, Place
 from skillc.contract.sample import PoseNumbers
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.world_edits import read_edits
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.world_edit import recorded_changes

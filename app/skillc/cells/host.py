@@ -30,8 +30,8 @@ from skillc.cells.world import restore_world
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import Edit, Place
 from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.errors import RequestError
 from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.errors import RequestError
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, read_or_fill

@@ -19,7 +19,7 @@ from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
 from skillc.cells.service import CellService
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import Preparing, StartFailed
-from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc.errors import DiagnosticsError, ServiceError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import exempt_from_gc
 from skillc_dsl.source import Source

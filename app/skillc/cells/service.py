@@ -36,8 +36,8 @@ from skillc.contract.messages import (
     TakeSample,
     TakeSnapshot,
 )
+from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.diagnosis import diagnose
-from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests
 from skillc_runtime.execution.pace import FAST, Pace
 

@@ -14,7 +14,7 @@ from skillc.cli.run_progress import RunProgress
 from skillc.cli.run_view import EventView
 from skillc.client.cell import ServerCell
 from skillc.client.operation import ServerOperation
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc_runtime.execution.pace import FAST, Pace
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.commands import Command

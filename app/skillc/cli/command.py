@@ -9,7 +9,7 @@ import click
 
 from skillc.cli.console import Terminal, print_error
 from skillc.cli.settings import GroupedOption, output_options
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc_ontology import catalogue
 
 OPTIONS, OUTPUT = "Options", "Output"

@@ -8,7 +8,7 @@ from click.shell_completion import CompletionItem
 
 def complete_task(_context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the tasks whose names begin so, with what they do."""
-    from skillc.services.errors import ServiceError
+    from skillc.errors import ServiceError
     from skillc.services.task_list import list_tasks
 
     try:

@@ -12,7 +12,7 @@ import click
 
 from skillc.cli.layout import TerminalPage
 from skillc.cli.settings import output_settings
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import MOST_BYTES
 from skillc_dsl.source import Source

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.project.project import find_project
 
 WITH_DEFAULTS = ("run", "plan", "trials")

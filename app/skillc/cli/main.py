@@ -19,8 +19,8 @@ from skillc.cli.defaults import WITH_DEFAULTS, read_defaults
 from skillc.cli.interrupts import Interrupted, raising_on_signals
 from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
 from skillc.cli.usage_errors import print_click_error
+from skillc.errors import OutputError
 from skillc.services import crash_reports
-from skillc.services.errors import OutputError
 
 COMMANDS = Path(__file__).parent / "commands"
 INTERNAL = 70

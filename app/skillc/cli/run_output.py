@@ -10,7 +10,7 @@ from skillc.cli.console import Terminal, find_display_obstacle, page_of, print_r
 from skillc.cli.result_output import format_ending, format_result
 from skillc.cli.run_progress import RunProgress
 from skillc.cli.settings import output_settings
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.run_result import RunResult
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import LoadedTask

@@ -13,7 +13,7 @@ from click.shell_completion import CompletionItem
 from skillc.cli.completions import complete_task
 from skillc.cli.operation_remarks import describe_state
 from skillc.cli.server_connection import CELL, URL, connect_server
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 
 if TYPE_CHECKING:
     from skillc.client.cell import ServerCell

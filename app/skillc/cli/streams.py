@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, TextIO, cast
 
-from skillc.services.errors import OutputError
+from skillc.errors import OutputError
 
 
 class _Stream:

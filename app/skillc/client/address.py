@@ -8,8 +8,8 @@ from ipaddress import ip_address
 from pathlib import Path
 from urllib.parse import urlsplit
 
+from skillc.errors import RequestError
 from skillc.server.state import ADMIN_TOKEN, read_address, read_token
-from skillc.services.errors import RequestError
 
 DEFAULT_URL = "http://127.0.0.1:8421"
 URL_VARIABLE, TOKEN_VARIABLE = "SKILLC_SERVER", "SKILLC_TOKEN"

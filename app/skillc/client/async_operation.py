@@ -17,7 +17,7 @@ from skillc.client.retries import Retries
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.contract.report import OperationReport
 from skillc.contract.stopping import StopReason
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording import commands

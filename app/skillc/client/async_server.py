@@ -15,7 +15,7 @@ from skillc.contract.cell import CellStatus
 from skillc.contract.library import LibraryStatus
 from skillc.contract.operation import OperationStatus
 from skillc.contract.version import VersionInfo
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 
 
 class AsyncServer:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from skillc.api.boundary import AnyPath, optional_path, optional_text
 from skillc.client.address import find_address
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 
 if TYPE_CHECKING:
     from skillc.client.async_server import AsyncServer

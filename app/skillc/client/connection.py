@@ -13,7 +13,7 @@ import msgspec
 from skillc.client.address import ServerAddress
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.contract.problem import ProblemDetails
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc_dsl.rendering.json import from_data
 from skillc_dsl.source import Source
 

@@ -17,7 +17,7 @@ from skillc.contract.cell import CellStatus
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationStatus
 from skillc.contract.sample import Sample
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc_runtime.recording.envelope import Envelope
 
 ENDED, REFUSED = 1000, 1008

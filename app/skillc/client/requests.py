@@ -19,7 +19,7 @@ from skillc.contract.order import Missed, OrderRequest
 from skillc.contract.plan import PlanRequest
 from skillc.contract.rehearsal import RehearsalRequest
 from skillc.contract.trials import TrialsRequest
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
+from skillc.errors import DiagnosticsError
 from skillc.services import library_files
-from skillc.services.errors import DiagnosticsError
 from skillc.services.library_files import (
     SHIPPED,
     LibraryFiles,

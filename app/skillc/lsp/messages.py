@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 from lsprotocol import types
 from pygls.protocol import LanguageServerProtocol
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 
 LONGEST_HEADER = 1 << 12
 MOST_BYTES = 1 << 28

@@ -11,13 +11,13 @@ from typing import Any, BinaryIO, TypeAlias, cast
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
+from skillc.errors import OutputError
 from skillc.lsp import edits as writing
 from skillc.lsp import notifications as documents
 from skillc.lsp import queries as reading
 from skillc.lsp.files import is_rdf
 from skillc.lsp.messages import MessageReader, MessageWriter, Protocol
 from skillc.lsp.session import Session
-from skillc.services.errors import OutputError
 
 Handler: TypeAlias = Callable[[Session, Any], object]
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from skillc.cells.adopting import adopt_world
 from skillc.cells.database import DatabaseError
+from skillc.errors import RequestError, ServiceError
 from skillc.server.state import CELLS
-from skillc.services.errors import RequestError, ServiceError
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.world.state.transactions import StoreError
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.cells.settings import CellSettings
+from skillc.errors import RequestError
 from skillc.server.served_library import ServedLibrary, open_library
 from skillc.server.state import CELLS
 from skillc.services.backends import BackendName
-from skillc.services.errors import RequestError
 from skillc.services.library_files import find_scene
 from skillc.services.project.project import find_project
 from skillc.services.task_scenes import default_scene

@@ -8,9 +8,9 @@ from hashlib import sha256
 from pathlib import Path
 
 from skillc.contract.source import SourceText
+from skillc.errors import DiagnosticsError, ServiceError
 from skillc.server.library_stamp import list_files
 from skillc.server.served_library import ServedLibrary
-from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.files import rewrite_file
 from skillc.services.library_files import SHIPPED
 from skillc.services.project.project import Project, find_project

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import msgspec
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 
 MAX_BYTES, FILES = 10_000_000, 5
 """The size of a file, and how many older ones are kept."""

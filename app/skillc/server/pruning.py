@@ -12,10 +12,10 @@ from skillc.cells.journal.pruning import prune_journal
 from skillc.cells.recording_files import RECORDINGS, recording_file
 from skillc.cells.settings import JOURNAL
 from skillc.contract.audit import AuditEntry
+from skillc.errors import RequestError, ServiceError
 from skillc.server.audit import AuditLog
 from skillc.server.idempotency import RequestKeys
 from skillc.server.state import CELLS, DATABASE, SCHEMA
-from skillc.services.errors import RequestError, ServiceError
 
 
 def prune(state: Path, before_ns: int | None, max_bytes: int | None) -> dict[str, int]:

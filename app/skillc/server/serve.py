@@ -15,6 +15,7 @@ from skillc.cells.database import DatabaseError
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import StatusChanged
 from skillc.contract.values import MAX_BODY_BYTES
+from skillc.errors import ServiceError
 from skillc.server.app import Application
 from skillc.server.cells import ServedCells
 from skillc.server.connections import BoundedConnection
@@ -27,7 +28,6 @@ from skillc.server.log import log
 from skillc.server.orders.submitting import keep_submitting
 from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
-from skillc.services.errors import ServiceError
 from skillc.services.reporting import Reporter
 from skillc_dsl.garbage import exempt_from_gc
 from skillc_runtime.platforms.open_files import raise_open_files_limit

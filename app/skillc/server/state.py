@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.cells.database import DatabaseError, Schema, describe_error, open_for_writing
+from skillc.errors import ServiceError
 from skillc.server.access.sessions import TABLE as SESSIONS
 from skillc.server.access.sessions import Sessions
 from skillc.server.access.tokens import PREFIX, Tokens
@@ -18,7 +19,6 @@ from skillc.server.audit import TABLE as AUDIT
 from skillc.server.idempotency import TABLE as REQUESTS
 from skillc.server.orders.store import TABLE as ORDERS
 from skillc.server.trials.store import SERIES, TRIALS
-from skillc.services.errors import ServiceError
 from skillc_runtime.store.store_lock import StoreLock
 
 

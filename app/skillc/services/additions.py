@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path, rewrite_file
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import MANIFEST, Project

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services import libraries
-from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.library_files import LibraryFiles, find_library, source_texts
 from skillc.services.reporting import Reporter
 from skillc_compiler.emit.artifacts import make_artifacts

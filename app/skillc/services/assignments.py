@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import structs
 
-from skillc.services.errors import DiagnosticsError, RequestError
+from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.task_scenes import classes_by_individual
 from skillc_compiler.goals.json_text import is_json
 from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Position

@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.check_cache import CheckCacheEntry
-from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import LibraryFiles, find_library, read_single_file, source_texts
 from skillc.services.reporting import find_texts, sort_diagnostics
 from skillc_dsl.diagnostics import Diagnostic

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc.contract.diagnosis import Diagnosis
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 
 MAX_DIAGNOSTICS, MAX_TEXT = 20, 20_000
 """How many diagnostics are passed on, and the length of the longest text."""

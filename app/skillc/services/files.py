@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc_dsl.encoding import decode
 
 Kind = Literal["file", "folder", "missing", "unusable"]

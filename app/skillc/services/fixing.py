@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from skillc.errors import RequestError
 from skillc.services.checking import STDIN, CheckRequest, check_with_cache, read_libraries
-from skillc.services.errors import RequestError
 from skillc.services.files import rewrite_file
 from skillc.services.library_files import SHIPPED, LibraryFiles
 from skillc_dsl.diagnostics import Diagnostic, Fix

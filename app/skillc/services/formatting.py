@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.files import inspect_path, rewrite_file
 from skillc.services.fixing import unified_diff
 from skillc.services.library_files import find_library

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache, lru_cache
 from typing import TypeAlias
 
-from skillc.services.errors import DiagnosticsError, RequestError
+from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import (
     LibraryFiles,
     read_vocabularies,

@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.files import inspect_path
 from skillc.services.project import project as projects
 from skillc.services.project.project import Project

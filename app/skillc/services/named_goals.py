@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services import task_scenes
-from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.project.project import Project
 from skillc.services.reporting import SilentReporter
 from skillc.services.stores import load_world

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import assert_never
 
+from skillc.errors import RequestError
 from skillc.services.artifacts import parse_files
-from skillc.services.errors import RequestError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc.services.reporting import Reporter

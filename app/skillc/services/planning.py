@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.task_loading import LoadedTask
 from skillc_dsl import cache
 from skillc_runtime.cancellation import CancelToken

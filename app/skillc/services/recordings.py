@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 import msgspec
 
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.reporting import Reporter
 from skillc_runtime.evaluation.report.interrupted import summarise_recording

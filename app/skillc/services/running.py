@@ -9,10 +9,10 @@ from functools import partial
 from pathlib import Path
 from time import perf_counter
 
+from skillc.errors import RequestError, ServiceError
 from skillc.services.backends import BackendName, make_backend
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.errors import RequestError, ServiceError
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter

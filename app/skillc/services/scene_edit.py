@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.scene_file import SceneFile
 from skillc_rdf.turtle.editing import Editor, StatementNotFound
 from skillc_rdf.turtle.parser import parse

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.files import write_file
 from skillc_rdf.formats.write import UnwritableError, format_as, make_graph
 from skillc_rdf.vocabulary.types import Vocabulary

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.files import rewrite_file
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import decode

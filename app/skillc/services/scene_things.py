@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 import pyoxigraph as ox
 
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.scene_file import SceneFile
 from skillc_rdf.turtle.editing import StatementNotFound
 from skillc_rdf.turtle.statements import Node

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
+from skillc.errors import RequestError, ServiceError
 from skillc.services import scene_picture
 from skillc.services.assignments import assign_goal
-from skillc.services.errors import RequestError, ServiceError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.project.project import find_project, find_root

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc_runtime.devices.simulation import Simulation

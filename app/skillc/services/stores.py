@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 
-from skillc.services.errors import DiagnosticsError, RequestError, ServiceError
+from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.reporting import Reporter, format_count
 from skillc.services.scene_diagnostics import read_scene_text, with_shown_paths
 from skillc_rdf.vocabulary.types import Vocabulary

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
 from skillc.services.task_list import TaskEntry, default_library, split_reference, tasks_of
 from skillc.services.task_scenes import default_scene, resolve_scene

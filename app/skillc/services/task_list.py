@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, assert_never
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
 from skillc.services.project.project import find_project
 from skillc_compiler.program.written import calls_of

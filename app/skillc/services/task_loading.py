@@ -9,9 +9,9 @@ from pathlib import Path
 
 import msgspec
 
+from skillc.errors import RequestError
 from skillc.services import task_scenes
 from skillc.services.assignments import assign_call, assign_goal, assign_task
-from skillc.services.errors import RequestError
 from skillc.services.libraries import compile_valid, find_task
 from skillc.services.library_files import LibraryFiles, find_library, find_scene
 from skillc.services.named_goals import make_named_task, named_scene

@@ -11,8 +11,8 @@ from typing import TypeAlias
 
 from msgspec import structs
 
+from skillc.errors import ServiceError
 from skillc.services.assignments import bind_task
-from skillc.services.errors import ServiceError
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc.services.stores import load_world

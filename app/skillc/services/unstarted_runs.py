@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.files import writing_to
 from skillc.services.recordings import NAME
 from skillc.services.reporting import Reporter

@@ -9,9 +9,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NoReturn, TypeAlias
 
+from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.check_cache import named_scenes
 from skillc.services.checking import CheckRequest, CheckResult, Memos, check_sources, read_libraries
-from skillc.services.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles
 from skillc.services.reporting import Reporter
 from skillc_ontology import catalogue

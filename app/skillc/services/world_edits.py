@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import pyoxigraph as ox
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.scene_edit import FORMS, StatementEdit, parse_edit
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.statements import iri_of

@@ -39,9 +39,9 @@ from skillc.contract.library import LibraryDescription
 from skillc.contract.plan import PlanPreview
 from skillc.contract.sample import PoseNumbers
 from skillc.contract.world import PlacedThing, QueryRows, WorldFact, WorldFacts, WorldText, WorldWrite
+from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.diagnosis import diagnose
-from skillc.services.errors import DiagnosticsError, ServiceError
 from skillc.services.scene_show import list_placed
 from skillc.services.scenes import describe_state, find_individuals, query_document, view_world
 from skillc.workers.devices import list_devices

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 
+from skillc.errors import OutputError, ServiceError
 from skillc.lsp.server import serve
-from skillc.services.errors import OutputError, ServiceError
 from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.platforms.priority import lower_priority
 

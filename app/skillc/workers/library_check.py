@@ -16,7 +16,7 @@ import msgspec
 from msgspec import structs
 
 from skillc.cells.library import find_modules, module_of
-from skillc.services.errors import DiagnosticsError, ServiceError
+from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import LibraryFiles, find_library
 from skillc.services.project.project import find_project

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import MakeReport
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.replaying.report import report_recorded
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.evaluation.report.result import TaskResult

@@ -17,7 +17,7 @@ from skillc.contract.run_diff import RunDiff
 from skillc.contract.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, RunJob, ShowTree
 from skillc.contract.run_tree import OperationTree
 from skillc.contract.signals import SignalRows
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.operation_tree import build_tree
 from skillc.services.recordings import answer_question, make_result, read_signals
 from skillc.services.run_diff.compare import compare_runs

@@ -11,8 +11,8 @@ import msgspec
 
 from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import CheckTrials, RecordTrial, RunTrial
+from skillc.errors import ServiceError
 from skillc.services.assignments import assign_task
-from skillc.services.errors import ServiceError
 from skillc.services.libraries import find_task
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter

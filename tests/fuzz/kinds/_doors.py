@@ -16,12 +16,12 @@ from fuzz.kinds._pieces import EVENT, GOALS, JSON, MESSAGES, MODEL, PLAIN, SKILL
 from fuzz.kinds.texts import shelf, vocabulary
 from skillc.cli.layout import TerminalPage
 from skillc.contract.values import MAX_BODY_BYTES, check_name, check_why
+from skillc.errors import ServiceError
 from skillc.lsp.messages import MalformedMessage, MessageReader, MessageWriter
 from skillc.server.problems import ApiRefusal
 from skillc.server.requests import decode_body
 from skillc.services import libraries
 from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.errors import ServiceError
 from skillc.services.library_files import SHIPPED, find_library, is_vocabulary
 from skillc.services.project.manifest import read_manifest
 from skillc.services.project.toml_text import LONGEST as LONGEST_TOML

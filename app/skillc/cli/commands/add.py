@@ -78,8 +78,8 @@ def command(kind: Kind, name: str, like: str | None, called: str | None, **optio
     than the one that read it. What no model states is taken from the options and from the arm of --like; what then is
     still to be stated is listed by `skillc check`.
     """
+    from skillc.errors import RequestError
     from skillc.services.additions import add_files
-    from skillc.services.errors import RequestError
     from skillc.services.project.project import find_project
 
     project = find_project(Path())
@@ -104,7 +104,7 @@ def _is_given(value: Any) -> bool:
 def _add_robot(
     project: Project, file: Path, like: str | None, called: str | None, settings: tuple[str, ...], **options: Any
 ) -> None:
-    from skillc.services.errors import RequestError
+    from skillc.errors import RequestError
     from skillc.services.robot_import.add_robot import RobotRequest, add_robot
     from skillc.services.robot_import.reading import ReadOptions
 

@@ -50,7 +50,7 @@ def command(paths: tuple[Path, ...], check: bool, diff: bool, stdin_filename: Pa
 
 def _write(files: Sequence[FormattedFile]) -> int:
     """Write each file that changes, and print why others could not be formatted."""
-    from skillc.services.errors import ServiceError
+    from skillc.errors import ServiceError
     from skillc.services.reporting import format_count
 
     failed = _show_problems(files)

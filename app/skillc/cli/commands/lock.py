@@ -18,7 +18,7 @@ from skillc.cli.options import PATH
 @click.argument("path", type=PATH, default=Path())
 def command(path: Path) -> None:
     """Lock the dependencies of the project that PATH, by default the current folder, is in."""
-    from skillc.services.errors import RequestError
+    from skillc.errors import RequestError
     from skillc.services.project.lock import lock_libraries, write_lock
     from skillc.services.project.project import find_project
 

@@ -72,8 +72,8 @@ def _find_running(state: Path, choice: StudioChoice) -> str | None:
     """Return the address of the page of the server that uses a state folder, with a code; None if none runs."""
     from skillc.client.connecting import connect
     from skillc.client.errors import UnavailableError
+    from skillc.errors import RequestError
     from skillc.server.state import read_address
-    from skillc.services.errors import RequestError
 
     address = read_address(state)
     if address is None:

@@ -86,7 +86,7 @@ def command(
     from skillc.cli.console import Terminal, is_unicode, page_of, print_json, print_result, remark_default
     from skillc.cli.trial_progress import TrialProgress
     from skillc.cli.trials_output import format_series
-    from skillc.services.errors import RequestError
+    from skillc.errors import RequestError
     from skillc.services.task_list import require_task
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
 

@@ -6,10 +6,10 @@ import asyncio
 from http import HTTPStatus
 
 from skillc.contract.source import SourceChange, SourceInfo, SourcePath, SourceText
+from skillc.errors import ServiceError
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.library_sources import NotEditable, SourceChanged, list_sources, read_source, write_source
 from skillc.server.problems import ApiRefusal
-from skillc.services.errors import ServiceError
 
 
 async def list_library_sources(call: ApiCall) -> tuple[SourceInfo, ...]:

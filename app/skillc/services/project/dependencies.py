@@ -7,7 +7,7 @@ from importlib.metadata import entry_points
 from importlib.util import find_spec
 from pathlib import Path
 
-from skillc.services.errors import DiagnosticsError
+from skillc.errors import DiagnosticsError
 from skillc.services.project.manifest import Dependency, read_manifest
 from skillc.services.project.project import MANIFEST, SHIPPED, Project, is_nested_project
 from skillc_dsl.diagnostics import Diagnostic

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import msgspec
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.project.project import Project, is_nested_project
 from skillc.services.project.toml_text import load_toml
 from skillc_dsl.diagnostics import Diagnostic

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import skillc_skills
-from skillc.services.errors import DiagnosticsError, RequestError
+from skillc.errors import DiagnosticsError, RequestError
 from skillc_dsl.encoding import decode, read_file
 from skillc_dsl.source import Source
 

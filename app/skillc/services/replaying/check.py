@@ -8,8 +8,8 @@ from typing import Any, get_args
 
 import msgspec
 
+from skillc.errors import ServiceError
 from skillc.services.backends import BackendName, make_backend
-from skillc.services.errors import ServiceError
 from skillc.services.replaying.inputs import RunInputs, build_beginning, read_inputs
 from skillc.services.reporting import Reporter
 from skillc_runtime.backends.simulation.checkpoint import CheckpointError

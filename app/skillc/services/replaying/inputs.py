@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 
 from msgspec import structs
 
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library

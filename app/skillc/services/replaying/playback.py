@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.recording.envelope import Envelope

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import closing
 from pathlib import Path
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.files import writing_to
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs

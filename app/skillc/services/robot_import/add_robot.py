@@ -11,8 +11,8 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from skillc.errors import RequestError
 from skillc.services.additions import add_device_files
-from skillc.services.errors import RequestError
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import Project
 from skillc.services.robot_import.comparison import POSTURES, Differences

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.urdf_tree import UrdfJoint, UrdfTree
 from skillc_dsl.spelling import did_you_mean
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import mujoco
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_dsl.spelling import did_you_mean
 
 FLANGES = ("flange", "attachment_site", "ee_site", "tool0", "attachment")

@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.chain import check_count
 from skillc.services.robot_import.mechanism import MujocoMechanism
 from skillc.services.robot_import.mjcf_chain import MjcfChain, choose_chain, cut_to_chain

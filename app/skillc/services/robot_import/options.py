@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.mjcf_writer import ControlKind
 from skillc.services.robot_import.robot_model import RobotModel
 from skillc.services.robot_import.sheet_writer import TEXTS, settable

@@ -7,7 +7,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.comparison import TOLERANCE, Differences, compare
 from skillc.services.robot_import.mechanism import MujocoMechanism, PinocchioMechanism
 from skillc.services.robot_import.reading import Reading

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.xml_file import read_xml
 

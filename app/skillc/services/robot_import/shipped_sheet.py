@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pyoxigraph as ox
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.mjcf_writer import ControlKind
 from skillc_dsl.spelling import did_you_mean
 from skillc_ontology import catalogue

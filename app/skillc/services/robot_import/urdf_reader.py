@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc.services.robot_import.chain import Chain, choose_chain
 from skillc.services.robot_import.comparison import compare
 from skillc.services.robot_import.mechanism import PinocchioMechanism

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles
 
 MOST_LINKS = 1000

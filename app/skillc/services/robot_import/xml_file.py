@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 from xml.etree import ElementTree
 
-from skillc.services.errors import RequestError
+from skillc.errors import RequestError
 
 Format: TypeAlias = Literal["urdf", "mjcf"]
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.recordings import (
     find_mcap,
     find_recording,

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.scenery.sdf import read_sdf
 from skillc_runtime.motion.pose import Array, Pose

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pyoxigraph as ox
 
-from skillc.services.errors import RequestError, ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.files import writing_to
 from skillc.services.scene_file import SceneFile
 from skillc.services.scene_things import Pairs, PoseRequest

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import msgspec
 
-from skillc.services.errors import ServiceError
+from skillc.errors import ServiceError
 from skillc.services.watchdog import ending
 from skillc.services.watchdog.compilation import watching_compilation
 from skillc.services.watchdog.ending import DESCRIPTION, RunDescription

@@ -1,4 +1,4 @@
-"""The exceptions of services: messages for users, with the exit code of a command."""
+"""The exceptions of skillc: messages for users, with the exit code of a command."""
 
 from __future__ import annotations
 
