@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from skillc.api.scene import Scene as Scene
     from skillc.api.scene import open_scene as open_scene
     from skillc.api.table import QueryResult as QueryResult
-    from skillc.api.trials import Trials as Trials
     from skillc.api.trials import trials as trials
     from skillc.client.async_cell import AsyncCell as AsyncCell
     from skillc.client.async_operation import AsyncOperation as AsyncOperation
@@ -47,6 +46,7 @@ if TYPE_CHECKING:
     from skillc.errors import DiagnosticsError as DiagnosticsError
     from skillc.errors import RequestError as RequestError
     from skillc.errors import SkillcError as SkillcError
+    from skillc.values.trials import Trials as Trials
     from skillc_dsl.diagnostics import Diagnostic as Diagnostic
 
 _MODULES = {
@@ -74,7 +74,7 @@ _MODULES = {
     "ServerOperation": "skillc.client.operation",
     "SkillcError": "skillc.errors",
     "QueryResult": "skillc.api.table",
-    "Trials": "skillc.api.trials",
+    "Trials": "skillc.values.trials",
     "UnavailableError": "skillc.client.errors",
     "check": "skillc.api.library",
     "connect": "skillc.client.connecting",

@@ -27,7 +27,7 @@ def _members(name: str) -> Iterator[tuple[str, Any]]:
     for each in module.__all__:
         value = getattr(module, each)
         yield f"{name}.{each}", value
-        if inspect.isclass(value) and value.__module__.startswith(("skillc.api", "skillc.client")):
+        if inspect.isclass(value) and value.__module__.startswith(("skillc.api", "skillc.client", "skillc.values")):
             yield from ((f"{name}.{each}.{part}", found) for part, found in vars(value).items() if part[0] != "_")
 
 

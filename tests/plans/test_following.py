@@ -11,7 +11,7 @@ from skillc_runtime.recording.events import Event, NodeEnded, Replanned
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure, list_details
 from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation
-from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
 
 SLIPPED = Failure(kind="body", message="it slipped")

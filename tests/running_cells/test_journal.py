@@ -25,8 +25,8 @@ from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Note
 from skillc_runtime.store.disk import DiskStore
-from skillc_runtime.world.state.evidence import Evidence, describe_evidence
-from skillc_runtime.world.state.facts import Fact, PropertyFact, RelationFact
+from skillc_runtime.world.state.evidence import describe_evidence
+from skillc_runtime.world.state.facts import Evidence, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, NullStore, StoreError
 from store.worlds import PLACES, THINGS, facts_of, model_of, random_write

@@ -20,9 +20,9 @@ from skillc_runtime.execution.cell_loop import TooManyRequests
 from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.repeat import repeat_run
-from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.commands import EditWorld
 from skillc_runtime.recording.events import Requested
+from skillc_runtime.recording.states import ENDS
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 

@@ -22,7 +22,7 @@ from msgspec import structs
 from running_cells.checking import check_cell
 from running_cells.yard import CRATES, find_settings
 from server.running import RunningServer, serving
-from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording.states import ENDS
 
 OFFSET = Struct("=q")
 JUMPS_S = (-86400 * 400, -86400 * 3, -3600, -5, 5, 3600, 86400 * 3, 86400 * 400)

@@ -11,7 +11,7 @@ from skillc_runtime.evaluation.trials.confidence import (
     compute_proportion_interval,
     find_t_quantile,
 )
-from skillc_runtime.evaluation.trials.series import judge_series
+from skillc_runtime.evaluation.trials.judging import judge_series
 from trials.runners import GOOD, good, wiping
 
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from skillc.cli.layout import TerminalPage
 from skillc.cli.trials_output import format_series
 from skillc_runtime.evaluation.trials import page
-from skillc_runtime.evaluation.trials.series import judge_series
+from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.targets import METRICS, RUNNING
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria

@@ -8,8 +8,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from skillc.api.boundary import AnyPath, api_call, optional_path, require_path, require_text
-from skillc.api.frames import make_table
+from skillc.api.boundary import api_call
 from skillc.api.picture import Picture
 from skillc.errors import DiagnosticsError
 from skillc.services.checking import CheckRequest, check_paths, check_sources
@@ -17,6 +16,8 @@ from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.pictures import draw_declaration
 from skillc.services.task_list import TaskEntry, default_library, list_tasks, tasks_of
+from skillc.values.arguments import AnyPath, optional_path, require_path, require_text
+from skillc.values.frames import make_table
 from skillc_compiler.emit.picture import mermaid, svg
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model import codec

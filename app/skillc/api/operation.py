@@ -8,16 +8,17 @@ from contextlib import contextmanager
 from types import TracebackType
 from typing import Literal
 
-from skillc.api.boundary import api_call, read_pace, refusing_values, require_choice, require_text
+from skillc.api.boundary import api_call, refusing_values
 from skillc.api.event_stream import EventStream
 from skillc.api.operation_state import LOOK_S, OperationState
 from skillc.api.run import Run
 from skillc.errors import RequestError, ServiceError
+from skillc.values.arguments import read_pace, require_choice, require_text
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.states import State
-from skillc_runtime.world.state.labelled import label_change
+from skillc_runtime.world.state.labelling import label_change
 from skillc_runtime.world.state.open_transaction import OpenTransaction
 
 Depth = Literal["into", "over", "out"]

@@ -6,9 +6,9 @@ from base64 import b64encode
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillc.api.boundary import AnyPath, require_path
 from skillc.errors import RequestError
 from skillc.services.files import writing_to
+from skillc.values.arguments import AnyPath, require_path
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,23 +7,22 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, Literal
 
-from skillc.api.boundary import (
-    AnyPath,
-    NoticeList,
-    api_call,
-    optional_path,
-    optional_seconds,
-    optional_text,
-    read_arguments,
-    require_choice,
-)
-from skillc.api.frames import make_frame, make_table
+from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Picture
 from skillc.errors import RequestError, ServiceError
 from skillc.services.plan_text import describe_answer, format_plan
 from skillc.services.planning import Answer, plan_goal, prepare_planners
 from skillc.services.schedule_picture import draw_schedule
 from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
+from skillc.values.arguments import (
+    AnyPath,
+    optional_path,
+    optional_seconds,
+    optional_text,
+    read_arguments,
+    require_choice,
+)
+from skillc.values.frames import make_frame, make_table
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality

@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import msgspec
 
-from skillc.api.boundary import AnyPath, NoticeList, api_call, require_choice, require_path, require_text
-from skillc.api.frames import make_frame, make_table, read_signal_frame
+from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Figure, Film
+from skillc.api.signal_frame import read_signal_frame
 from skillc.errors import RequestError, ServiceError
 from skillc.services.recordings import answer_question, find_mcap, find_recording, is_mcap, read_envelopes, read_result
 from skillc.services.replaying.playback import play_paced
 from skillc.services.story_text import format_answer, format_overview
+from skillc.values.arguments import AnyPath, require_choice, require_path, require_text
+from skillc.values.frames import make_frame, make_table
 from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult
 from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.evaluation.report.write import REPORT

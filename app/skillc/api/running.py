@@ -13,16 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from skillc.api.boundary import (
-    AnyPath,
-    NoticeList,
-    api_call,
-    optional_path,
-    optional_seconds,
-    read_pace,
-    require_choice,
-    require_count,
-)
+from skillc.api.boundary import NoticeList, api_call
 from skillc.api.operation import Operation
 from skillc.api.operation_state import Monitor, OperationState
 from skillc.api.planning import Minimise, make_request
@@ -36,6 +27,7 @@ from skillc.services.run_result import PRIMITIVE_LOOKS
 from skillc.services.running import RunOptions, run_task
 from skillc.services.signal_files import SignalFormat
 from skillc.services.task_loading import LoadedTask, load_task
+from skillc.values.arguments import AnyPath, optional_path, optional_seconds, read_pace, require_choice, require_count
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.recording.envelope import make_run_id
 

@@ -9,15 +9,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from skillc.api.boundary import (
-    AnyPath,
-    NoticeList,
-    api_call,
-    optional_path,
-    refusing_values,
-    require_path,
-    require_text,
-)
+from skillc.api.boundary import NoticeList, api_call, refusing_values
 from skillc.api.picture import Picture
 from skillc.api.planning import Minimise, Plan, make_plan
 from skillc.api.run import Run
@@ -30,6 +22,7 @@ from skillc.services.scene_export import world_graph
 from skillc.services.scenes import FactText, OpenScene
 from skillc.services.stores import StoreChoice
 from skillc.services.task_loading import LoadedTask
+from skillc.values.arguments import AnyPath, optional_path, require_path, require_text
 from skillc_compiler.emit.picture import mermaid, svg
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue

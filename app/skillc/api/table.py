@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from skillc.api.frames import make_frame, make_table
+from skillc.values.frames import make_frame, make_table
 from skillc_runtime.scene.query import QueryValue
 
 if TYPE_CHECKING:

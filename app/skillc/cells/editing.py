@@ -21,7 +21,7 @@ from skillc_runtime.recording.events import Requested
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import place_changes
 from skillc_runtime.world.state.changes import Change
-from skillc_runtime.world.state.labelled import label_change
+from skillc_runtime.world.state.labelling import label_change
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.transactions import StoreError

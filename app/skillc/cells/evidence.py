@@ -10,7 +10,8 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalledWrite, JournalReader
 from skillc_runtime.store.change_json import decode_changes, encode_changes
-from skillc_runtime.world.state.evidence import Evidence, EvidenceLedger, UndoableWrite
+from skillc_runtime.world.state.evidence import EvidenceLedger, UndoableWrite
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 

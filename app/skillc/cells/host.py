@@ -45,13 +45,13 @@ from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import prepare_after
-from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.execution.tree.gate import Gate, format_breakpoints
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.states import ENDS
 from skillc_runtime.store.disk import DiskStore
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.names import NoSuchName

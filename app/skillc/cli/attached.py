@@ -16,10 +16,10 @@ from skillc.client.cell import ServerCell
 from skillc.client.operation import ServerOperation
 from skillc.errors import ServiceError
 from skillc_runtime.execution.pace import FAST, Pace
-from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import PromptsChanged, Requested, StateChanged, TaskEnded
+from skillc_runtime.recording.states import ENDS
 
 LOOK_S = 0.05
 CLOCK_HZ = 4.0

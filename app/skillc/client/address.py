@@ -8,13 +8,16 @@ from ipaddress import ip_address
 from pathlib import Path
 from urllib.parse import urlsplit
 
+from skillc.contract.endpoint import PREFIX
 from skillc.errors import RequestError
-from skillc.server.state import ADMIN_TOKEN, read_address, read_token
 
 DEFAULT_URL = "http://127.0.0.1:8421"
 URL_VARIABLE, TOKEN_VARIABLE = "SKILLC_SERVER", "SKILLC_TOKEN"
 STATE = Path(".skillc")
-PREFIX = "/api/v1"
+ADMIN_TOKEN = "admin.token"
+"""The file with the token of the command line."""
+ADDRESS = "address"
+"""The file with the address of the server that runs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +53,22 @@ def read_token_file(file: Path) -> str:
     if not token:
         raise RequestError(f"{file} has no token that this user can read")
     return token
+
+
+def read_token(file: Path) -> str | None:
+    """Return the token in a file; None if there is none, or it is not for the user of this process."""
+    try:
+        return file.read_text(encoding="ascii").strip()
+    except (OSError, UnicodeDecodeError):
+        return None
+
+
+def read_address(folder: Path) -> str | None:
+    """Return the address of the server that uses a state folder; it may have died since. None if there is none."""
+    try:
+        return (folder / ADDRESS).read_text(encoding="ascii").strip()
+    except (OSError, UnicodeDecodeError):
+        return None
 
 
 def _find_token(server: str, is_local: bool, state: Path) -> str:

@@ -4,16 +4,11 @@ from __future__ import annotations
 
 from collections.abc import AsyncGenerator, Callable, Mapping, Sequence
 from datetime import datetime
+from math import isinf
 from pathlib import Path
 from typing import Any, Literal
 from uuid import uuid4
 
-from skillc.api.boundary import (
-    read_pace,
-    require_choice,
-    require_text,
-)
-from skillc.api.trials import Trials
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.connection import Connection, join
 from skillc.client.experiments import rehearse, run_trials
@@ -29,6 +24,7 @@ from skillc.client.requests import (
 )
 from skillc.contract.cell import CellStatus, PaceSetting
 from skillc.contract.device import DeviceStatus
+from skillc.contract.disturbance import Disturbance
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription
 from skillc.contract.operation import OperationStatus
@@ -37,7 +33,7 @@ from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.sample import Sample
 from skillc.contract.stopping import StopReason
-from skillc.contract.trials import TrialSeries
+from skillc.contract.trials import TrialDisturbance, TrialSeries
 from skillc.contract.world import (
     PlacedThing,
     QueryRows,
@@ -48,9 +44,8 @@ from skillc.contract.world import (
     WorldText,
     WorldWrite,
 )
-from skillc_runtime.devices.disturbances import Disturbance
-from skillc_runtime.evaluation.trials.trial import Disturbance as TrialDisturbance
-from skillc_runtime.execution.pace import FAST
+from skillc.values.arguments import read_pace, require_choice, require_text
+from skillc.values.trials import Trials
 
 OPERATIONS, WRITES, TRIALS = 100, 100, 50
 
@@ -172,7 +167,7 @@ class AsyncCell:
 
     async def set_pace(self, pace: float | str) -> CellStatus:
         """Let its time pass `fast`, as fast as it computes, `real`, as real time, or so many times as fast."""
-        setting = PaceSetting(None if (factor := read_pace(pace)) == FAST else factor)
+        setting = PaceSetting(None if isinf(factor := read_pace(pace)) else factor)
         return await self._connection.send("PUT", self._path("pace"), CellStatus, setting)
 
     async def acknowledge(self) -> CellStatus:

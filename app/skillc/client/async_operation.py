@@ -14,17 +14,13 @@ from skillc.client.errors import UnavailableError
 from skillc.client.experiments import make_report
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
-from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.contract import commands
+from skillc.contract.commands import Command
+from skillc.contract.operation import ENDS, Decision, OperationRequest, OperationStatus, State
 from skillc.contract.report import OperationReport
 from skillc.contract.stopping import StopReason
 from skillc.errors import RequestError
-from skillc_runtime.devices.prompts import Prompt
-from skillc_runtime.execution.task_state import ENDS
-from skillc_runtime.recording import commands
-from skillc_runtime.recording.commands import Command
-from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.events import StateChanged, TaskEnded
-from skillc_runtime.recording.states import Decision, State
+from skillc.events import Envelope, Prompt, StateChanged, TaskEnded
 
 Depth = Literal["into", "over", "out"]
 STEPS: dict[Depth, Command] = {

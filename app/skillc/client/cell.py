@@ -7,23 +7,22 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal
 
-from skillc.api.trials import Trials
 from skillc.client.async_cell import OPERATIONS, TRIALS, WRITES, AsyncCell
 from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
 from skillc.client.requests import PLANNING_S
 from skillc.contract.cell import CellStatus
 from skillc.contract.device import DeviceStatus
+from skillc.contract.disturbance import Disturbance
 from skillc.contract.lease import Lease
 from skillc.contract.library import LibraryDescription
 from skillc.contract.order import Missed, Order
 from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.sample import Sample
-from skillc.contract.trials import TrialSeries
+from skillc.contract.trials import TrialDisturbance, TrialSeries
 from skillc.contract.world import PlacedThing, QueryRows, WorldFact, WorldFormat, WorldWrite
-from skillc_runtime.devices.disturbances import Disturbance
-from skillc_runtime.evaluation.trials.trial import Disturbance as TrialDisturbance
+from skillc.values.trials import Trials
 
 
 class ServerCell:

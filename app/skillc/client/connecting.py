@@ -5,9 +5,9 @@ from __future__ import annotations
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from skillc.api.boundary import AnyPath, optional_path, optional_text
 from skillc.client.address import find_address
 from skillc.errors import ServiceError
+from skillc.values.arguments import AnyPath, optional_path, optional_text
 
 if TYPE_CHECKING:
     from skillc.client.async_server import AsyncServer

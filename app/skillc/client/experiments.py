@@ -11,8 +11,7 @@ from skillc.client.connection import Connection, join
 from skillc.client.errors import RefusedError
 from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
 from skillc.contract.report import OperationReport, ReportRequest
-from skillc.contract.trials import TrialSeries, TrialsRequest
-from skillc_runtime.evaluation.trials.series import Series
+from skillc.contract.trials import Series, TrialSeries, TrialsRequest
 
 LOOK_S = 0.3
 

@@ -18,7 +18,7 @@ from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationStatus
 from skillc.contract.sample import Sample
 from skillc.errors import ServiceError
-from skillc_runtime.recording.envelope import Envelope
+from skillc.events import Envelope
 
 ENDED, REFUSED = 1000, 1008
 FORBIDDEN = 403

@@ -7,12 +7,10 @@ from pathlib import Path
 
 from skillc.client.async_operation import AsyncOperation, Depth
 from skillc.client.loop_thread import LoopThread
-from skillc.contract.operation import OperationStatus
+from skillc.contract.commands import Command
+from skillc.contract.operation import Decision, OperationStatus, State
 from skillc.contract.report import OperationReport
-from skillc_runtime.devices.prompts import Prompt
-from skillc_runtime.recording.commands import Command
-from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.states import Decision, State
+from skillc.events import Envelope, Prompt
 
 
 class ServerOperation:

@@ -6,7 +6,13 @@ from collections.abc import Mapping
 from datetime import datetime
 from typing import Any, Literal
 
-from skillc.api.boundary import (
+from skillc.contract.operation import OperationRequest
+from skillc.contract.order import Missed, OrderRequest
+from skillc.contract.plan import PlanRequest
+from skillc.contract.rehearsal import RehearsalRequest
+from skillc.contract.trials import TRIAL_LIMIT_S, TrialDisturbance, TrialsRequest
+from skillc.errors import RequestError
+from skillc.values.arguments import (
     optional_seconds,
     optional_text,
     read_arguments,
@@ -14,14 +20,6 @@ from skillc.api.boundary import (
     require_count,
     require_text,
 )
-from skillc.contract.operation import OperationRequest
-from skillc.contract.order import Missed, OrderRequest
-from skillc.contract.plan import PlanRequest
-from skillc.contract.rehearsal import RehearsalRequest
-from skillc.contract.trials import TrialsRequest
-from skillc.errors import RequestError
-from skillc_runtime.evaluation.trials.trial import Disturbance
-from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S
 
 PLANNING_S, REHEARSAL_S = 30.0, 600.0
 
@@ -108,7 +106,7 @@ def describe_rehearsal(
 
 
 def describe_trials(
-    task: str, arguments: Arguments, number: int, seed: int, disturb: Disturbance, deadline_s: float | None
+    task: str, arguments: Arguments, number: int, seed: int, disturb: TrialDisturbance, deadline_s: float | None
 ) -> TrialsRequest:
     """Return a request for a series of trials."""
     return TrialsRequest(
@@ -116,6 +114,6 @@ def describe_trials(
         arguments=read_arguments(arguments),
         number=require_count(number, "the number of trials", 1),
         seed=require_count(seed, "the seed", 0),
-        disturb=require_choice(disturb, Disturbance, "`disturb`"),
+        disturb=require_choice(disturb, TrialDisturbance, "`disturb`"),
         deadline_s=optional_seconds(deadline_s, "`deadline_s`") or TRIAL_LIMIT_S,
     )

@@ -9,7 +9,9 @@ import msgspec
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.states import Decision, State
+from skillc_runtime.recording.states import ENDS as ENDS
+from skillc_runtime.recording.states import Decision as Decision
+from skillc_runtime.recording.states import State as State
 
 
 class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):

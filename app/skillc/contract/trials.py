@@ -7,7 +7,11 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.trials.series import Series as Series
+from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S as TRIAL_LIMIT_S
 from skillc_runtime.evaluation.trials.trial import Disturbance
+
+TrialDisturbance: TypeAlias = Disturbance
 
 
 class TrialsRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
@@ -21,7 +25,7 @@ class TrialsRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
     number: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 50
     seed: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
     disturb: Disturbance = "none"
-    deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)] = 3600.0
+    deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=TRIAL_LIMIT_S)] = TRIAL_LIMIT_S
 
 
 SeriesState: TypeAlias = Literal["waiting", "going on", "ended", "interrupted"]

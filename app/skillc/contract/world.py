@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc.contract.values import CheckedBody, Why, check_why
-from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledFact
 
 WorldFormat: TypeAlias = Literal["turtle", "rdfxml", "jsonld", "ntriples", "trig", "graph", "top-view"]

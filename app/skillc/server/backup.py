@@ -11,8 +11,9 @@ from pathlib import Path
 
 from skillc.cells.database import describe_error
 from skillc.cells.settings import WORLD
+from skillc.client.address import ADMIN_TOKEN
 from skillc.errors import RequestError, ServiceError
-from skillc.server.state import ADMIN_TOKEN, CELLS, DATABASE, LOCK
+from skillc.server.state import CELLS, DATABASE, LOCK
 from skillc_runtime.store.disk import copy_store
 from skillc_runtime.store.store_lock import StoreLock
 from skillc_runtime.world.state.transactions import StoreError

@@ -21,8 +21,8 @@ from skillc.server.context import ServerContext, open_journal
 from skillc.server.hub import Listener, News
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
-from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.states import ENDS
 
 REFUSED, ENDED, BROKEN, TRY_AGAIN = 1008, 1000, 1011, 1013
 CLOSE_CODES = {HTTPStatus.SERVICE_UNAVAILABLE: BROKEN, HTTPStatus.TOO_MANY_REQUESTS: TRY_AGAIN}

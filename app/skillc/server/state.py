@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.cells.database import DatabaseError, Schema, describe_error, open_for_writing
+from skillc.client.address import ADDRESS, ADMIN_TOKEN, read_token
 from skillc.errors import ServiceError
 from skillc.server.access.sessions import TABLE as SESSIONS
 from skillc.server.access.sessions import Sessions
@@ -41,9 +42,7 @@ def _add_agents(database: sqlite3.Connection) -> None:
 
 TABLES = (TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS, SESSIONS)
 SCHEMA = Schema(5, ";\n".join(TABLES), {1: _add_orders, 2: _add_trials, 3: _add_sessions, 4: _add_agents})
-LOCK, DATABASE, ADMIN_TOKEN, CELLS, SIMULATIONS = "lock", "server.sqlite", "admin.token", "cells", "simulations"
-ADDRESS = "address"
-"""The file with the address of the server that runs."""
+LOCK, DATABASE, CELLS, SIMULATIONS = "lock", "server.sqlite", "cells", "simulations"
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""
 
@@ -96,14 +95,6 @@ def open_state(folder: Path, token_file: Path | None = None) -> Iterator[ServerS
         lock.release()
 
 
-def read_token(file: Path) -> str | None:
-    """Return the token in a file; None if there is none, or it is not for the user of this process."""
-    try:
-        return file.read_text(encoding="ascii").strip()
-    except (OSError, UnicodeDecodeError):
-        return None
-
-
 @contextmanager
 def announced(state: ServerState, address: str) -> Iterator[None]:
     """Let the state folder have the address of its server in a `with` statement."""
@@ -113,14 +104,6 @@ def announced(state: ServerState, address: str) -> Iterator[None]:
         yield
     finally:
         file.unlink(missing_ok=True)
-
-
-def read_address(folder: Path) -> str | None:
-    """Return the address of the server that uses a state folder; it may have died since. None if there is none."""
-    try:
-        return (folder / ADDRESS).read_text(encoding="ascii").strip()
-    except (OSError, UnicodeDecodeError):
-        return None
 
 
 def _ensure_admin_token(state: ServerState) -> None:

@@ -28,8 +28,7 @@ from skillc.contract.messages import (
 )
 from skillc.contract.operation import OperationStatus
 from skillc.workers.library_check import CheckedLibrary
-from skillc_runtime.execution.task_state import ENDS
-from skillc_runtime.recording.states import State
+from skillc_runtime.recording.states import ENDS, State
 
 SILENCE_S = 30.0
 """How long the loop of a cell may stand still before its process is ended, in s of wall time."""

@@ -22,9 +22,10 @@ from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.evaluation.trials import identity, page
 from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
 from skillc_runtime.evaluation.trials.journal import Heading, JournalError, TrialJournal, find_missing_seeds
-from skillc_runtime.evaluation.trials.series import Series, judge_series
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.workers import TRIAL_LIMIT_S, PreparationError, run_in_processes
+from skillc_runtime.evaluation.trials.judging import judge_series
+from skillc_runtime.evaluation.trials.series import Series
+from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Disturbance, Trial
+from skillc_runtime.evaluation.trials.workers import PreparationError, run_in_processes
 from skillc_runtime.world.state.world_state import WorldState
 
 PAGE = "trials.html"

@@ -60,7 +60,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.elements import elements_of, find_elements
 from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
-from skillc_runtime.world.state.labelled import label_change, label_fact
+from skillc_runtime.world.state.labelling import label_change, label_fact
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 
 MEMORY_BYTES = 4 * 2**30

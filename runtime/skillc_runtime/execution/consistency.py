@@ -9,11 +9,11 @@ from typing import TypeAlias, assert_never
 from skillc_model.skills import Implementation, Post, Requirement, SkillLibrary
 from skillc_model.traversal import free_variables
 from skillc_runtime.execution.attempt import TICK_S
-from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER, ENDS, TRANSITIONS
+from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, ANSWER, TRANSITIONS
 from skillc_runtime.recording import events
 from skillc_runtime.recording.commands import Abort
 from skillc_runtime.recording.events import Event
-from skillc_runtime.recording.states import State
+from skillc_runtime.recording.states import ENDS, State
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.labelled_reading import change_of, value_of_labelled
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import get_args
 
 from skillc_runtime.recording.commands import Abort, Command
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.states import EndState, State
-
-ENDS: frozenset[str] = frozenset(get_args(EndState))
 
 ALLOWED: dict[State, tuple[str, ...]] = {
     "queued": ("stop", "set-breakpoints", "edit-world"),

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import Quantity, label
+from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import IS_ON, PRESSED_WITH
 
 if TYPE_CHECKING:

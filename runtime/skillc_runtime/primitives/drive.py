@@ -13,7 +13,8 @@ from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.primitives.time_limits import drive_limit_s
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import AddRelation
-from skillc_runtime.world.state.labelled import Quantity, label
+from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import AT, HAS_ARM
 
 

@@ -19,7 +19,8 @@ from skillc_runtime.world.space.grip_force import mass_of
 from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import number_of
-from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
+from skillc_runtime.world.state.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
 from skillc_runtime.world.state.world_state import WorldState
 

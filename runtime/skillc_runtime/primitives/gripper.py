@@ -8,7 +8,8 @@ from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labelled import LabelledIri, Quantity, label
+from skillc_runtime.world.state.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

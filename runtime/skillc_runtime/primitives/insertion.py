@@ -12,7 +12,8 @@ from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.labelled import Quantity, label
+from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ import numpy as np
 
 from skillc_runtime.primitives.compliance import Push, ReleaseAxis
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.state.labelled import Quantity, label
+from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labelling import label
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell

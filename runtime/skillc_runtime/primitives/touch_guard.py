@@ -16,7 +16,8 @@ from skillc_runtime.world.space.hand_shape import read_hand_shape
 from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.labelled import LabelledValue, Quantity, label
+from skillc_runtime.world.state.labelled import LabelledValue, Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import HAS_GRIPPER
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
 from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
-from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
 FORMAT = 9

@@ -11,7 +11,8 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.triples import all_triples, declarations
 from skillc_runtime.store.world_from_triples import build_world
-from skillc_runtime.world.state.evidence import Evidence, LedgerWrite, UndoableWrite
+from skillc_runtime.world.state.evidence import LedgerWrite, UndoableWrite
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -16,7 +16,7 @@ from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import decode_changes
 from skillc_runtime.world.state.changes import Change
-from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.transactions import Transaction
 
 MAX_EVENTS = 1000

@@ -70,10 +70,10 @@ def command(
 
 def _find_running(state: Path, choice: StudioChoice) -> str | None:
     """Return the address of the page of the server that uses a state folder, with a code; None if none runs."""
+    from skillc.client.address import read_address
     from skillc.client.connecting import connect
     from skillc.client.errors import UnavailableError
     from skillc.errors import RequestError
-    from skillc.server.state import read_address
 
     address = read_address(state)
     if address is None:
@@ -94,11 +94,12 @@ def _find_running(state: Path, choice: StudioChoice) -> str | None:
 def _serve(choice: StudioChoice, bind: str | None, state: Path, backend: BackendName, seed: int, show: Show) -> None:
     """Serve, and show the page as soon as it can be loaded, until Ctrl-C."""
     from skillc.cli.console import Terminal
+    from skillc.client.address import ADMIN_TOKEN, read_token
     from skillc.server.cells import choose_cells
     from skillc.server.context import ServerContext
     from skillc.server.listening import Listening
     from skillc.server.serve import serve
-    from skillc.server.state import ADMIN_TOKEN, open_state, read_token
+    from skillc.server.state import open_state
 
     def show_page(server: ServerContext, address: str) -> None:
         client = server.state.tokens.find(read_token(state / ADMIN_TOKEN) or "")

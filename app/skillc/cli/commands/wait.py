@@ -18,7 +18,7 @@ from skillc.cli.server_connection import connect_server, server_options
 @server_options
 def command(operation: str | None) -> int:
     """Wait until OPERATION is paused, waits for approval, or has ended, and print how it is then."""
-    from skillc_runtime.execution.task_state import ENDS
+    from skillc_runtime.recording.states import ENDS
 
     with connect_server() as server:
         found = server.operation(operation)

@@ -10,6 +10,7 @@ from http import HTTPStatus
 from msgspec import structs
 
 from skillc.cells.journal.reading import LATEST_NS
+from skillc.contract.commands import OperatorCommand
 from skillc.contract.history import EventPage, HistoryPage
 from skillc.contract.messages import Give, Refused, Submit
 from skillc.contract.operation import OperationRequest, OperationStatus
@@ -20,24 +21,9 @@ from skillc.server.idempotency import KeyReused
 from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
-from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.envelope import Envelope, make_run_id
-
-Command = (
-    commands.Approve
-    | commands.Pause
-    | commands.Resume
-    | commands.StepInto
-    | commands.StepOver
-    | commands.StepOut
-    | commands.Retry
-    | commands.Skip
-    | commands.Replan
-    | commands.Answer
-    | commands.SetBreakpoints
-)
-"""The commands that need the role `operate`; who gives one is its client, whatever it says."""
+from skillc_runtime.recording.states import ENDS
 
 
 async def list_operations(call: ApiCall) -> tuple[OperationStatus, ...]:
@@ -122,7 +108,7 @@ def _find_running(call: ApiCall) -> tuple[CellSupervisor, OperationStatus]:
     return cell, operation
 
 
-def _sign(command: Command, who: str) -> commands.Command:
+def _sign(command: OperatorCommand, who: str) -> commands.Command:
     """Return a command with who has given it."""
     return structs.replace(command, who=who)
 
@@ -167,7 +153,7 @@ ENDPOINTS = (
         "Give a command to an operation",
         give_command,
         OperationStatus,
-        body=Command,
+        body=OperatorCommand,
         refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
     ),
     ApiEndpoint(

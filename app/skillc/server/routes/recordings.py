@@ -15,8 +15,8 @@ from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
 from skillc.server.problems import ApiRefusal
 from skillc.services.recordings import MCAP_MAGIC
-from skillc_runtime.execution.task_state import ENDS
 from skillc_runtime.recording.mcap.contents import CLOSE_S
+from skillc_runtime.recording.states import ENDS
 
 MEDIA_TYPE = "application/octet-stream"
 LOOK_S = 0.05

@@ -15,7 +15,7 @@ from skillc.server.files import send_file
 from skillc.server.outcome import UNAVAILABLE, raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.simulation_jobs import MAX_WAITING
-from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording.states import ENDS
 
 SANDBOX = "sandbox; default-src 'none'; img-src data:; style-src 'unsafe-inline'; media-src data:"
 """What a browser lets a page of a report do: show itself."""

@@ -14,7 +14,7 @@ from skillc.contract.signals import SignalPage, SignalRows
 from skillc.server.asking import ask_about_run
 from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.routes.recordings import wait_until_complete
-from skillc_runtime.execution.task_state import ENDS
+from skillc_runtime.recording.states import ENDS
 
 READ_S = 20.0
 """How long reading a run may take, in s."""

@@ -9,7 +9,8 @@ import msgspec
 
 from skillc.contract.trials import SeriesState, TrialSeries, TrialsRequest
 from skillc.services.assignments import write_call
-from skillc_runtime.evaluation.trials.series import Series, judge_series
+from skillc_runtime.evaluation.trials.judging import judge_series
+from skillc_runtime.evaluation.trials.series import Series
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 

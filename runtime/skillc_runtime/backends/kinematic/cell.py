@@ -18,7 +18,7 @@ from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import AT, DEVICE_STATE
 

@@ -48,7 +48,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.frames import relocation_changes, size
 from skillc_runtime.world.state.changes import Change, SetProperty
-from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE
 

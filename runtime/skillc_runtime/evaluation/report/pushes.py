@@ -15,7 +15,8 @@ from skillc_runtime.evaluation.report.work_result import ForceSource, PushResult
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledVector, Quantity, label
+from skillc_runtime.world.state.labelled import LabelledIri, LabelledVector, Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, BUTTON, END_EFFECTOR, FIXTURE, LOCATION, ROBOT, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
 

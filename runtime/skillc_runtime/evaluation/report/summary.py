@@ -22,7 +22,8 @@ from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.states import EndState
-from skillc_runtime.world.state.labelled import LabelledIri, label
+from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_ARM
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -16,7 +16,8 @@ from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import least_force_n, surface_layout
-from skillc_runtime.world.state.labelled import Quantity, label
+from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 from skillc_runtime.world.state.world_state import WorldState
 

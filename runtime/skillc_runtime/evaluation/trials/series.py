@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from statistics import fmean, quantiles
-from typing import Any, Literal
+from typing import Literal
 
 import msgspec
 
-from skillc_runtime.evaluation.trials.confidence import Interval, compute_mean_interval, compute_proportion_interval
-from skillc_runtime.evaluation.trials.targets import Metric, list_trial_values
+from skillc_runtime.evaluation.trials.confidence import Interval
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
-from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 
 
 class Spread(msgspec.Struct, frozen=True, kw_only=True):
@@ -75,64 +71,3 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     def is_good(self) -> bool:
         """Whether all requested trials passed and all medians meet their targets."""
         return self.passed == self.wanted and not any(spread.median_missed for spread in self.spreads)
-
-
-def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Trial]) -> Series:
-    """Judge the trials of a task, of which `wanted` were requested."""
-    ordered = tuple(sorted(trials, key=lambda trial: trial.seed))
-    judged = [(trial, find_unmet_criteria(trial, disturbance)) for trial in ordered]
-    failed = tuple(FailedSeed(seed=t.seed, reasons=why, variation=t.variation) for t, why in judged if why)
-    passed = len(ordered) - len(failed)
-    return Series(
-        task=task,
-        disturbance=disturbance,
-        wanted=wanted,
-        done=len(ordered),
-        passed=passed,
-        pass_interval=compute_proportion_interval(passed, len(ordered)) if ordered else None,
-        spreads=compute_spreads(ordered, judged_by_targets=disturbance == "none"),
-        failed=failed,
-        trials=ordered,
-        unverified=sum(trial.verified is False for trial in ordered),
-        assumed=tuple(dict.fromkeys(fact for trial in ordered for fact in trial.assumed)),
-        false_successes=sum(trial.is_false_success for trial in ordered),
-    )
-
-
-def compute_spreads(trials: Sequence[Trial], judged_by_targets: bool = True) -> tuple[Spread, ...]:
-    """Return the spread of each metric of each object over the trials, ordered by object and metric."""
-    found: dict[tuple[str, str], tuple[Metric[Any], list[tuple[int, float]]]] = {}
-    for seed, each in ((trial.seed, value) for trial in trials for value in list_trial_values(trial)):
-        found.setdefault((each.subject, each.metric.name), (each.metric, []))[1].append((seed, each.value))
-    by_subject = sorted(found.items(), key=lambda item: item[0][0])
-    return tuple(
-        _compute_spread(metric, subject, measured, judged_by_targets) for (subject, _), (metric, measured) in by_subject
-    )
-
-
-def _compute_spread(
-    metric: Metric[Any], subject: str, measured: list[tuple[int, float]], judged_by_targets: bool
-) -> Spread:
-    seeds, values = [seed for seed, _ in measured], [value for _, value in measured]
-    low, middle, high = quantiles(values, n=4, method="inclusive") if len(values) > 1 else values * 3
-    target = metric.median_target
-    missed = target is not None and middle > target and judged_by_targets
-    return Spread(
-        metric=metric.name,
-        subject=subject,
-        unit=metric.unit,
-        target=metric.target_text,
-        bound=metric.target,
-        least=min(values),
-        median=middle,
-        greatest=max(values),
-        low_quartile=low,
-        high_quartile=high,
-        mean=fmean(values),
-        mean_interval=compute_mean_interval(values),
-        met=sum(map(metric.is_met, values)),
-        values=tuple(values),
-        seeds=tuple(seeds),
-        sense=metric.sense,
-        median_missed=f"median {middle:.3g} {metric.unit}, wanted at most {target:g}" if missed else None,
-    )

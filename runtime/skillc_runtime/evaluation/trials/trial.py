@@ -9,6 +9,9 @@ import msgspec
 from skillc_runtime.evaluation.measures.work import Work
 from skillc_runtime.recording.states import EndState
 
+TRIAL_LIMIT_S = 3600.0
+"""How long one trial may take, in s of wall-clock time."""
+
 Status: TypeAlias = EndState | Literal["refused", "crashed"]
 """How a task ended; `refused` if it did not start, `crashed` if its process ended without a result."""
 

@@ -7,14 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Protocol, TypeAlias
 
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.evaluation.trials.trial import Trial
+from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Trial
 from skillc_runtime.execution.worker_process import Died, Returned, WorkerProcess, WorkerResult, wait_for_any
 
 PREPARATION_LIMIT_S = 600.0
 """How long the preparation in a process may take: imports, loading the scene, planning."""
-
-TRIAL_LIMIT_S = 3600.0
-"""How long one trial may take, in s of wall-clock time."""
 
 MAX_FAILED_STARTS = 3
 """How many preparations may fail in a row."""

@@ -9,7 +9,8 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import LeftOut, Optimal, Plan, Solved, Step
 from skillc_runtime.recording.events import ArrivedPlan, PartLeftOut, PlanStep, StepGroup
-from skillc_runtime.world.state.labelled import LabelledIri, label
+from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labelling import label
 
 
 def record_steps(plan: Plan, library: SkillLibrary) -> tuple[PlanStep, ...]:

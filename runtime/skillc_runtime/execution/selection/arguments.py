@@ -8,8 +8,8 @@ from skillc_model.format_type import format_type
 from skillc_model.rounding import is_above
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import THING, ClassType, DirectionType, ValueType, Vocabulary, local_name
-from skillc_runtime.world.state.labelled import label_value
 from skillc_runtime.world.state.labelled_text import format_value
+from skillc_runtime.world.state.labelling import label_value
 from skillc_runtime.world.state.value_types import is_of_type
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.vectors import is_vector

@@ -17,7 +17,8 @@ from skillc_runtime.recording.events import Highlight, ImplementationChosen, Wor
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.recording.reasons import FailedCallContext, UntriedImplementation
 from skillc_runtime.world.eval.deciding_facts import deciding_facts
-from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue, label_bindings, label_change
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
+from skillc_runtime.world.state.labelling import label_bindings, label_change
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.transactions import ChangeEvent
 from skillc_runtime.world.state.values import Value

@@ -12,8 +12,8 @@ from skillc_model.traversal import conjuncts
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
 from skillc_runtime.world.state.facts import RelationFact
-from skillc_runtime.world.state.labelled import label_fact
 from skillc_runtime.world.state.labelled_text import format_fact
+from skillc_runtime.world.state.labelling import label_fact
 from skillc_runtime.world.state.model import WorldModel
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, TypeAlias, assert_never
+from typing import TypeAlias, assert_never
 
 from skillc_runtime.world.state.changes import (
     AddIndividual,
@@ -21,18 +21,11 @@ from skillc_runtime.world.state.changes import (
     SetProperty,
 )
 from skillc_runtime.world.state.difference import changes_back
-from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
+from skillc_runtime.world.state.facts import ClassFact, Evidence, Fact, PropertyFact, RelationFact
 from skillc_runtime.world.state.properties import value_at
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import are_equal
 from skillc_runtime.world.state.world_state import WorldState
-
-Evidence: TypeAlias = Literal["sensed", "reported", "idealised", "assumed"]
-"""`sensed`: measured; `reported`: a device reports it about itself; `assumed`: neither.
-
-`idealised`: measured or reported by a device, or in a cell, that idealises what was measured: a camera that reads the
-simulator's map of a surface, contact in a cell without physics.
-"""
 
 EvidenceRule: TypeAlias = Callable[[Sequence[Change], Evidence], Evidence]
 """Returns the evidence that counts for changes and the evidence that their writer states."""

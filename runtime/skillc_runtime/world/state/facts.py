@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,3 +37,11 @@ Fact: TypeAlias = RelationFact | PropertyFact | ClassFact
 
 IriTriple: TypeAlias = tuple[str, str, str]
 """An asserted relation or class: subject, predicate and object, all IRIs."""
+
+
+Evidence: TypeAlias = Literal["sensed", "reported", "idealised", "assumed"]
+"""`sensed`: measured; `reported`: a device reports it about itself; `assumed`: neither.
+
+`idealised`: measured or reported by a device, or in a cell, that idealises what was measured: a camera that reads the
+simulator's map of a surface, contact in a cell without physics.
+"""

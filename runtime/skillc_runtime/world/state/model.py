@@ -17,8 +17,8 @@ from skillc_runtime.world.state.changes import (
     SetProperty,
 )
 from skillc_runtime.world.state.difference import changes_back
-from skillc_runtime.world.state.evidence import DecidingWrite, Evidence, EvidenceLedger, EvidenceRule
-from skillc_runtime.world.state.facts import Fact
+from skillc_runtime.world.state.evidence import DecidingWrite, EvidenceLedger, EvidenceRule
+from skillc_runtime.world.state.facts import Evidence, Fact
 from skillc_runtime.world.state.open_transaction import OpenTransaction
 from skillc_runtime.world.state.transactions import ChangeEvent, Listener, NullStore, StoreError, TransactionLog
 from skillc_runtime.world.state.world_state import WorldState

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
 from skillc_runtime.world.state.changes import Change
-from skillc_runtime.world.state.evidence import Evidence
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.world_state import WorldState
 
 

@@ -1,0 +1,3 @@
+"""Endpoints as data."""
+
+PREFIX = "/api/v1"
