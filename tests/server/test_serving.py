@@ -21,10 +21,11 @@ from websockets.exceptions import ConnectionClosed
 from server.running import RunningServer, find_cell_process, serving, wait_until
 from skillc.cli.main import skillc
 from skillc.contract.access import ROLES
+from skillc.contract.endpoint import PREFIX
+from skillc.contract.endpoints import ENDPOINTS
 from skillc.server.access.roles import includes
 from skillc.server.app import Application
 from skillc.server.context import ServerContext
-from skillc.server.endpoints import ENDPOINTS, PREFIX
 from skillc.server.openapi import make_openapi
 
 

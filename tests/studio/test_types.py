@@ -9,7 +9,8 @@ import msgspec
 import pytest
 
 from docs.pages import ROOT
-from skillc.server.endpoints import ENDPOINTS, PREFIX
+from skillc.contract.endpoint import PREFIX
+from skillc.contract.endpoints import ENDPOINTS
 from skillc.server.openapi import make_openapi
 
 STUDIO = ROOT / "studio"

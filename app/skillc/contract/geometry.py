@@ -101,3 +101,7 @@ class SurfaceCoverage(msgspec.Struct, frozen=True):
     rows: int
     unit_s: float
     dose: bytes
+
+
+Poses: TypeAlias = dict[str, PoseNumbers]
+Coverage: TypeAlias = dict[str, SurfaceCoverage]

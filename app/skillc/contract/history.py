@@ -29,7 +29,7 @@ class EventPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     limit: Limit = 1000
 
 
-class Hello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class EventsHello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The first message of a client, as JSON: its token, and the operation whose events it wants, after a number.
 
     Without an operation it gets how cells and operations are. A page has the cookie of a session instead of a token.

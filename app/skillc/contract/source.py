@@ -36,3 +36,13 @@ class SourceChange(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     text: Annotated[str, msgspec.Meta(max_length=MAX_BODY_BYTES)]
     base_hash: Annotated[str, msgspec.Meta(pattern="^[0-9a-f]{64}$")]
+
+
+class LanguageHello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The first message of a client, as JSON: its token, and the library whose texts it edits.
+
+    A page has the cookie of a session instead of a token.
+    """
+
+    library: Annotated[str, msgspec.Meta(max_length=200)]
+    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None

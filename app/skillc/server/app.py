@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Awaitable, Callable
 from functools import partial
 from http import HTTPStatus
+from types import NoneType
+from typing import Any
 
 import msgspec
 from starlette.applications import Starlette
@@ -18,19 +20,20 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
+from skillc.contract.endpoint import PREFIX, Endpoint
+from skillc.contract.endpoints import ENDPOINTS, STREAMS, UNAVAILABLE
 from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
+from skillc.server.api_call import ApiCall
 from skillc.server.audit import AuditedRequest
 from skillc.server.authentication import find_cookie, find_known_client, read_session
 from skillc.server.context import ServerContext
-from skillc.server.endpoint import ApiCall, ApiEndpoint
-from skillc.server.endpoints import ENDPOINTS, PREFIX
 from skillc.server.event_stream import stream_events
 from skillc.server.guard import Guard
+from skillc.server.handlers import find_handlers
 from skillc.server.language.stream import stream_language
 from skillc.server.log import log
 from skillc.server.openapi import make_openapi
-from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import MEDIA_TYPE, ApiRefusal
 from skillc.server.proxy import ProxiedRequests
 from skillc.server.rates import TokenBuckets
@@ -56,10 +59,16 @@ class Application:
         self._requests = TokenBuckets(REQUESTS_PER_S, BURST)
         self._ongoing = Counter[str]()
         document = msgspec.json.encode(make_openapi(ENDPOINTS, PREFIX))
-        by_path: dict[str, dict[str, ApiEndpoint]] = {}
+        self._handlers = find_handlers(ENDPOINTS)
+        by_path: dict[str, dict[str, Endpoint[Any]]] = {}
         for each in ENDPOINTS:
             by_path.setdefault(each.path, {})[each.method] = each
         studio = StudioPage(STUDIO_FILES)
+        streams = {
+            "stream_events": partial(stream_events, server),
+            "stream_samples": partial(stream_samples, server, {}),
+            "stream_language": partial(stream_language, server),
+        }
         routes = [
             Route(PREFIX + path, partial(self._answer, methods), methods=list(methods))
             for path, methods in by_path.items()
@@ -71,15 +80,13 @@ class Application:
             Route(f"{PREFIX}/openapi.json", _constant(document)),
             Route("/", studio.show_page),
             Route("/assets/{path:path}", studio.show_asset),
-            WebSocketRoute(f"{PREFIX}/events", partial(stream_events, server)),
-            WebSocketRoute(f"{PREFIX}/samples", partial(stream_samples, server, {})),
-            WebSocketRoute(f"{PREFIX}/lsp", partial(stream_language, server)),
+            *(WebSocketRoute(PREFIX + each.path, streams[each.name]) for each in STREAMS),
         )
         app = Starlette(routes=self.routes, exception_handlers={HTTPException: _refuse_unknown})
         guarded = Guard(app, hosts)
         self.asgi: ASGIApp = guarded if proxy is None else ProxiedRequests(guarded, proxy)
 
-    async def _answer(self, methods: dict[str, ApiEndpoint], request: Request) -> Response:
+    async def _answer(self, methods: dict[str, Endpoint[Any]], request: Request) -> Response:
         """Answer a request; what changes something, or is refused for who made it, is written to the audit log."""
         endpoint = methods["GET" if request.method == "HEAD" else request.method]
         began, noted = time.monotonic(), AuditedRequest(self._server, request)
@@ -98,13 +105,13 @@ class Application:
         return response
 
     def _report(
-        self, endpoint: ApiEndpoint, client: Client | None, request: Request, status: int, seconds: float
+        self, endpoint: Endpoint[Any], client: Client | None, request: Request, status: int, seconds: float
     ) -> None:
         self._server.metrics.observe(endpoint.method, endpoint.path, status, seconds)
         who = client.name if client else ""
         log("request", method=request.method, path=request.url.path, status=status, who=who, ms=round(seconds * 1e3, 2))
 
-    def _check_allowed(self, endpoint: ApiEndpoint, client: Client) -> None:
+    def _check_allowed(self, endpoint: Endpoint[Any], client: Client) -> None:
         """Raise ApiRefusal (403, 429) if a client may not make a request, or not so many."""
         if not includes(client.role, endpoint.role):
             needed = f"this needs the role `{endpoint.role}`, and `{client.name}` has `{client.role}`"
@@ -117,7 +124,7 @@ class Application:
             raise ApiRefusal(HTTPStatus.TOO_MANY_REQUESTS, f"at most {MAX_ONGOING} requests at the same time")
 
     async def _carry_out(
-        self, endpoint: ApiEndpoint, client: Client, noted: AuditedRequest, request: Request
+        self, endpoint: Endpoint[Any], client: Client, noted: AuditedRequest, request: Request
     ) -> Response:
         self._ongoing[client.name] += not endpoint.unlimited
         try:
@@ -125,7 +132,7 @@ class Application:
         finally:
             self._ongoing[client.name] -= not endpoint.unlimited
 
-    async def _call(self, endpoint: ApiEndpoint, client: Client, noted: AuditedRequest, request: Request) -> Response:
+    async def _call(self, endpoint: Endpoint[Any], client: Client, noted: AuditedRequest, request: Request) -> Response:
         query = read_query(request, endpoint.query)
         content = b"" if endpoint.body is None else await read_body(request, endpoint.needs_body)
         body = None if endpoint.body is None else decode_body(content, endpoint.body)
@@ -136,10 +143,10 @@ class Application:
         leave = partial(wait_until_gone, request)
         session = find_cookie(request), read_session(request)
         call = ApiCall(self._server, client, request.path_params, query, body, content, key, leave, *session)
-        answer = await endpoint.handle(call)
+        answer = await self._handlers[endpoint.name](call)
         if isinstance(answer, Response):
             return answer
-        if endpoint.answer is None:
+        if endpoint.answer is NoneType:
             return Response(status_code=endpoint.status)
         return make_response(endpoint.status, answer, endpoint.media_types[0])
 

@@ -10,7 +10,7 @@ from typing import TypeVar
 from skillc.contract.jobs import Job
 from skillc.contract.messages import TakeSnapshot
 from skillc.contract.run_jobs import RunJob
-from skillc.server.endpoint import ApiCall
+from skillc.server.api_call import ApiCall
 from skillc.server.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs

@@ -12,7 +12,7 @@ import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from skillc.cells.database import DatabaseError
-from skillc.contract.history import Hello
+from skillc.contract.history import EventsHello
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.server.access.tokens import Client
 from skillc.server.audit import AuditedRequest
@@ -40,7 +40,7 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
     await socket.accept()  # wait ends: at once, since the request is there
     try:
         with server.watchers.introducing():
-            hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=Hello)
+            hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=EventsHello)
             stream = ClientSocket(server, socket, make_credential(server, socket, hello.token))
             name = stream.introduce().name
         with server.watchers.watching(name), server.hub.listening() as listener:

@@ -15,7 +15,6 @@ from skillc.cells.tick_intervals import BOUNDS_S
 from skillc.contract.cell import CellState
 from skillc.server.supervisor import CellSupervisor
 
-MEDIA_TYPE = CONTENT_TYPE_LATEST.partition(";")[0]
 CONTENT_TYPE = CONTENT_TYPE_LATEST
 SECONDS = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0)
 

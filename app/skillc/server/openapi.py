@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from http import HTTPStatus
+from types import NoneType
 from typing import Any
 
 import msgspec
 
+from skillc.contract.endpoint import JSON, Endpoint
 from skillc.contract.problem import ProblemDetails
-from skillc.server.endpoint import JSON, ApiEndpoint
 from skillc.server.problems import MEDIA_TYPE
 
 VERSION = "1"
@@ -34,10 +35,12 @@ OPEN = {
 REF = "#/components/schemas/{name}"
 
 
-def make_openapi(endpoints: Iterable[ApiEndpoint], prefix: str) -> dict[str, Any]:
+def make_openapi(endpoints: Iterable[Endpoint[Any]], prefix: str) -> dict[str, Any]:
     """Return the document of endpoints below a prefix."""
     endpoints = tuple(endpoints)
-    types = [each for endpoint in endpoints for each in (endpoint.answer, endpoint.body) if each is not None]
+    types = [
+        each for endpoint in endpoints for each in (endpoint.answer, endpoint.body) if each not in (None, NoneType)
+    ]
     schemas, components = msgspec.json.schema_components([*types, ProblemDetails], ref_template=REF)
     schema_of = {id(kind): schema for kind, schema in zip([*types, ProblemDetails], schemas, strict=True)}
     paths: dict[str, dict[str, Any]] = {}
@@ -55,9 +58,9 @@ def make_openapi(endpoints: Iterable[ApiEndpoint], prefix: str) -> dict[str, Any
     }
 
 
-def _describe(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
+def _describe(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
     described: dict[str, Any] = {
-        "operationId": endpoint.handle.__name__,
+        "operationId": endpoint.name,
         "summary": endpoint.summary,
         "description": f"Needs the role `{endpoint.role}`.",
         "security": [{"token": [endpoint.role]}],
@@ -75,9 +78,9 @@ def _describe_open(operation: str, summary: str) -> dict[str, Any]:
     return {"operationId": operation, "summary": summary, "security": [], "responses": {"200": answer}}
 
 
-def _responses(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
+def _responses(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
     success: dict[str, Any] = {"description": endpoint.status.phrase}
-    if endpoint.answer is not None:
+    if endpoint.answer is not NoneType:
         success["content"] = {JSON: {"schema": schema_of[id(endpoint.answer)]}}
     elif endpoint.media_types != (JSON,):
         success["content"] = {each: {} for each in endpoint.media_types}
@@ -89,12 +92,12 @@ def _responses(endpoint: ApiEndpoint, schema_of: dict[int, dict[str, Any]]) -> d
     return {str(endpoint.status.value): success, **problems}
 
 
-def _path_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
-    names = [part[1:-1] for part in endpoint.path.split("/") if part.startswith("{")]
-    return [{"name": name, "in": "path", "required": True, "schema": {"type": "string"}} for name in names]
+def _path_parameters(endpoint: Endpoint[Any]) -> list[dict[str, Any]]:
+    schema = {"type": "string"}
+    return [{"name": name, "in": "path", "required": True, "schema": schema} for name in endpoint.path_parameters]
 
 
-def _query_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
+def _query_parameters(endpoint: Endpoint[Any]) -> list[dict[str, Any]]:
     _, components = msgspec.json.schema_components([endpoint.query], ref_template=REF)
     schema = components[endpoint.query.__name__]
     properties, required = schema.get("properties", {}), schema.get("required", ())
@@ -103,7 +106,7 @@ def _query_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
     ]
 
 
-def _header_parameters(endpoint: ApiEndpoint) -> list[dict[str, Any]]:
+def _header_parameters(endpoint: Endpoint[Any]) -> list[dict[str, Any]]:
     if not endpoint.takes_key:
         return []
     schema = {"type": "string", "minLength": 1, "maxLength": 200, "pattern": "^[ -~]+$"}

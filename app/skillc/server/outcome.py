@@ -15,12 +15,9 @@ from skillc.contract.messages import Message, Refused
 from skillc.contract.operation import OperationRequest
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.tokens import Client
-from skillc.server.endpoint import ApiCall
+from skillc.server.api_call import ApiCall
 from skillc.server.problems import LEASE_HELD, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
-
-UNAVAILABLE = (HTTPStatus.TOO_MANY_REQUESTS, HTTPStatus.SERVICE_UNAVAILABLE)
-"""The statuses with which a cell that is busy or off refuses everything."""
 
 
 def check_lease(call: ApiCall, cell: CellSupervisor) -> None:

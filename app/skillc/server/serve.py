@@ -13,6 +13,7 @@ from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
 from skillc.contract.cell import CellStatus
+from skillc.contract.endpoint import PREFIX
 from skillc.contract.messages import StatusChanged
 from skillc.contract.values import MAX_BODY_BYTES
 from skillc.errors import ServiceError
@@ -21,7 +22,6 @@ from skillc.server.cells import ServedCells
 from skillc.server.connections import BoundedConnection
 from skillc.server.context import ServerContext
 from skillc.server.ending import EndingServer
-from skillc.server.endpoints import PREFIX
 from skillc.server.hub import EventHub, News
 from skillc.server.listening import Listening
 from skillc.server.log import log

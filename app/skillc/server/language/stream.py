@@ -5,11 +5,12 @@ from __future__ import annotations
 import asyncio
 from http import HTTPStatus
 from importlib.util import find_spec
-from typing import Annotated, Any
+from typing import Any
 
 import msgspec
 from starlette.websockets import WebSocket
 
+from skillc.contract.source import LanguageHello
 from skillc.server.authentication import make_credential
 from skillc.server.context import ServerContext
 from skillc.server.event_stream import BROKEN, HELLO_S, SILENCE_S, ClientSocket
@@ -22,16 +23,6 @@ INVALID_PARAMS, METHOD_NOT_FOUND = -32602, -32601
 OTHER_METHODS = frozenset(
     {"initialized", "shutdown", "exit", "$/cancelRequest", "workspace/symbol", "workspace/didChangeWatchedFiles"}
 )
-
-
-class LanguageHello(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The first message of a client, as JSON: its token, and the library whose texts it edits.
-
-    A page has the cookie of a session instead of a token.
-    """
-
-    library: Annotated[str, msgspec.Meta(max_length=200)]
-    token: Annotated[str, msgspec.Meta(max_length=200)] | None = None
 
 
 async def stream_language(server: ServerContext, socket: WebSocket) -> None:

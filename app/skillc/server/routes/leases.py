@@ -7,7 +7,7 @@ from http import HTTPStatus
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes
-from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.api_call import ApiCall
 from skillc.server.problems import LEASE_HELD, ApiRefusal
 
 
@@ -34,29 +34,3 @@ async def release_lease(call: ApiCall) -> None:
 
 def _name(call: ApiCall) -> str:
     return call.server.find_cell(call.path["cell"]).settings.name
-
-
-NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
-PATH = "/cells/{cell}/lease"
-ENDPOINTS = (
-    ApiEndpoint("GET", PATH, "view", "Show who has the lease of a cell", show_lease, Lease, refusals=(NOT_FOUND,)),
-    ApiEndpoint(
-        "PUT",
-        PATH,
-        "operate",
-        "Take the lease of a cell, or prolong it",
-        take_lease,
-        Lease,
-        body=LeaseRequest,
-        refusals=(NOT_FOUND, CONFLICT),
-    ),
-    ApiEndpoint(
-        "DELETE",
-        PATH,
-        "operate",
-        "Give the lease of a cell back",
-        release_lease,
-        status=HTTPStatus.NO_CONTENT,
-        refusals=(NOT_FOUND, CONFLICT),
-    ),
-)

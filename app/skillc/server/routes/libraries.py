@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from http import HTTPStatus
 from importlib.metadata import version
 
 from skillc.contract.device import Device, DeviceStatus
 from skillc.contract.jobs import DescribeLibrary, ListDevices
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.version import VersionInfo
+from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.openapi import VERSION
-from skillc.server.outcome import UNAVAILABLE
 from skillc.server.routes.world import QUERY_S
 
 
@@ -47,35 +45,3 @@ async def list_robots(call: ApiCall) -> tuple[DeviceStatus, ...]:
 def _find_holder(device: str, held: dict[str, tuple[str, ...] | None]) -> str | None:
     """Return the operation that holds a device, by itself or with the whole cell."""
     return next((each for each, devices in held.items() if devices is None or device in devices), None)
-
-
-REFUSALS = (HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE)
-ENDPOINTS = (
-    ApiEndpoint("GET", "/version", "view", "Show the versions of skillc and of the API", show_version, VersionInfo),
-    ApiEndpoint(
-        "GET",
-        "/libraries",
-        "view",
-        "List the libraries, and why the one on disk is not used",
-        list_libraries,
-        tuple[LibraryStatus, ...],
-    ),
-    ApiEndpoint(
-        "GET",
-        "/cells/{cell}/library",
-        "view",
-        "Describe the library of a cell",
-        show_library,
-        LibraryDescription,
-        refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "GET",
-        "/cells/{cell}/robots",
-        "view",
-        "List the devices of a cell, and which operation holds each",
-        list_robots,
-        tuple[DeviceStatus, ...],
-        refusals=REFUSALS,
-    ),
-)

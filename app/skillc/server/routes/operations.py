@@ -11,14 +11,13 @@ from msgspec import structs
 
 from skillc.cells.journal.reading import LATEST_NS
 from skillc.contract.commands import OperatorCommand
-from skillc.contract.history import EventPage, HistoryPage
+from skillc.contract.history import HistoryPage
 from skillc.contract.messages import Give, Refused, Submit
-from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.contract.stopping import StopReason
+from skillc.contract.operation import OperationStatus
+from skillc.server.api_call import ApiCall
 from skillc.server.context import open_journal
-from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
-from skillc.server.outcome import UNAVAILABLE, check_lease, command_cell, raise_refused, sign_request
+from skillc.server.outcome import check_lease, command_cell, raise_refused, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.recording import commands
@@ -111,71 +110,3 @@ def _find_running(call: ApiCall) -> tuple[CellSupervisor, OperationStatus]:
 def _sign(command: OperatorCommand, who: str) -> commands.Command:
     """Return a command with who has given it."""
     return structs.replace(command, who=who)
-
-
-NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
-ENDPOINTS = (
-    ApiEndpoint(
-        "GET",
-        "/cells/{cell}/operations",
-        "view",
-        "List the operations of a cell, the last one first",
-        list_operations,
-        tuple[OperationStatus, ...],
-        query=HistoryPage,
-        refusals=(NOT_FOUND,),
-    ),
-    ApiEndpoint(
-        "POST",
-        "/cells/{cell}/operations",
-        "operate",
-        "Submit an operation",
-        submit_operation,
-        OperationStatus,
-        body=OperationRequest,
-        status=HTTPStatus.CREATED,
-        refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
-        takes_key=True,
-    ),
-    ApiEndpoint(
-        "GET",
-        "/operations/{operation}",
-        "view",
-        "Show an operation",
-        show_operation,
-        OperationStatus,
-        refusals=(NOT_FOUND,),
-    ),
-    ApiEndpoint(
-        "POST",
-        "/operations/{operation}/commands",
-        "operate",
-        "Give a command to an operation",
-        give_command,
-        OperationStatus,
-        body=OperatorCommand,
-        refusals=(NOT_FOUND, CONFLICT, *UNAVAILABLE),
-    ),
-    ApiEndpoint(
-        "POST",
-        "/operations/{operation}/stop",
-        "view",
-        "Stop an operation; nothing happens if it has ended",
-        stop_operation,
-        OperationStatus,
-        body=StopReason,
-        needs_body=False,
-        refusals=(NOT_FOUND,),
-        unlimited=True,
-    ),
-    ApiEndpoint(
-        "GET",
-        "/operations/{operation}/events",
-        "view",
-        "Read the events of an operation",
-        list_events,
-        tuple[Envelope, ...],
-        query=EventPage,
-        refusals=(NOT_FOUND,),
-    ),
-)

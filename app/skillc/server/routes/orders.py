@@ -10,12 +10,12 @@ from msgspec import structs
 from skillc.cells.database import transaction
 from skillc.contract.jobs import CheckOperation
 from skillc.contract.order import Order, OrderRequest
+from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.idempotency import KeyReused
 from skillc.server.orders.due import LATE_S
 from skillc.server.orders.store import TooManyOrders
-from skillc.server.outcome import UNAVAILABLE, sign_request
+from skillc.server.outcome import sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.routes.world import QUERY_S
 from skillc_runtime.recording.envelope import make_run_id
@@ -80,21 +80,3 @@ def _check(wanted: OrderRequest, now: datetime) -> None:
 
 def _refuse(detail: str) -> ApiRefusal:
     return ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, detail)
-
-
-NOT_FOUND = (HTTPStatus.NOT_FOUND,)
-REFUSALS = (*NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE)
-ENDPOINTS = (
-    ApiEndpoint(
-        "POST", "/cells/{cell}/orders", "operate", "Order an operation at a time, or again and again", add_order,
-        Order, body=OrderRequest, status=HTTPStatus.CREATED, refusals=REFUSALS, takes_key=True,
-    ),
-    ApiEndpoint(
-        "GET", "/cells/{cell}/orders", "view", "List the orders for a cell", list_orders, tuple[Order, ...],
-        refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "DELETE", "/orders/{order}", "operate", "Remove an order; what it has submitted goes on", remove_order,
-        status=HTTPStatus.NO_CONTENT, refusals=NOT_FOUND,
-    ),
-)  # fmt: skip

@@ -6,9 +6,8 @@ from http import HTTPStatus
 
 from skillc.contract.jobs import Measure, PreviewPlan
 from skillc.contract.plan import PlanPreview, PlanRequest
+from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.endpoint import ApiCall, ApiEndpoint
-from skillc.server.outcome import UNAVAILABLE
 from skillc.server.problems import ApiRefusal
 
 GRACE_S = 10.0
@@ -22,17 +21,3 @@ async def preview_plan(call: ApiCall) -> PlanPreview:
     measure: Measure = "makespan" if wanted.minimise == "makespan" else "proven work" if wanted.prove else "work"
     job = PreviewPlan(wanted.task, wanted.goal, wanted.arguments, measure, wanted.deadline_s)
     return await ask_about(call, job, PlanPreview, wanted.deadline_s + GRACE_S)
-
-
-ENDPOINTS = (
-    ApiEndpoint(
-        "POST",
-        "/cells/{cell}/plans",
-        "view",
-        "Plan for a task or a goal as the world is now; nothing is done",
-        preview_plan,
-        PlanPreview,
-        body=PlanRequest,
-        refusals=(HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE),
-    ),
-)

@@ -11,14 +11,14 @@ from pathlib import Path
 from starlette.responses import Response
 
 from skillc.cells.recording_files import recording_file
-from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.contract.endpoints import BINARY
+from skillc.server.api_call import ApiCall
 from skillc.server.files import send_file
 from skillc.server.problems import ApiRefusal
 from skillc.services.recordings import MCAP_MAGIC
 from skillc_runtime.recording.mcap.contents import CLOSE_S
 from skillc_runtime.recording.states import ENDS
 
-MEDIA_TYPE = "application/octet-stream"
 LOOK_S = 0.05
 """How long apart it is looked whether a recording is complete, in s."""
 
@@ -30,7 +30,7 @@ async def read_recording(call: ApiCall) -> Response:
         await wait_until_complete(path)
     if not path.exists():
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of {operation.id}")
-    return send_file(path, MEDIA_TYPE, f"{operation.id}.mcap")
+    return send_file(path, BINARY, f"{operation.id}.mcap")
 
 
 async def wait_until_complete(path: Path) -> None:
@@ -50,16 +50,3 @@ def _is_being_completed(path: Path) -> bool:
             return file.read() != MCAP_MAGIC and time.time() - status.st_mtime < CLOSE_S
     except OSError:
         return False
-
-
-ENDPOINTS = (
-    ApiEndpoint(
-        "GET",
-        "/operations/{operation}/recording",
-        "view",
-        "Read the recording of an operation, an MCAP file, as far as it is written",
-        read_recording,
-        refusals=(HTTPStatus.NOT_FOUND,),
-        media_types=(MEDIA_TYPE,),
-    ),
-)

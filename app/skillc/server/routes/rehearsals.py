@@ -6,18 +6,17 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
+from skillc.contract.endpoints import BINARY, VIDEO
 from skillc.contract.jobs import CheckOperation
 from skillc.contract.messages import TakeSnapshot
 from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
+from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
-from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.routes.world import QUERY_S
 from skillc.server.simulation_jobs import MAX_WAITING
-
-MCAP, VIDEO = "application/octet-stream", "video/mp4"
 
 
 async def rehearse(call: ApiCall) -> Rehearsal:
@@ -60,34 +59,4 @@ async def read_rehearsal_recording(call: ApiCall) -> Response:
     recording = call.server.rehearsals.find_recording(found.id)
     if recording is None:
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of {found.id}")
-    return send_file(recording, MCAP, f"{found.id}.mcap")
-
-
-NOT_FOUND = (HTTPStatus.NOT_FOUND,)
-PATH = "/rehearsals/{rehearsal}"
-ENDPOINTS = (
-    ApiEndpoint(
-        "POST", "/cells/{cell}/rehearsals", "operate", "Try an operation in a simulated twin of a cell", rehearse,
-        Rehearsal, body=RehearsalRequest, status=HTTPStatus.CREATED, refusals=(*NOT_FOUND, *UNAVAILABLE),
-    ),
-    ApiEndpoint(
-        "GET", "/cells/{cell}/rehearsals", "view", "List the rehearsals for a cell", list_rehearsals,
-        tuple[Rehearsal, ...], refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "GET", PATH, "view", "Show a rehearsal, with its result once it has ended", show_rehearsal, Rehearsal,
-        refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "DELETE", PATH, "operate", "End and forget a rehearsal", remove_rehearsal, status=HTTPStatus.NO_CONTENT,
-        refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/film", "view", "Read the film of a rehearsal", read_film, refusals=NOT_FOUND,
-        media_types=(VIDEO,),
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/recording", "view", "Read the recording of a rehearsal, an MCAP file", read_rehearsal_recording,
-        refusals=NOT_FOUND, media_types=(MCAP,),
-    ),
-)  # fmt: skip
+    return send_file(recording, BINARY, f"{found.id}.mcap")

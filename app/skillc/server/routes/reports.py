@@ -9,10 +9,10 @@ from starlette.responses import Response
 
 from skillc.cells.recording_files import recording_file
 from skillc.contract.messages import TakeSnapshot
-from skillc.contract.report import REPORT_TYPES, OperationReport, ReportRequest
-from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.contract.report import REPORT_TYPES, OperationReport
+from skillc.server.api_call import ApiCall
 from skillc.server.files import send_file
-from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.simulation_jobs import MAX_WAITING
 from skillc_runtime.recording.states import ENDS
@@ -55,26 +55,3 @@ async def read_report_file(call: ApiCall) -> Response:
 
 async def remove_report(call: ApiCall) -> None:
     call.server.reports.remove((await show_report(call)).operation)
-
-
-NOT_FOUND = (HTTPStatus.NOT_FOUND,)
-PATH = "/operations/{operation}/report"
-ENDPOINTS = (
-    ApiEndpoint(
-        "POST", PATH, "operate", "Make the report of an operation that has ended, by running it again in simulation",
-        make_report, OperationReport, status=HTTPStatus.ACCEPTED,
-        refusals=(*NOT_FOUND, HTTPStatus.CONFLICT, *UNAVAILABLE), body=ReportRequest, needs_body=False,
-    ),
-    ApiEndpoint(
-        "GET", PATH, "view", "Show the report of an operation, with its result and the names of its files", show_report,
-        OperationReport, refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/{{file}}", "view", "Read a file of a report: the report itself, the film, a picture",
-        read_report_file, refusals=NOT_FOUND, media_types=tuple(REPORT_TYPES.values()),
-    ),
-    ApiEndpoint(
-        "DELETE", PATH, "operate", "End and forget a report", remove_report, status=HTTPStatus.NO_CONTENT,
-        refusals=NOT_FOUND,
-    ),
-)  # fmt: skip

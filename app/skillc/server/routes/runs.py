@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from http import HTTPStatus
 from pathlib import Path
 
 from skillc.cells.recording_files import recording_file
-from skillc.contract.explanation import Question, RunExplanation
-from skillc.contract.run_diff import OtherRun, RunDiff
+from skillc.contract.explanation import RunExplanation
+from skillc.contract.run_diff import RunDiff
 from skillc.contract.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, ShowTree
 from skillc.contract.run_tree import OperationTree
 from skillc.contract.signals import SignalPage, SignalRows
+from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about_run
-from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.routes.recordings import wait_until_complete
 from skillc_runtime.recording.states import ENDS
 
@@ -56,25 +55,3 @@ def _find_files(call: ApiCall, name: str) -> RunFiles:
     cell, operation = call.server.find_operation(name)
     recording = recording_file(Path(cell.settings.folder), operation.id)
     return RunFiles(operation.id, str(cell.settings.journal), str(recording))
-
-
-REFUSALS = (HTTPStatus.NOT_FOUND, HTTPStatus.REQUEST_TIMEOUT, HTTPStatus.UNPROCESSABLE_ENTITY)
-PATH = "/operations/{operation}"
-ENDPOINTS = (
-    ApiEndpoint(
-        "GET", f"{PATH}/tree", "view", "Show the tree of an operation, with the numbers that events have",
-        show_tree, OperationTree, refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/why", "view", "Explain what an operation has chosen, how it ended, and why",
-        explain_run, RunExplanation, query=Question, refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/signals", "view", "Read recorded signals of an operation, at most 5000 rows at once",
-        read_signals, SignalRows, query=SignalPage, refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/diff", "view", "Compare an operation with another one", compare_runs, RunDiff, query=OtherRun,
-        refusals=REFUSALS,
-    ),
-)  # fmt: skip

@@ -7,7 +7,7 @@ from http import HTTPStatus
 from starlette.responses import Response
 
 from skillc.contract.access import LoginCode, SessionInfo
-from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.api_call import ApiCall
 
 
 async def make_login_code(call: ApiCall) -> LoginCode:
@@ -31,19 +31,3 @@ async def log_out(call: ApiCall) -> Response:
     response = Response(status_code=HTTPStatus.NO_CONTENT)
     call.cookie.remove(response)
     return response
-
-
-ENDPOINTS = (
-    ApiEndpoint(
-        "POST", "/login-codes", "view", "Make a code that stands for the client's token, once, for 60 s",
-        make_login_code, LoginCode, status=HTTPStatus.CREATED,
-    ),
-    ApiEndpoint("GET", "/session", "view", "Show who makes the request, and its role", show_session, SessionInfo),
-    ApiEndpoint(
-        "POST", "/session", "view", "Begin a session: the cookie of the answer stands for the token or code for 12 h",
-        log_in, status=HTTPStatus.NO_CONTENT,
-    ),
-    ApiEndpoint(
-        "DELETE", "/session", "view", "End the session of the cookie", log_out, status=HTTPStatus.NO_CONTENT
-    ),
-)  # fmt: skip

@@ -5,9 +5,9 @@ from __future__ import annotations
 import asyncio
 from http import HTTPStatus
 
-from skillc.contract.source import SourceChange, SourceInfo, SourcePath, SourceText
+from skillc.contract.source import SourceInfo, SourceText
 from skillc.errors import ServiceError
-from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.api_call import ApiCall
 from skillc.server.library_sources import NotEditable, SourceChanged, list_sources, read_source, write_source
 from skillc.server.problems import ApiRefusal
 
@@ -40,22 +40,3 @@ async def change_library_source(call: ApiCall) -> SourceText:
         raise ApiRefusal(HTTPStatus.NOT_FOUND, str(error)) from error
     library.touched = True
     return written
-
-
-NOT_FOUND = HTTPStatus.NOT_FOUND
-PATH = "/libraries/{library}/files"
-ENDPOINTS = (
-    ApiEndpoint(
-        "GET", PATH, "view", "List the texts of a library, and those that it may import", list_library_sources,
-        tuple[SourceInfo, ...], refusals=(NOT_FOUND,),
-    ),
-    ApiEndpoint(
-        "GET", "/libraries/{library}/file", "view", "Read a text of a library", read_library_source, SourceText,
-        query=SourcePath, refusals=(NOT_FOUND,),
-    ),
-    ApiEndpoint(
-        "PUT", "/libraries/{library}/file", "edit", "Change a text of a library, unless somebody else has meanwhile",
-        change_library_source, SourceText, body=SourceChange, query=SourcePath,
-        refusals=(NOT_FOUND, HTTPStatus.CONFLICT, HTTPStatus.PRECONDITION_FAILED),
-    ),
-)  # fmt: skip

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-from skillc.contract.access import MadeToken, NewToken, TokenInfo
+from skillc.contract.access import MadeToken, TokenInfo
 from skillc.server.access.tokens import TokenExists
-from skillc.server.endpoint import ApiCall, ApiEndpoint
+from skillc.server.api_call import ApiCall
 from skillc.server.problems import ApiRefusal
 
 
@@ -31,28 +31,3 @@ async def revoke_token(call: ApiCall) -> None:
         raise ApiRefusal(HTTPStatus.CONFLICT, "a token cannot revoke itself; use another one")
     if not call.server.state.tokens.revoke(call.path["name"]):
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no token `{call.path['name']}`")
-
-
-ENDPOINTS = (
-    ApiEndpoint("GET", "/tokens", "admin", "List the tokens", list_tokens, tuple[TokenInfo, ...]),
-    ApiEndpoint(
-        "POST",
-        "/tokens",
-        "admin",
-        "Make a token",
-        add_token,
-        MadeToken,
-        body=NewToken,
-        status=HTTPStatus.CREATED,
-        refusals=(HTTPStatus.CONFLICT,),
-    ),
-    ApiEndpoint(
-        "DELETE",
-        "/tokens/{name}",
-        "admin",
-        "Revoke a token",
-        revoke_token,
-        status=HTTPStatus.NO_CONTENT,
-        refusals=(HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT),
-    ),
-)

@@ -6,19 +6,19 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
+from skillc.contract.endpoints import BINARY
 from skillc.contract.jobs import CheckTrials
 from skillc.contract.messages import TakeSnapshot
 from skillc.contract.trials import TrialReplay, TrialSeries, TrialsRequest
+from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.endpoint import ApiCall, ApiEndpoint
 from skillc.server.files import send_file
-from skillc.server.outcome import UNAVAILABLE, raise_refused
+from skillc.server.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.simulation_jobs import MAX_WAITING
 from skillc.server.trials.running import MAX_UNFINISHED
 from skillc_runtime.evaluation.trials.series import Series
 
-MCAP = "application/octet-stream"
 MAX_DIGITS = 12
 CHECK_S = 20.0
 """How long checking a request may take, in s."""
@@ -75,7 +75,7 @@ async def read_replay(call: ApiCall) -> Response:
     recording = call.server.trial_replays.find_recording(found.series, found.seed)
     if recording is None:
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no recording of trial {found.seed} of {found.series}")
-    return send_file(recording, MCAP, f"{found.series}-{found.seed}.mcap")
+    return send_file(recording, BINARY, f"{found.series}-{found.seed}.mcap")
 
 
 async def _find_trial(call: ApiCall) -> tuple[TrialSeries, int]:
@@ -86,41 +86,3 @@ async def _find_trial(call: ApiCall) -> tuple[TrialSeries, int]:
     if wanted is None or wanted not in range(series.request.seed, series.request.seed + series.request.number):
         raise ApiRefusal(HTTPStatus.NOT_FOUND, f"{series.id} has no trial with the seed {seed[:MAX_DIGITS]}")
     return series, wanted
-
-
-NOT_FOUND = (HTTPStatus.NOT_FOUND,)
-PATH = "/trials/{series}"
-REPLAY = f"{PATH}/replays/{{seed}}"
-ENDPOINTS = (
-    ApiEndpoint(
-        "POST", "/cells/{cell}/trials", "operate", "Run a task many times in simulation, from the scene of a cell",
-        run_trials, TrialSeries, body=TrialsRequest, status=HTTPStatus.ACCEPTED, refusals=(*NOT_FOUND, *UNAVAILABLE),
-    ),
-    ApiEndpoint(
-        "GET", "/cells/{cell}/trials", "view", "List the series of trials for a cell", list_trials,
-        tuple[TrialSeries, ...], refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "GET", PATH, "view", "Show how far a series of trials is", show_trials, TrialSeries, refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/result", "view", "Judge the trials of a series that are done", judge_trials, Series,
-        refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "DELETE", PATH, "operate", "End and forget a series of trials", remove_trials, status=HTTPStatus.NO_CONTENT,
-        refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "POST", REPLAY, "operate", "Run a trial of a series again, and record it", replay_trial, TrialReplay,
-        status=HTTPStatus.CREATED, refusals=(*NOT_FOUND, *UNAVAILABLE),
-    ),
-    ApiEndpoint(
-        "GET", REPLAY, "view", "Show how far a trial is that is run again", show_replay, TrialReplay,
-        refusals=NOT_FOUND,
-    ),
-    ApiEndpoint(
-        "GET", f"{REPLAY}/recording", "view", "Read the recording of a trial that was run again, an MCAP file",
-        read_replay, refusals=NOT_FOUND, media_types=(MCAP,),
-    ),
-)  # fmt: skip

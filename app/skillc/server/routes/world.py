@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from http import HTTPStatus
-
 from skillc.contract.jobs import ListFacts, ListThings, ListWrites, QueryWorld, WriteWorld
 from skillc.contract.messages import Edit, Place
 from skillc.contract.world import (
@@ -15,14 +13,13 @@ from skillc.contract.world import (
     WorldEdit,
     WorldFacts,
     WorldPlacement,
-    WorldQuery,
     WorldText,
     WorldWrite,
     WritePage,
 )
+from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.endpoint import ApiCall, ApiEndpoint
-from skillc.server.outcome import UNAVAILABLE, command_cell
+from skillc.server.outcome import command_cell
 
 QUERY_S = 10.0
 """How long the answer to a query may take."""
@@ -66,38 +63,3 @@ async def list_writes(call: ApiCall) -> tuple[WorldWrite, ...]:
     journal = str(call.server.find_cell(call.path["cell"]).settings.journal)
     job = ListWrites(journal, MAX_NUMBER if page.before is None else page.before, page.limit)
     return await ask_about(call, job, tuple[WorldWrite, ...], QUERY_S)
-
-
-NOT_FOUND, CONFLICT = HTTPStatus.NOT_FOUND, HTTPStatus.CONFLICT
-PATH = "/cells/{cell}/world"
-REFUSALS = (NOT_FOUND, CONFLICT, *UNAVAILABLE)
-ENDPOINTS = (
-    ApiEndpoint(
-        "GET", PATH, "view", "List facts of the world of a cell", list_facts, WorldFacts, query=FactPage,
-        refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/document", "view", "Write the world of a cell as RDF or as a picture", write_world, WorldText,
-        query=DocumentForm, refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "GET", "/cells/{cell}/things", "view", "List what has a place or a size in a cell, as it is believed",
-        list_things, tuple[PlacedThing, ...], refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "POST", f"{PATH}/query", "view", "Answer a SPARQL query about the world of a cell", query_world, QueryRows,
-        body=WorldQuery, refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "POST", f"{PATH}/edits", "edit", "Change the world of a cell in one transaction", edit_world,
-        body=WorldEdit, status=HTTPStatus.NO_CONTENT, refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "POST", f"{PATH}/placements", "edit", "Say where a thing is in the world of a cell; nothing moves", place_thing,
-        body=WorldPlacement, status=HTTPStatus.NO_CONTENT, refusals=REFUSALS,
-    ),
-    ApiEndpoint(
-        "GET", f"{PATH}/history", "view", "List who has written what to the world of a cell, and when", list_writes,
-        tuple[WorldWrite, ...], query=WritePage, refusals=REFUSALS,
-    ),
-)  # fmt: skip
